@@ -1,0 +1,47 @@
+# Compiler settings shared by every target, and one library target a module.
+
+add_library(mms_build_settings INTERFACE)
+target_compile_features(mms_build_settings INTERFACE cxx_std_20)
+target_compile_options(mms_build_settings INTERFACE
+  $<BUILD_INTERFACE:-Wall;-Wextra;-Wconversion;-Wshadow;-Werror>)
+# gcc 12 finds uninitialised members in Eigen's own expressions when it inlines them.
+target_compile_options(mms_build_settings INTERFACE
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>>)
+if(MMS_ARCH STREQUAL "" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(mms_arch "x86-64-v3")
+else()
+  set(mms_arch "${MMS_ARCH}")
+endif()
+if(mms_arch)
+  # Part of the interface: Eigen's alignment follows it, so a user of the library needs the same.
+  target_compile_options(mms_build_settings INTERFACE -march=${mms_arch})
+endif()
+if(MMS_SANITIZE)
+  target_compile_options(mms_build_settings INTERFACE
+    $<BUILD_INTERFACE:-fsanitize=${MMS_SANITIZE};-fno-omit-frame-pointer>)
+  target_link_options(mms_build_settings INTERFACE $<BUILD_INTERFACE:-fsanitize=${MMS_SANITIZE}>)
+endif()
+
+set_property(GLOBAL PROPERTY MMS_MODULES "")
+
+# mms_module(NAME [PUBLIC lib...] [PRIVATE lib...]): the target mms_NAME (alias mms::NAME) of all
+# sources in mms/NAME; a module of headers alone becomes an interface library.
+function(mms_module name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/mms/${name}/*.cpp)
+  if(sources)
+    add_library(mms_${name} STATIC ${sources})
+    set(scope PUBLIC)
+    target_link_libraries(mms_${name} PRIVATE ${ARG_PRIVATE})
+  else()
+    add_library(mms_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(mms::${name} ALIAS mms_${name})
+  target_link_libraries(mms_${name} ${scope} ${ARG_PUBLIC} mms_build_settings)
+  target_include_directories(mms_${name} SYSTEM ${scope}
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(mms_${name} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  set_target_properties(mms_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY MMS_MODULES mms_${name})
+endfunction()

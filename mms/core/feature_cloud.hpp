@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mms/core/calibration.hpp"
+#include "mms/core/image.hpp"
+#include "mms/core/time.hpp"
+
+namespace mms {
+
+/// A point with large local smoothness (eq. 2), in the sensor frame.
+struct EdgeFeature {
+  Eigen::Vector3f point;  ///< [m]
+  float sigma = 0.0F;     ///< 1-sigma measurement noise at its range [m]
+};
+
+/// A point with small local smoothness (eq. 2) and its local surface normal, in the sensor frame.
+struct PlaneFeature {
+  Eigen::Vector3f point;   ///< [m]
+  Eigen::Vector3f normal;  ///< unit, towards the sensor
+  float sigma = 0.0F;      ///< 1-sigma measurement noise along the ray at its range [m]
+};
+
+/// One level of the intensity pyramid. Depth is 0 where there is no return or the pixel is dynamic.
+struct IntensityLevel {
+  CameraIntrinsics camera;
+  Image<float> intensity;  ///< luminance in [0, 255]
+  Image<float> depth;      ///< z of the static point at the pixel [m]
+};
+
+/// What localisation needs of one frame: the features of the static points (III-C.1), and for RGB-D
+/// the static part of the image for the photometric term.
+struct FeatureCloud {
+  Timestamp stamp;
+  std::vector<EdgeFeature> edges;
+  std::vector<PlaneFeature> planes;
+  std::vector<IntensityLevel> intensity;  ///< finest first; empty without an image
+};
+
+}  // namespace mms

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mms/core/frame.hpp"
+#include "mms/core/trajectory.hpp"
+
+namespace mms {
+
+/// A recording that gives its frames one by one. Damaged frames are skipped: `next` goes on to the
+/// next good one, reports what was wrong to the warning handler and counts it.
+class FrameSource {
+ public:
+  /// Receives one line naming the file and the fault.
+  using WarningHandler = std::function<void(const std::string&)>;
+
+  virtual ~FrameSource() = default;
+
+  /// The next readable frame, or nothing at the end of the recording.
+  virtual std::optional<Frame> next() = 0;
+
+  /// Number of frames in the recording, the damaged ones included.
+  virtual std::size_t size() const = 0;
+
+  /// Frames skipped so far because they could not be read.
+  virtual std::size_t skipped() const = 0;
+
+  /// Passes over the next `count` frames without reading them.
+  virtual void skip(std::size_t count) = 0;
+
+  /// Truth poses, in the recording's own world frame; empty where there are none.
+  virtual const Trajectory& ground_truth() const = 0;
+
+  /// What was found, one line a fact, for `mms info`.
+  virtual std::vector<std::string> describe() const = 0;
+
+  virtual void on_warning(WarningHandler handler) = 0;
+};
+
+}  // namespace mms
