@@ -4,9 +4,9 @@ add_library(mms_build_settings INTERFACE)
 target_compile_features(mms_build_settings INTERFACE cxx_std_20)
 target_compile_options(mms_build_settings INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wconversion;-Wshadow;-Werror>)
-# gcc 12 finds uninitialised members in Eigen's own expressions when it inlines them.
+# gcc 12 warns of Eigen's and std::string's own code when it inlines them.
 target_compile_options(mms_build_settings INTERFACE
-  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>>)
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized$<SEMICOLON>-Wno-restrict>>)
 if(MMS_ARCH STREQUAL "" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(mms_arch "x86-64-v3")
 else()

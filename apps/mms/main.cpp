@@ -1,3 +1,50 @@
-int main() {
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+
+#include "config_command.hpp"
+#include "doctor_command.hpp"
+#include "eval_command.hpp"
+#include "info_command.hpp"
+#include "mms/core/error.hpp"
+#include "run_command.hpp"
+
+namespace {
+
+constexpr int kFault = 1;  ///< of the user's data or files
+constexpr int kUsage = 2;  ///< of the command line
+
+int fail(const char* what) {
+  fmt::print(stderr, "mms: {}\n", what);
+  return kFault;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "MMS-SLAM: localises a camera or LiDAR among moving people and vehicles and maps "
+      "what stands still",
+      "mms");
+  app.set_version_flag("--version", MMS_VERSION);
+  app.require_subcommand(1);
+  mms::add_run_command(app);
+  mms::add_eval_command(app);
+  mms::add_info_command(app);
+  mms::add_config_command(app);
+  mms::add_doctor_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsage;
+  } catch (const mms::Error& error) {
+    return fail(error.what());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory (less data with --frames, or a larger static_map.voxel_size)");
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
   return 0;
 }

@@ -22,20 +22,32 @@ struct PlaneFeature {
   float sigma = 0.0F;      ///< 1-sigma measurement noise along the ray at its range [m]
 };
 
+/// Luminance [0, 255] with its derivatives [1/px] by central differences.
+struct IntensitySample {
+  float value = 0.0F;
+  float dx = 0.0F;
+  float dy = 0.0F;
+};
+
 /// One level of the intensity pyramid. Depth is 0 where there is no return or the pixel is dynamic.
 struct IntensityLevel {
   CameraIntrinsics camera;
-  Image<float> intensity;  ///< luminance in [0, 255]
-  Image<float> depth;      ///< z of the static point at the pixel [m]
+  Image<IntensitySample> intensity;
+  Image<float> depth;  ///< z of the static point at the pixel [m]
 };
 
 /// What localisation needs of one frame: the features of the static points (III-C.1), and for RGB-D
 /// the static part of the image for the photometric term.
 struct FeatureCloud {
   Timestamp stamp;
+  Duration points_offset{0};  ///< when edges and planes were measured, relative to `stamp`
   std::vector<EdgeFeature> edges;
   std::vector<PlaneFeature> planes;
   std::vector<IntensityLevel> intensity;  ///< finest first; empty without an image
 };
+
+/// Median distance of the edges and planes from the sensor [m], the scale of the place; 0 without
+/// any.
+double median_range(const FeatureCloud& features);
 
 }  // namespace mms

@@ -27,6 +27,7 @@ struct Frame {
   std::string name;          ///< what messages call it: the file name without folder
   Image<Rgb> color;          ///< may be empty for LiDAR without a camera
   Image<float> depth;        ///< [m], registered to `color`; 0, NaN and inf mean no return
+  Duration depth_offset{0};  ///< when `depth` was taken, relative to `stamp`
   LidarScan scan;            ///< empty for RGB-D
   Image<std::uint8_t> mask;  ///< given label image: 0 static, else 1 + class id; may be empty
   std::shared_ptr<const Calibration> calibration;  ///< never null

@@ -32,7 +32,8 @@ struct DynamicCluster {
 /// Organised (RGB-D): width x height, row-major, on every `stride`-th pixel of the image, points in
 /// the camera frame. Unorganised (LiDAR): height 1, points in the LiDAR frame.
 struct LabeledCloud {
-  Timestamp stamp;
+  Timestamp stamp;            ///< of the frame, so of the colours
+  Duration points_offset{0};  ///< when the points were measured, relative to `stamp`
   int width = 0;
   int height = 0;
   std::vector<Eigen::Vector3f> points;  ///< [m]

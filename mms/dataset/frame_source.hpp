@@ -33,6 +33,9 @@ class FrameSource {
   /// Passes over the next `count` frames without reading them.
   virtual void skip(std::size_t count) = 0;
 
+  /// Whether any frame comes with a mask.
+  virtual bool has_masks() const = 0;
+
   /// Truth poses, in the recording's own world frame; empty where there are none.
   virtual const Trajectory& ground_truth() const = 0;
 

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "mms/core/image.hpp"
+#include "mms/core/labeled_cloud.hpp"
+
+namespace mms {
+
+/// Picture of an organised, coloured cloud: dynamic points tinted red, pixels without depth dimmed.
+Image<Rgb> draw_overlay(const LabeledCloud& cloud);
+
+}  // namespace mms

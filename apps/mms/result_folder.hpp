@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace mms {
+
+/// The folder a run writes to. Made before the run, so that one that cannot be written to costs no
+/// time.
+class ResultFolder {
+ public:
+  /// @param output  empty: results/<time>_<name of the data> in the working directory
+  /// @throws FileError when the folder cannot be made or written to.
+  ResultFolder(const std::filesystem::path& output, const std::string& data);
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Lets results/latest point to the folder, if it is one of results/.
+  void make_latest() const;
+
+ private:
+  std::filesystem::path path_;
+  bool default_place_ = false;
+};
+
+}  // namespace mms

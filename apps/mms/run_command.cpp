@@ -1,0 +1,127 @@
+#include "run_command.hpp"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/open_dataset.hpp"
+#include "mms/io/config_yaml.hpp"
+#include "mms/pipeline/async_pipeline.hpp"
+#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/slam_system.hpp"
+#include "mms/segmentation/mask_segmenter.hpp"
+#include "mms/segmentation/none_segmenter.hpp"
+#include "progress.hpp"
+#include "result_folder.hpp"
+#include "run_log.hpp"
+#include "run_options.hpp"
+#include "run_outputs.hpp"
+
+namespace mms {
+namespace {
+
+SystemConfig load_settings(const RunOptions& options) {
+  SystemConfig config;
+  if (!options.config.empty()) load_config(options.config, config);
+  if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
+  if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
+  if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;
+  return config;
+}
+
+std::unique_ptr<Segmenter> make_segmenter(const RunOptions& options, const FrameSource& source) {
+  const bool has_masks = source.has_masks();
+  if (options.segmenter == "masks" && !has_masks) {
+    throw DataError(options.data, "has no masks",
+                    "put label images into its masks/ folder, give --masks DIR, or choose "
+                    "--segmenter none");
+  }
+  if (options.segmenter == "none" || !has_masks) return std::make_unique<NoneSegmenter>();
+  return std::make_unique<MaskSegmenter>();
+}
+
+/// The frames asked for, and no more.
+AsyncPipeline::Source limited(FrameSource& source, const RunOptions& options) {
+  source.skip(options.start);
+  return [&source, left = options.frames]() mutable -> std::optional<Frame> {
+    if (left == 0) return std::nullopt;
+    --left;
+    return source.next();
+  };
+}
+
+void check_range(const RunOptions& options, const FrameSource& source) {
+  if (options.start < source.size()) return;
+  throw DataError("--start", fmt::format("is {}, but {} has {} frames", options.start, options.data,
+                                         source.size()));
+}
+
+void run(const RunOptions& options) {
+  const SystemConfig config = load_settings(options);
+  const std::unique_ptr<FrameSource> source = open_dataset(
+      options.data, {.masks = options.masks, .load_masks = options.segmenter != "none"});
+  check_range(options, *source);
+  SlamSystem system(config, make_segmenter(options, *source));
+  const ResultFolder folder(options.output, options.data);
+
+  Progress progress(std::min(options.frames, source->size() - options.start));
+  source->on_warning([&](const std::string& message) { progress.warn(message); });
+  RunLog log(source->ground_truth());
+  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  AsyncPipeline pipeline(
+      {.threads = options.threads > 0 ? options.threads : cores, .realtime = options.realtime});
+  pipeline.run(system, limited(*source, options), [&](const Processed& processed) {
+    log.add(processed);
+    progress.show(log, system.dynamic_map());
+  });
+  progress.finish();
+  log.finish(source->skipped() + pipeline.dropped(), system);
+  if (log.frames().empty()) {
+    throw DataError(options.data,
+                    fmt::format("none of its {} frames could be processed", source->size()),
+                    "the warnings above say why; mms info DATA explains what was found");
+  }
+  write_outputs(folder.path(), options.data, config, system, log);
+  folder.make_latest();
+  print_summary(folder.path(), log);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Localise a recording and map its surroundings");
+  command->add_option("DATA", options->data, "recording, or sim:room[?seed=N&frames=N]")
+      ->capture_default_str();
+  command->add_option("-c,--config", options->config, "settings (mms config dump prints them all)");
+  command->add_option("-o,--output", options->output,
+                      "folder for the results (default: results/<time>_<name>)");
+  command
+      ->add_option("--segmenter", options->segmenter,
+                   "where masks of people and vehicles come from; auto: the recording's masks if "
+                   "it has any")
+      ->check(CLI::IsMember({"auto", "masks", "none"}))
+      ->capture_default_str();
+  command->add_option("--masks", options->masks, "folder of label images named like the frames");
+  command
+      ->add_option("--fusion", options->fusion,
+                   "what makes a point dynamic (default: as the settings say, multimodal)")
+      ->check(CLI::IsMember({"multimodal", "vision", "none"}));
+  command->add_option("--frames", options->frames, "process at most N frames")
+      ->check(CLI::PositiveNumber)
+      ->default_str("all");
+  command->add_option("--start", options->start, "pass over the first K frames")
+      ->capture_default_str();
+  command->add_flag("--realtime", options->realtime,
+                    "play at the recording's pace and drop frames that come too fast");
+  command->add_option("--threads", options->threads, "threads to use (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace mms

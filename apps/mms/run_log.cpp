@@ -1,0 +1,107 @@
+#include "run_log.hpp"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "overlay.hpp"
+
+namespace mms {
+namespace {
+
+constexpr std::size_t kMaxPictures = 8;
+constexpr std::size_t kMinPosesForError = 3;
+
+/// Largest memory the process has held so far [MiB].
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB
+}
+
+template <class Value>
+std::vector<double> column(const std::vector<LoggedFrame>& frames, const Value& value) {
+  std::vector<double> values;
+  values.reserve(frames.size());
+  for (const LoggedFrame& frame : frames) values.push_back(value(frame));
+  return values;
+}
+
+}  // namespace
+
+double LoggedFrame::total_ms() const {
+  return std::accumulate(stage_ms.begin(), stage_ms.end(), read_ms);
+}
+
+RunLog::RunLog(Trajectory truth) : truth_(std::move(truth)) {}
+
+void RunLog::add(const Processed& processed) {
+  const FrameResult& result = processed.result;
+  frames_.push_back({processed.frame.name, processed.frame.stamp, result.odometry.T_world_sensor,
+                     result.odometry.status, result.keyframe, result.dynamic_share,
+                     processed.read_ms, result.stage_ms});
+  has_image_ = has_image_ || result.cloud.organised();
+  keep_picture(processed);
+}
+
+void RunLog::keep_picture(const Processed& processed) {
+  // Evenly spread over a run of unknown length: when there are too many, every other one goes.
+  if ((frames_.size() - 1) % picture_stride_ != 0 || !processed.result.cloud.organised()) return;
+  pictures_.push_back({fmt::format("{} ({:.0f} % dynamic)", processed.frame.name,
+                                   100.0 * processed.result.dynamic_share),
+                       draw_overlay(processed.result.cloud)});
+  if (pictures_.size() <= kMaxPictures) return;
+  std::vector<ReportPicture> kept;
+  for (std::size_t i = 0; i < pictures_.size(); i += 2) kept.push_back(std::move(pictures_[i]));
+  pictures_ = std::move(kept);
+  picture_stride_ *= 2;
+}
+
+void RunLog::finish(std::size_t skipped, const SlamSystem& system) {
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  metrics_.frames = static_cast<std::int64_t>(frames_.size());
+  metrics_.frames_skipped = static_cast<std::int64_t>(skipped);
+  metrics_.hz = static_cast<double>(frames_.size()) / elapsed.count();
+  metrics_.ms_per_frame =
+      time_statistics(column(frames_, [](const LoggedFrame& f) { return f.total_ms(); }));
+  metrics_.stages.emplace_back(
+      "read", time_statistics(column(frames_, [](const LoggedFrame& f) { return f.read_ms; })));
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    metrics_.stages.emplace_back(
+        to_string(static_cast<Stage>(i)),
+        time_statistics(column(frames_, [i](const LoggedFrame& f) { return f.stage_ms[i]; })));
+  }
+  metrics_.peak_rss_mb = peak_memory_mb();
+  for (const LoggedFrame& frame : frames_) {
+    ++metrics_.status[static_cast<std::size_t>(frame.status)];
+    metrics_.dynamic_share += frame.dynamic_share / static_cast<double>(frames_.size());
+  }
+  metrics_.tracks =
+      std::count_if(system.dynamic_map().tracks().begin(), system.dynamic_map().tracks().end(),
+                    [](const Track& track) { return track.state != TrackState::kTentative; });
+  const Trajectory estimate = trajectory();
+  const auto matched = match_by_stamp(truth_, estimate, TrajectoryErrorOptions{}.max_difference);
+  if (matched.size() >= kMinPosesForError) {
+    metrics_.trajectory = evaluate_trajectory(truth_, estimate);
+    metrics_.drift = evaluate_drift(estimate);
+  }
+}
+
+Trajectory RunLog::trajectory() const {
+  Trajectory poses;
+  for (const LoggedFrame& frame : frames_) poses.push_back({frame.stamp, frame.T_world_sensor});
+  return poses;
+}
+
+Trajectory RunLog::keyframes() const {
+  Trajectory poses;
+  for (const LoggedFrame& frame : frames_) {
+    if (frame.keyframe) poses.push_back({frame.stamp, frame.T_world_sensor});
+  }
+  return poses;
+}
+
+}  // namespace mms

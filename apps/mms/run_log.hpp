@@ -1,0 +1,62 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "mms/core/trajectory.hpp"
+#include "mms/evaluation/metrics.hpp"
+#include "mms/evaluation/report.hpp"
+#include "mms/pipeline/async_pipeline.hpp"
+#include "mms/pipeline/slam_system.hpp"
+
+namespace mms {
+
+/// What is kept of every frame of a run.
+struct LoggedFrame {
+  std::string name;
+  Timestamp stamp;
+  Transform<World, Sensor> T_world_sensor;
+  Status status = Status::kInitialized;
+  bool keyframe = false;
+  double dynamic_share = 0.0;
+  double read_ms = 0.0;
+  StageTimes stage_ms{};
+
+  double total_ms() const;
+};
+
+/// Collects what a run's files are written from.
+class RunLog {
+ public:
+  explicit RunLog(Trajectory truth);
+
+  void add(const Processed& processed);
+
+  /// Sums the run up once all frames are in.
+  /// @param skipped  frames that could not be read or were dropped
+  void finish(std::size_t skipped, const SlamSystem& system);
+
+  const std::vector<LoggedFrame>& frames() const { return frames_; }
+  const std::vector<ReportPicture>& pictures() const { return pictures_; }
+  const RunMetrics& metrics() const { return metrics_; }
+  const Trajectory& truth() const { return truth_; }
+  bool has_image() const { return has_image_; }
+
+  Trajectory trajectory() const;
+  Trajectory keyframes() const;
+
+ private:
+  void keep_picture(const Processed& processed);
+
+  Trajectory truth_;
+  std::vector<LoggedFrame> frames_;
+  std::vector<ReportPicture> pictures_;
+  std::size_t picture_stride_ = 1;
+  bool has_image_ = false;
+  RunMetrics metrics_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace mms

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+namespace mms {
+
+/// The words of `mms run`.
+struct RunOptions {
+  std::string data = "sim:room";
+  std::filesystem::path config;  ///< empty: the defaults
+  std::filesystem::path output;  ///< empty: results/<time>_<name>
+  std::string segmenter =
+      "auto";                   ///< "masks", "none", or "auto": masks where the recording has any
+  std::filesystem::path masks;  ///< empty: the recording's own
+  std::string fusion;           ///< empty: as the config says
+  std::size_t frames = std::numeric_limits<std::size_t>::max();
+  std::size_t start = 0;
+  bool realtime = false;
+  int threads = 0;  ///< 0: one a core
+};
+
+}  // namespace mms

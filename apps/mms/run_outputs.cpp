@@ -1,0 +1,93 @@
+#include "run_outputs.hpp"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "mms/evaluation/map_picture.hpp"
+#include "mms/evaluation/report.hpp"
+#include "mms/io/atomic_file.hpp"
+#include "mms/io/config_yaml.hpp"
+#include "mms/io/pcd_io.hpp"
+#include "mms/io/ply_io.hpp"
+#include "mms/io/trajectory_io.hpp"
+#include "objects_json.hpp"
+
+namespace mms {
+namespace {
+
+/// Points higher than this over the first camera hide the room in a view from above [m].
+constexpr double kCeiling = 1.2;
+
+std::string timing_csv(const RunLog& log) {
+  std::string text = "stamp,read";
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    text += fmt::format(",{}", to_string(static_cast<Stage>(i)));
+  }
+  text += ",total\n";
+  for (const LoggedFrame& frame : log.frames()) {
+    fmt::format_to(std::back_inserter(text), "{},{:.3f}", frame.stamp.to_string(), frame.read_ms);
+    for (const double ms : frame.stage_ms) fmt::format_to(std::back_inserter(text), ",{:.3f}", ms);
+    fmt::format_to(std::back_inserter(text), ",{:.3f}\n", frame.total_ms());
+  }
+  return text;
+}
+
+std::vector<ReportFrame> report_frames(const RunLog& log) {
+  std::vector<ReportFrame> frames;
+  for (const LoggedFrame& frame : log.frames()) {
+    std::vector<double> times = {frame.read_ms};
+    times.insert(times.end(), frame.stage_ms.begin(), frame.stage_ms.end());
+    frames.push_back({frame.stamp, frame.T_world_sensor, std::nullopt, frame.status,
+                      frame.dynamic_share, std::move(times)});
+  }
+  const auto matches =
+      match_by_stamp(log.truth(), log.trajectory(), TrajectoryErrorOptions{}.max_difference);
+  for (const PoseMatch& match : matches) {
+    frames[match.estimate].truth_position =
+        log.truth()[match.reference].T_world_sensor.translation();
+  }
+  return frames;
+}
+
+RunReport make_report(const std::string& data, const MapCloud& map, double voxel_size,
+                      const RunLog& log) {
+  RunReport report;
+  report.name = data;
+  report.up = log.has_image() ? UpAxis::kNegativeY : UpAxis::kPositiveZ;
+  for (const auto& [name, unused] : log.metrics().stages) report.stages.push_back(name);
+  report.frames = report_frames(log);
+  report.summary = metric_values(log.metrics());
+  report.map_view = draw_map(map.points, map.colors,
+                             {.up = report.up, .point_size = voxel_size, .max_height = kCeiling});
+  report.pictures = log.pictures();
+  return report;
+}
+
+}  // namespace
+
+void write_outputs(const std::filesystem::path& folder, const std::string& data,
+                   const SystemConfig& config, const SlamSystem& system, const RunLog& log) {
+  const MapCloud map = system.static_map().cloud();
+  const PointCloudFile file{map.points, map.normals, map.colors, {}, map.observations};
+  write_trajectory_tum(folder / "trajectory.tum", log.trajectory());
+  write_trajectory_kitti(folder / "trajectory_kitti.txt", log.trajectory());
+  write_trajectory_tum(folder / "keyframes.tum", log.keyframes());
+  write_ply(folder / "static_map.ply", file);
+  write_pcd(folder / "static_map.pcd", file);
+  write_file(folder / "objects.json", objects_json(system.dynamic_map()));
+  write_file(folder / "config.yaml", dump_config(config));
+  write_metrics(folder / "metrics.json", log.metrics());
+  write_file(folder / "timing.csv", timing_csv(log));
+  write_report_html(folder / "report.html",
+                    make_report(data, map, system.static_map().voxel_size(), log));
+}
+
+void print_summary(const std::filesystem::path& folder, const RunLog& log) {
+  fmt::print("{}", to_table(metric_values(log.metrics())));
+  fmt::print("report: {}\nmap:    {}\n", (folder / "report.html").string(),
+             (folder / "static_map.ply").string());
+}
+
+}  // namespace mms

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/slam_system.hpp"
+#include "run_log.hpp"
+
+namespace mms {
+
+/// Writes a run's files into `folder`: trajectory.tum, trajectory_kitti.txt, keyframes.tum,
+/// static_map.ply, static_map.pcd, objects.json, config.yaml, metrics.json, timing.csv,
+/// report.html.
+/// @param data  what was run, for the report's title
+/// @throws FileError naming the file that cannot be written.
+void write_outputs(const std::filesystem::path& folder, const std::string& data,
+                   const SystemConfig& config, const SlamSystem& system, const RunLog& log);
+
+/// The table a run ends with, and where its files are, on stdout.
+void print_summary(const std::filesystem::path& folder, const RunLog& log);
+
+}  // namespace mms

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mms/core/time.hpp"
+
+namespace mms {
+
+/// Pairs (index into `first`, index into `second`) of stamps at most `max_difference` apart,
+/// each used once, nearest pairs first: the rule of the TUM benchmark's associate.py. Both inputs
+/// may be in any order; pairs come in the order of `first`. Of equal differences the earlier stamps
+/// win.
+std::vector<std::pair<std::size_t, std::size_t>> associate(std::span<const Timestamp> first,
+                                                           std::span<const Timestamp> second,
+                                                           Duration max_difference);
+
+}  // namespace mms

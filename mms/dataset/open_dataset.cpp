@@ -1,0 +1,80 @@
+#include "mms/dataset/open_dataset.hpp"
+
+#include <algorithm>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/folder_rgbd.hpp"
+#include "mms/dataset/kitti_lidar.hpp"
+#include "mms/dataset/simulated_source.hpp"
+#include "mms/dataset/tum_rgbd.hpp"
+#include "mms/io/files.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+using Names = std::vector<std::string>;
+
+struct Layout {
+  bool (*looks_like)(const Names& names);
+  std::unique_ptr<FrameSource> (*open)(const fs::path& folder, const SourceOptions& options);
+};
+
+constexpr Layout kLayouts[] = {{looks_like_tum_rgbd, open_tum_rgbd},
+                               {looks_like_folder_rgbd, open_folder_rgbd},
+                               {looks_like_kitti_lidar, open_kitti_lidar}};
+
+const Layout* layout_of(const Names& names) {
+  const auto* found = std::find_if(std::begin(kLayouts), std::end(kLayouts),
+                                   [&](const Layout& layout) { return layout.looks_like(names); });
+  return found == std::end(kLayouts) ? nullptr : found;
+}
+
+/// "has a, b, c and 5 more", for messages.
+std::string found_text(const Names& names) {
+  constexpr std::size_t kShown = 4;
+  if (names.empty()) return "is empty";
+  std::string text = "has ";
+  for (std::size_t i = 0; i < std::min(kShown, names.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
+  return text;
+}
+
+/// A recording one folder further down, which is what archives unpack to; empty for none.
+std::string recording_inside(const fs::path& folder, const Names& names) {
+  for (const std::string& name : names) {
+    std::error_code error;
+    const fs::path inside = folder / name;
+    if (!fs::is_directory(inside, error)) continue;
+    if (layout_of(list_folder(inside)) != nullptr) return inside.string();
+  }
+  return "";
+}
+
+[[noreturn]] void fail_unknown(const fs::path& folder, const Names& names) {
+  const std::string inside = recording_inside(folder, names);
+  throw DataError(folder.string(), found_text(names) + ": no recording",
+                  !inside.empty() ? "did you mean " + inside + "?"
+                                  : "wanted are rgb.txt and depth.txt or associations.txt (TUM "
+                                    "RGB-D), *.color.png and *.depth.png (7-Scenes), or *.bin "
+                                    "scans (KITTI)");
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOptions& options) {
+  if (is_simulated(path.string())) return open_simulated(path.string(), options);
+  std::error_code error;
+  if (!fs::exists(path, error)) throw DataError(path.string(), "there is no such recording");
+  if (!fs::is_directory(path, error)) {
+    throw DataError(path.string(), "is a file, a recording is a folder");
+  }
+  const Names names = list_folder(path);
+  const Layout* layout = layout_of(names);
+  if (layout == nullptr) fail_unknown(path, names);
+  return layout->open(path, options);
+}
+
+}  // namespace mms

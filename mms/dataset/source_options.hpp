@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+namespace mms {
+
+/// What to read of a recording besides its images and scans.
+struct SourceOptions {
+  std::filesystem::path masks;  ///< folder of label images in place of the recording's own masks/
+  bool load_masks = true;       ///< false: frames come without masks
+};
+
+}  // namespace mms

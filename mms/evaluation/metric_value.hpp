@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mms {
+
+/// One result for scripts, tables and the report alike.
+struct MetricValue {
+  std::string key;      ///< name in the JSON
+  std::string meaning;  ///< what a table calls it
+  double value = 0.0;   ///< in `unit`; NaN where it is not defined
+  std::string unit;     ///< "m", "deg", "%", ...; empty for counts and ratios
+  int decimals = 3;     ///< shown in tables; 0 marks a count, an integer in the JSON
+};
+
+/// `value` with `decimals` places; "n/a" for NaN and infinities.
+std::string to_fixed(double value, int decimals);
+
+/// The value with its unit, as in "0.012 m"; "n/a" alone where it is not defined.
+std::string with_unit(const MetricValue& item);
+
+/// One JSON object, keys in the order given; numbers in full precision, null for NaN.
+std::string to_json(std::span<const MetricValue> values);
+
+/// Lines "meaning  value unit", columns aligned, each ended by a newline.
+std::string to_table(std::span<const MetricValue> values);
+
+}  // namespace mms

@@ -1,0 +1,82 @@
+#include "mms/evaluation/metrics.hpp"
+
+#include <string>
+
+#include "mms/evaluation/metric_json.hpp"
+#include "mms/evaluation/statistics.hpp"
+#include "mms/io/atomic_file.hpp"
+
+namespace mms {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const TimeStatistics& times) {
+  return {{"mean", times.mean}, {"p50", times.p50}, {"p99", times.p99}};
+}
+
+Json stages_json(const RunMetrics& metrics) {
+  Json object = Json::object();
+  for (const auto& [name, times] : metrics.stages) object[name] = json_of(times);
+  return object;
+}
+
+Json status_json(const RunMetrics& metrics) {
+  Json object = Json::object();
+  for (int i = 0; i < kStatusCount; ++i) {
+    object[std::string(to_string(static_cast<Status>(i)))] =
+        metrics.status[static_cast<std::size_t>(i)];
+  }
+  return object;
+}
+
+void append(std::vector<MetricValue>& values, const std::vector<MetricValue>& more) {
+  values.insert(values.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+TimeStatistics time_statistics(std::span<const double> milliseconds) {
+  return {mean(milliseconds), percentile(milliseconds, 50.0), percentile(milliseconds, 99.0)};
+}
+
+std::string to_json(const RunMetrics& metrics) {
+  Json object = {{"frames", metrics.frames},
+                 {"frames_skipped", metrics.frames_skipped},
+                 {"hz", metrics.hz},
+                 {"ms_per_frame", json_of(metrics.ms_per_frame)},
+                 {"stages", stages_json(metrics)},
+                 {"peak_rss_mb", metrics.peak_rss_mb},
+                 {"status", status_json(metrics)},
+                 {"dynamic_share", metrics.dynamic_share},
+                 {"tracks", metrics.tracks}};
+  if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
+  if (metrics.drift) object["drift"] = json_object(metric_values(*metrics.drift));
+  return object.dump(2) + "\n";
+}
+
+void write_metrics(const std::filesystem::path& path, const RunMetrics& metrics) {
+  write_file(path, to_json(metrics));
+}
+
+std::vector<MetricValue> metric_values(const RunMetrics& metrics) {
+  std::vector<MetricValue> values = {
+      {"frames", "frames", static_cast<double>(metrics.frames), "", 0},
+      {"frames_skipped", "frames skipped", static_cast<double>(metrics.frames_skipped), "", 0},
+      {"hz", "rate", metrics.hz, "Hz", 1},
+      {"ms_mean", "time per frame, mean", metrics.ms_per_frame.mean, "ms", 1},
+      {"ms_p50", "time per frame, median", metrics.ms_per_frame.p50, "ms", 1},
+      {"ms_p99", "time per frame, 99 % within", metrics.ms_per_frame.p99, "ms", 1},
+      {"peak_rss_mb", "peak memory", metrics.peak_rss_mb, "MiB", 0},
+      {"dynamic_share", "dynamic share of the points", 100.0 * metrics.dynamic_share, "%", 1},
+      {"tracks", "tracked objects", static_cast<double>(metrics.tracks), "", 0}};
+  if (metrics.trajectory) append(values, metric_values(*metrics.trajectory));
+  if (metrics.drift) {
+    std::vector<MetricValue> drift = metric_values(*metrics.drift);
+    std::erase_if(drift, [](const MetricValue& item) { return item.key == "poses"; });
+    append(values, drift);
+  }
+  return values;
+}
+
+}  // namespace mms

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mms/core/odometry_estimate.hpp"
+#include "mms/evaluation/drift.hpp"
+#include "mms/evaluation/metric_value.hpp"
+#include "mms/evaluation/trajectory_error.hpp"
+
+namespace mms {
+
+/// Statistics of times [ms]; percentiles by nearest rank.
+struct TimeStatistics {
+  double mean = 0.0;
+  double p50 = 0.0;
+  double p99 = 0.0;
+};
+
+/// All NaN for no times.
+TimeStatistics time_statistics(std::span<const double> milliseconds);
+
+/// What one run is summed up in: the content of metrics.json.
+struct RunMetrics {
+  std::int64_t frames = 0;          ///< processed
+  std::int64_t frames_skipped = 0;  ///< unreadable, or dropped to keep up
+  double hz = 0.0;                  ///< frames per second of wall time
+  TimeStatistics ms_per_frame;
+  std::vector<std::pair<std::string, TimeStatistics>> stages;  ///< in the order of the pipeline
+  double peak_rss_mb = 0.0;                                    ///< [MiB]
+  std::array<std::int64_t, kStatusCount> status{};             ///< frames of each mms::Status
+  double dynamic_share = 0.0;                                  ///< mean over the frames, in [0, 1]
+  std::int64_t tracks = 0;                                     ///< dynamic objects confirmed
+  std::optional<TrajectoryError> trajectory;                   ///< where truth is there
+  std::optional<Drift> drift;                                  ///< where truth is there
+};
+
+/// The JSON object with the contract's keys, indented, ended by a newline; `trajectory` and `drift`
+/// only where they are there, every status name always.
+std::string to_json(const RunMetrics& metrics);
+
+/// Writes `to_json` to a file, at once or not at all. @throws FileError
+void write_metrics(const std::filesystem::path& path, const RunMetrics& metrics);
+
+/// The main ones of them as a flat table for the terminal and the report.
+std::vector<MetricValue> metric_values(const RunMetrics& metrics);
+
+}  // namespace mms

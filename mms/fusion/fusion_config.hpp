@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+
+#include "mms/core/config.hpp"
+#include "mms/core/segmentation.hpp"
+#include "mms/geometry/depth_noise.hpp"
+
+namespace mms {
+
+/// What decides whether a point is dynamic: the three rows of the paper's ablation.
+enum class FusionMode {
+  kMultimodal,  ///< masks and geometric clusters together (all of III-B)
+  kVision,      ///< the dilated masks alone (III-B.1)
+  kNone,        ///< nothing: every point is static
+};
+
+/// Which planes are taken out before clustering, so that a person does not drag along the floor
+/// under or the wall behind them. The limits are above what the flat part of a torso reaches.
+struct PlaneRemoval {
+  double min_area = 0.1;          ///< [m^2]
+  double min_extent = 0.25;       ///< along the shorter principal axis [m]
+  double min_share = 0.02;        ///< of the valid points
+  double tolerance = 0.02;        ///< distance of a point on the plane, before noise [m]
+  double noise_factor = 2.5;      ///< sigmas of depth noise added to `tolerance`
+  double max_normal_angle = 0.4;  ///< between point and plane normal [rad]
+  double max_masked_share = 0.3;  ///< of a plane under masks; above, it is an object's flat side
+  int max_planes = 6;
+  void visit(ConfigVisitor& v);
+
+  /// Distance at which a point with noise `sigma` [m] is still on a plane [m].
+  float distance_limit(float sigma) const {
+    return static_cast<float>(tolerance) + static_cast<float>(noise_factor) * sigma;
+  }
+};
+
+/// Largest box one object of a class fills [m]: `length` along its longest side, `width` along the
+/// other two.
+struct ObjectSize {
+  double length = 2.3;
+  double width = 1.2;
+  void visit(ConfigVisitor& v);
+};
+
+/// Everything that steers the multi-modal fusion (III-B).
+struct FusionConfig {
+  FusionMode mode = FusionMode::kMultimodal;
+
+  int stride = 2;          ///< image pixels a side of the block that makes one cloud point
+  double min_range = 0.3;  ///< [m]
+  double max_range = 10.0;
+
+  double dilation = 0.005;  ///< radius as a share of the image width (authors: 6 px of 1280)
+
+  int cluster_stride = 2;           ///< cloud points a side that share one node for clustering
+  double cluster_tolerance = 0.10;  ///< gap that ends a cluster, before noise [m]
+  double fine_tolerance = 0.03;     ///< gap that ends a continuous surface, before noise [m]
+  double noise_factor = 2.0;        ///< sigmas of depth noise added to distances between points
+  int min_points = 20;              ///< nodes of the smallest cluster
+  int max_points = 100000;          ///< nodes of the largest cluster
+
+  double dynamic_share = 0.9;   ///< of labelled nodes that makes a cluster dynamic
+  double partial_share = 0.3;   ///< the same for clusters of the size of one object
+  double instance_share = 0.2;  ///< of an instance's nodes that make a piece split off it
+  double contact_share = 0.1;   ///< of a smaller piece's nodes that may touch what it is split from
+  double relabel_radius = 0.10;  ///< "close" and "nearby" of III-B.2, before noise [m]
+
+  double lidar_max_range = 100.0;  ///< [m]
+  double lidar_noise = 0.02;       ///< one sigma of range [m]
+  double lidar_voxel = 0.10;       ///< [m]
+  double lidar_tolerance = 0.30;   ///< [m]
+
+  DepthNoise noise;  ///< of the depth camera; the sensor's, so not among the visited fields
+  PlaneRemoval planes;
+  std::array<ObjectSize, kObjectClassCount> sizes{{{2.3, 1.2}, {4.0, 2.5}}};
+
+  void visit(ConfigVisitor& v);
+};
+
+}  // namespace mms

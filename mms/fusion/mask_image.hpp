@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "mms/core/image.hpp"
+#include "mms/core/segmentation.hpp"
+
+namespace mms {
+
+/// All instance masks of a frame in one image (III-A), on blocks of image pixels. A value is 0 for
+/// the static state, else 1 + the index of the instance; where instances overlap the one with the
+/// higher score (the earlier, for equal ones) is named.
+struct MaskImage {
+  Image<std::uint16_t> raw;      ///< the masks as segmented
+  Image<std::uint16_t> dilated;  ///< grown by morphological dilation (III-B.1)
+};
+
+/// Draws `segmentation` on blocks of stride x stride pixels; a block is dynamic when any of its
+/// pixels is. An empty segmentation of size 0 x 0 gives an empty mask of the size asked for.
+/// @param width, height  of the image [px]
+/// @param dilation       radius [share of the image width]
+/// @throws DataError when the segmentation is of another size than the image
+MaskImage make_mask_image(const Segmentation& segmentation, int width, int height, int stride,
+                          double dilation);
+
+}  // namespace mms

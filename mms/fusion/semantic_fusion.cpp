@@ -1,0 +1,80 @@
+#include "mms/fusion/semantic_fusion.hpp"
+
+#include "mms/fusion/cluster_list.hpp"
+#include "mms/fusion/dynamic_objects.hpp"
+#include "mms/fusion/grid_nodes.hpp"
+#include "mms/fusion/grid_planes.hpp"
+#include "mms/fusion/grid_relabel.hpp"
+#include "mms/fusion/mask_image.hpp"
+#include "mms/fusion/mask_labels.hpp"
+#include "mms/fusion/scan_cloud.hpp"
+#include "mms/fusion/scan_geometry.hpp"
+
+namespace mms {
+namespace {
+
+/// III-B.2 for an organised cloud.
+void fuse_geometry(const MaskImage& mask, const std::vector<Instance>& instances,
+                   const FusionConfig& config, LabeledCloud& cloud) {
+  const NodeGrid grid(cloud, config.cluster_stride);
+  Nodes nodes = make_grid_nodes(cloud, mask, grid, config.noise);
+  const GridPlanes planes = find_grid_planes(nodes, config.planes);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const float limit = config.planes.distance_limit(nodes.sigma[n]);
+    nodes.on_plane[n] = is_on_plane(planes, n, nodes.points[n], limit) ? 1 : 0;
+  }
+  const DynamicObjects objects = find_dynamic_objects(nodes, instances, config);
+  relabel_grid(grid, nodes, planes, objects, mask, config, cloud);
+  list_clusters(objects.objects, instances, cloud);
+}
+
+/// Dynamic points, and what the mask covers where there is no return to tell.
+void mark_dynamic_pixels(const MaskImage& mask, LabeledCloud& cloud) {
+  for (std::size_t i = 0; i < cloud.labels.size(); ++i) {
+    const bool is_hidden = cloud.labels[i] == PointLabel::kInvalid && mask.dilated[i] != 0;
+    cloud.dynamic_pixels[i] = is_hidden || cloud.labels[i] == PointLabel::kDynamic ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+SemanticFusion::SemanticFusion(const FusionConfig& config)
+    : config_(config), depth_cloud_(config) {}
+
+LabeledCloud SemanticFusion::fuse(const Frame& frame, const Segmentation& segmentation) {
+  return frame.has_depth() ? fuse_depth(frame, segmentation) : fuse_scan(frame, segmentation);
+}
+
+LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& segmentation) {
+  LabeledCloud cloud = depth_cloud_.build(frame);
+  if (config_.mode == FusionMode::kNone) return cloud;
+  const MaskImage mask = make_mask_image(segmentation, frame.depth.width(), frame.depth.height(),
+                                         config_.stride, config_.dilation);
+  if (segmentation.instances.empty()) return cloud;
+  if (config_.mode == FusionMode::kVision) {
+    label_by_mask(mask.dilated.pixels(), segmentation.instances, cloud);
+  } else {
+    fuse_geometry(mask, segmentation.instances, config_, cloud);
+  }
+  mark_dynamic_pixels(mask, cloud);
+  return cloud;
+}
+
+LabeledCloud SemanticFusion::fuse_scan(const Frame& frame, const Segmentation& segmentation) {
+  LabeledCloud cloud = build_scan_cloud(frame, config_);
+  const Calibration& calibration = *frame.calibration;
+  const bool has_masks = calibration.camera && !segmentation.instances.empty();
+  if (config_.mode == FusionMode::kNone || !has_masks) return cloud;
+  const MaskImage mask =
+      make_mask_image(segmentation, calibration.camera->width, calibration.camera->height,
+                      config_.stride, config_.dilation);
+  if (config_.mode == FusionMode::kVision) {
+    const PointMask covering = project_masks(cloud.points, mask, calibration, config_.stride);
+    label_by_mask(covering.dilated, segmentation.instances, cloud);
+  } else {
+    fuse_scan_geometry(mask, segmentation.instances, calibration, config_, cloud);
+  }
+  return cloud;
+}
+
+}  // namespace mms

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "mms/core/config.hpp"
+
+namespace mms {
+
+/// Standard deviation of a depth camera's depth [m]: sigma(z) = base + quadratic * (z - 0.4 m)^2.
+/// The defaults are Nguyen et al.'s (3DIMPVT 2012) for structured light (Kinect, Xtion);
+/// time-of-flight cameras have nearly no quadratic part.
+struct DepthNoise {
+  double base = 0.0012;       ///< [m]
+  double quadratic = 0.0019;  ///< [1/m]
+
+  double sigma(double z) const {
+    const double beyond = z > kNearest ? z - kNearest : 0.0;
+    return base + quadratic * beyond * beyond;
+  }
+  float sigma(float z) const { return static_cast<float>(sigma(static_cast<double>(z))); }
+
+  void visit(ConfigVisitor& v) {
+    v.number({"base", "m", "depth noise at 0.4 m"}, base, {1e-5, 0.2});
+    v.number({"quadratic", "1/m", "growth of the depth noise with (z - 0.4 m)^2"}, quadratic,
+             {0.0, 0.1});
+  }
+
+ private:
+  static constexpr double kNearest = 0.4;
+};
+
+}  // namespace mms

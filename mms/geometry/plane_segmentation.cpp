@@ -1,0 +1,153 @@
+#include "mms/geometry/plane_segmentation.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace mms {
+namespace {
+
+/// A hypothesis is fitted to the samples around its seed [m] that lie within their tolerance plus
+/// this slope times the distance from the seed, because the seed's own normal is noisy.
+constexpr float kSeedRadius = 0.6F;
+constexpr float kSeedSlope = 0.15F;
+constexpr int kRefinements = 2;
+
+/// Cosine of the largest angle (0.12 rad) between a plane and the mean of its samples' normals: a
+/// plane laid through steps or clutter leans against all the surfaces it cuts.
+constexpr float kMinCosine = 0.9928F;
+
+/// Area-weighted moments of a plane's samples.
+struct Moments {
+  double area = 0.0;
+  int count = 0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+
+  void add(const PlaneSample& sample) {
+    const Eigen::Vector3d p = sample.point.cast<double>();
+    const double w = sample.area;
+    area += w;
+    ++count;
+    first += w * p;
+    second += w * p * p.transpose();
+    normal += w * sample.normal.cast<double>();
+  }
+};
+
+struct Fit {
+  Plane plane;
+  float area = 0.0F;    ///< [m^2]
+  float extent = 0.0F;  ///< shorter side of the rectangle with the same second moments [m]
+  float cosine = 0.0F;  ///< between the plane's normal and the mean of its samples'
+  int count = 0;
+};
+
+std::optional<Fit> fit_plane(const Moments& moments) {
+  if (moments.count < 3 || !(moments.area > 0.0)) return std::nullopt;
+  const Eigen::Vector3d mean = moments.first / moments.area;
+  const Eigen::Matrix3d covariance = moments.second / moments.area - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  Fit fit;
+  fit.plane = {normal.cast<float>(), static_cast<float>(-normal.dot(mean))};
+  fit.area = static_cast<float>(moments.area);
+  fit.extent = static_cast<float>(std::sqrt(12.0 * std::max(0.0, solver.eigenvalues()(1))));
+  fit.cosine = static_cast<float>(std::abs(normal.dot(moments.normal.normalized())));
+  fit.count = moments.count;
+  return fit;
+}
+
+bool agrees(const PlaneSample& sample, const Plane& plane, float min_cosine, float limit) {
+  return plane.distance(sample.point) <= limit &&
+         std::abs(plane.normal.dot(sample.normal)) >= min_cosine;
+}
+
+struct Hypothesis {
+  PlaneSample seed;
+  Plane plane;
+  float area = 0.0F;  ///< of the samples on it [m^2]
+};
+
+/// Plane of the surface around `seed`.
+std::optional<Plane> local_plane(const std::vector<PlaneSample>& samples, const PlaneSample& seed,
+                                 float min_cosine) {
+  const Plane tangent{seed.normal, -seed.normal.dot(seed.point)};
+  Moments moments;
+  for (const PlaneSample& sample : samples) {
+    const float distance2 = (sample.point - seed.point).squaredNorm();
+    if (distance2 > kSeedRadius * kSeedRadius) continue;
+    const float limit = sample.tolerance + kSeedSlope * std::sqrt(distance2);
+    if (agrees(sample, tangent, min_cosine, limit)) moments.add(sample);
+  }
+  const std::optional<Fit> fit = fit_plane(moments);
+  return fit ? std::optional<Plane>(fit->plane) : std::nullopt;
+}
+
+/// Planes around evenly drawn samples, those with the largest area first.
+std::vector<Hypothesis> draw_hypotheses(const std::vector<PlaneSample>& samples, int count,
+                                        float min_cosine) {
+  std::vector<Hypothesis> hypotheses;
+  for (int k = 0; k < count && !samples.empty(); ++k) {
+    const std::size_t drawn = (2 * static_cast<std::size_t>(k) + 1) * samples.size() /
+                              (2 * static_cast<std::size_t>(count));
+    const std::optional<Plane> plane = local_plane(samples, samples[drawn], min_cosine);
+    if (!plane) continue;
+    hypotheses.push_back({samples[drawn], *plane, 0.0F});
+    for (const PlaneSample& sample : samples) {
+      if (is_on_plane(sample, *plane, min_cosine)) hypotheses.back().area += sample.area;
+    }
+  }
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.area > b.area; });
+  return hypotheses;
+}
+
+/// Least squares over the samples on the plane, repeated.
+std::optional<Fit> refine(const std::vector<PlaneSample>& samples, Plane plane, float min_cosine) {
+  std::optional<Fit> fit;
+  for (int pass = 0; pass < kRefinements; ++pass) {
+    Moments moments;
+    for (const PlaneSample& sample : samples) {
+      if (is_on_plane(sample, plane, min_cosine)) moments.add(sample);
+    }
+    fit = fit_plane(moments);
+    if (!fit) return std::nullopt;
+    plane = fit->plane;
+  }
+  return fit;
+}
+
+}  // namespace
+
+bool is_on_plane(const PlaneSample& sample, const Plane& plane, float min_cosine) {
+  return agrees(sample, plane, min_cosine, sample.tolerance);
+}
+
+std::vector<Plane> find_planes(std::vector<PlaneSample> samples, const PlaneSearch& search) {
+  std::erase_if(samples, [](const PlaneSample& s) { return s.normal.isZero(0.0F); });
+  const float min_count = search.min_share * static_cast<float>(samples.size());
+  const float min_cosine = std::cos(search.max_normal_angle);
+  std::vector<Plane> planes;
+  for (const Hypothesis& start : draw_hypotheses(samples, search.hypotheses, min_cosine)) {
+    if (static_cast<int>(planes.size()) >= search.max_planes || start.area < search.min_area) break;
+    const bool is_taken = std::any_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+      return is_on_plane(start.seed, plane, min_cosine);
+    });
+    if (is_taken) continue;
+    const std::optional<Fit> fit = refine(samples, start.plane, min_cosine);
+    const bool is_large = fit && fit->area >= search.min_area && fit->extent >= search.min_extent &&
+                          static_cast<float>(fit->count) >= min_count;
+    if (!is_large || fit->cosine < kMinCosine) continue;
+    planes.push_back(fit->plane);
+    std::erase_if(samples, [&](const PlaneSample& sample) {
+      return is_on_plane(sample, planes.back(), min_cosine);
+    });
+  }
+  return planes;
+}
+
+}  // namespace mms

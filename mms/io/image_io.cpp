@@ -1,0 +1,116 @@
+#include "mms/io/image_io.hpp"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "mms/core/error.hpp"
+#include "mms/io/atomic_file.hpp"
+#include "mms/io/files.hpp"
+#include "mms/io/image_container.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+static_assert(sizeof(Rgb) == 3, "pixels are handed to OpenCV as they are");
+
+/// What OpenCV has to say is said by our own errors.
+void silence_opencv() {
+  static const auto previous =
+      cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  static_cast<void>(previous);
+}
+
+cv::Mat decode(const fs::path& path, int flags) {
+  silence_opencv();
+  std::string bytes = read_file(path);
+  check_whole_image(bytes, path.string());
+  cv::Mat decoded;
+  try {
+    decoded = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, bytes.data()), flags);
+  } catch (const cv::Exception&) {
+    decoded.release();
+  }
+  if (decoded.empty()) throw DataError(path.string(), "is a damaged image that cannot be decoded");
+  return decoded;
+}
+
+/// View of an image's own pixels; OpenCV has no const matrix, so callers only read through it.
+template <class T>
+cv::Mat view(const Image<T>& image, int type) {
+  return {image.height(), image.width(), type, const_cast<T*>(image.pixels().data())};
+}
+
+/// Decodes an image that must be of one channel and `type`.
+template <class T>
+Image<T> read_plain(const fs::path& path, int type, const std::string& wanted) {
+  const cv::Mat decoded = decode(path, cv::IMREAD_UNCHANGED);
+  if (decoded.type() != type) {
+    throw DataError(path.string(), "has pixels of " + std::to_string(8 * decoded.elemSize1()) +
+                                       " bits and " + std::to_string(decoded.channels()) +
+                                       " channel(s), " + wanted + " is wanted");
+  }
+  Image<T> image(decoded.cols, decoded.rows);
+  for (int y = 0; y < decoded.rows; ++y) {
+    std::copy_n(decoded.ptr<T>(y), image.width(), image.row(y));
+  }
+  return image;
+}
+
+std::vector<std::uint8_t> encode(const char* extension, const cv::Mat& pixels,
+                                 const std::vector<int>& options = {}) {
+  silence_opencv();
+  if (pixels.empty()) throw DataError("image", "is empty, so there is nothing to encode");
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(extension, pixels, bytes, options);
+  return bytes;
+}
+
+cv::Mat to_bgr(const Image<Rgb>& image) {
+  cv::Mat bgr;
+  if (!image.empty()) cv::cvtColor(view(image, CV_8UC3), bgr, cv::COLOR_RGB2BGR);
+  return bgr;
+}
+
+}  // namespace
+
+Image<Rgb> read_color(const fs::path& path) {
+  const cv::Mat bgr = decode(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  Image<Rgb> image(bgr.cols, bgr.rows);
+  cv::Mat rgb = view(image, CV_8UC3);
+  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+  return image;
+}
+
+Image<std::uint16_t> read_depth16(const fs::path& path) {
+  return read_plain<std::uint16_t>(path, CV_16UC1, "a 16-bit depth PNG of 1 channel");
+}
+
+Image<std::uint8_t> read_mask(const fs::path& path) {
+  return read_plain<std::uint8_t>(path, CV_8UC1, "an 8-bit label PNG of 1 channel");
+}
+
+void write_png(const fs::path& path, const Image<Rgb>& image) {
+  write_file(path, encode_png(image));
+}
+
+void write_png(const fs::path& path, const Image<std::uint8_t>& image) {
+  write_file(path, encode(".png", view(image, CV_8UC1)));
+}
+
+void write_png(const fs::path& path, const Image<std::uint16_t>& image) {
+  write_file(path, encode(".png", view(image, CV_16UC1)));
+}
+
+std::vector<std::uint8_t> encode_png(const Image<Rgb>& image) {
+  return encode(".png", to_bgr(image));
+}
+
+std::vector<std::uint8_t> encode_jpeg(const Image<Rgb>& image, int quality) {
+  return encode(".jpg", to_bgr(image), {cv::IMWRITE_JPEG_QUALITY, quality});
+}
+
+}  // namespace mms

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mms {
+
+/// One line of a text table, split at blanks, tabs and commas.
+struct TextLine {
+  int number = 0;  ///< in the file, from 1
+  std::vector<std::string_view> fields;
+};
+
+/// The lines of a text file that are neither empty nor '#' comments. Owns what the fields view.
+class TextTable {
+ public:
+  /// @throws FileError when the file cannot be read.
+  explicit TextTable(const std::filesystem::path& path);
+  TextTable(const TextTable&) = delete;
+  TextTable& operator=(const TextTable&) = delete;
+
+  const std::vector<TextLine>& lines() const { return lines_; }
+
+  /// "file:12", for messages.
+  std::string where(const TextLine& line) const;
+
+ private:
+  std::string file_;
+  std::string text_;
+  std::vector<TextLine> lines_;
+};
+
+}  // namespace mms

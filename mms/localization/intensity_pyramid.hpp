@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "mms/core/feature_cloud.hpp"
+#include "mms/core/labeled_cloud.hpp"
+
+namespace mms {
+
+/// Intensity pyramid of an organised, coloured cloud, finest level (the cloud's grid) first. Each
+/// level halves the one before; it ends early when a level would be under 16 pixels wide or high.
+std::vector<IntensityLevel> build_intensity_pyramid(const LabeledCloud& cloud, int levels);
+
+}  // namespace mms

@@ -1,0 +1,151 @@
+#include "mms/localization/odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mms/geometry/se3.hpp"
+
+namespace mms {
+namespace {
+
+/// Velocity kept from frame to frame while lost: people who stop before the lens do not send the
+/// estimate through the wall.
+constexpr double kCoasting = 0.5;
+
+constexpr double kVoxelsPerRange = 25.0;
+constexpr double kMinVoxel = 0.05;  ///< [m]
+constexpr double kMaxVoxel = 1.0;   ///< [m]
+constexpr double kRadiusPerVoxel = 200.0;
+
+/// The features as they would have been measured at the frame's stamp by a sensor that moves with
+/// `velocity`: cameras take depth and colour a few milliseconds apart.
+FeatureCloud at_frame_stamp(const FeatureCloud& features, const Vector6d& velocity) {
+  FeatureCloud moved = features;
+  if (features.points_offset == Duration::zero()) return moved;
+  const Eigen::Isometry3f T = se3::exp(velocity * to_seconds(features.points_offset)).cast<float>();
+  for (EdgeFeature& edge : moved.edges) edge.point = T * edge.point;
+  for (PlaneFeature& plane : moved.planes) {
+    plane.point = T * plane.point;
+    plane.normal = T.linear() * plane.normal;
+  }
+  return moved;
+}
+
+}  // namespace
+
+void OdometryConfig::visit(ConfigVisitor& v) {
+  v.number({"voxel_size", "m", "edge of the local maps' voxels; 0 chooses it from the first frame"},
+           voxel_size, {0.0, 10.0});
+  v.number({"map_radius", "m", "local maps reach this far; 0 is 200 voxels"}, map_radius,
+           {0.0, 1000.0});
+  v.integer({"max_voxels", "", "bound on the voxels of a local map"}, max_voxels,
+            {1000, 10'000'000});
+  v.integer({"min_inliers", "", "a frame with fewer inlying residuals is lost"}, min_inliers,
+            {6, 100000});
+  v.number({"min_inlier_share", "", "a frame with a smaller share of inliers is lost"},
+           min_inlier_share, {0.0, 1.0});
+  v.number({"max_speed", "m/s", "a faster estimate is not believed"}, max_speed, {0.1, 1000.0});
+  v.number({"max_turn_rate", "deg/s", "a faster estimate is not believed"}, max_turn_rate,
+           {1.0, 36000.0});
+  v.group({"registration", "", "robust Gauss-Newton of a frame against the local maps"},
+          registration);
+}
+
+Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
+    : config_(config), keyframes_(config.registration.photometric, noise), noise_(noise) {}
+
+OdometryEstimate Odometry::estimate(const FeatureCloud& measured) {
+  if (!maps_) return initialize(measured);
+  const FeatureCloud features = at_frame_stamp(measured, velocity_);
+  const double elapsed = to_seconds(features.stamp - stamp_);
+  const Isometry prediction = predict(features.stamp);
+  const RegistrationResult result = register_frame(
+      features, {*maps_, keyframes_.nearest(prediction)}, prediction, config_.registration, noise_);
+
+  OdometryEstimate estimate;
+  estimate.stamp = features.stamp;
+  estimate.information = result.information;
+  estimate.edge_inliers = result.geometric.edges.inliers;
+  estimate.plane_inliers = result.geometric.planes.inliers;
+  estimate.intensity_inliers = result.intensity_inliers;
+  estimate.iterations = result.iterations;
+  estimate.degenerate_directions = result.degenerate_directions;
+  estimate.plane_rms =
+      std::sqrt(result.geometric.plane_square_sum / std::max(1, result.geometric.planes.inliers));
+  if (trustworthy(features, result, elapsed)) {
+    estimate.status = lost_                              ? Status::kRecovered
+                      : result.degenerate_directions > 0 ? Status::kDegenerate
+                                                         : Status::kTracking;
+    accept(features, result.T_world_sensor, elapsed);
+  } else {
+    estimate.status = Status::kLost;
+    coast(prediction);
+  }
+  stamp_ = features.stamp;
+  estimate.T_world_sensor = Transform<World, Sensor>(pose_);
+  return estimate;
+}
+
+OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
+  OdometryEstimate estimate;
+  estimate.stamp = features.stamp;
+  estimate.T_world_sensor = Transform<World, Sensor>(pose_);
+  stamp_ = features.stamp;
+  const auto count = features.planes.size() + features.edges.size();
+  if (count < static_cast<std::size_t>(config_.min_inliers)) {
+    estimate.status = Status::kLost;
+    return estimate;
+  }
+  const double voxel =
+      config_.voxel_size > 0.0
+          ? config_.voxel_size
+          : std::clamp(median_range(features) / kVoxelsPerRange, kMinVoxel, kMaxVoxel);
+  map_radius_ = config_.map_radius > 0.0 ? config_.map_radius : kRadiusPerVoxel * voxel;
+  maps_.emplace(voxel, static_cast<std::size_t>(config_.max_voxels));
+  update_maps(features);
+  return estimate;
+}
+
+Odometry::Isometry Odometry::predict(Timestamp stamp) const {
+  return pose_ * se3::exp(velocity_ * to_seconds(stamp - stamp_));
+}
+
+bool Odometry::trustworthy(const FeatureCloud& features, const RegistrationResult& result,
+                           double elapsed) const {
+  const GeometricEquations& geometric = result.geometric;
+  const int inliers = geometric.edges.inliers + geometric.planes.inliers;
+  const auto offered = static_cast<double>(features.edges.size() + features.planes.size());
+  if (inliers + result.intensity_inliers < config_.min_inliers) return false;
+  if (inliers < config_.min_inlier_share * offered) return false;
+  if (!result.T_world_sensor.matrix().allFinite()) return false;
+  const Isometry motion = pose_.inverse() * result.T_world_sensor;
+  const double seconds = std::max(elapsed, 1e-3);
+  return motion.translation().norm() <= config_.max_speed * seconds &&
+         se3::angle(motion) <= config_.max_turn_rate * M_PI / 180.0 * seconds;
+}
+
+void Odometry::accept(const FeatureCloud& features, const Isometry& pose, double elapsed) {
+  const Vector6d motion = se3::log(pose_.inverse() * pose);
+  velocity_ = lost_ || elapsed <= 0.0 ? Vector6d(Vector6d::Zero()) : Vector6d(motion / elapsed);
+  pose_ = pose;
+  lost_ = false;
+  update_maps(features);
+}
+
+void Odometry::coast(const Isometry& pose) {
+  pose_ = pose;
+  velocity_ *= kCoasting;
+  lost_ = true;
+}
+
+void Odometry::update_maps(const FeatureCloud& features) {
+  maps_->insert(features, pose_, config_.registration.geometric.association);
+  keyframes_.update(features.intensity, pose_);
+  // Trimming costs a pass over the maps: only when the sensor has moved on.
+  if ((pose_.translation() - trimmed_at_.translation()).norm() > 0.1 * map_radius_) {
+    maps_->remove_farther_than(pose_.translation().cast<float>(), static_cast<float>(map_radius_));
+    trimmed_at_ = pose_;
+  }
+}
+
+}  // namespace mms

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mms/core/config.hpp"
+#include "mms/core/feature_cloud.hpp"
+#include "mms/core/transform.hpp"
+#include "mms/geometry/depth_noise.hpp"
+#include "mms/localization/normal_equations.hpp"
+
+namespace mms {
+
+struct PhotometricConfig {
+  bool enabled = true;
+  double min_gradient = 4.0;
+  int cell_px = 3;
+  double min_sigma = 3.0;
+  double weight = 1.0;
+  double depth_gate = 0.05;
+  int references = 2;
+  double keyframe_translation = 0.08;
+  double keyframe_rotation = 5.0;
+  int max_keyframes = 100;
+
+  void visit(ConfigVisitor& v);
+};
+
+/// Static pixel with texture: where it is and how bright.
+struct TexturedPoint {
+  Eigen::Vector3f point;  ///< in the keyframe's sensor frame [m]
+  float intensity;        ///< [0, 255]
+};
+
+/// What later frames are compared with photometrically.
+struct IntensityKeyframe {
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
+  std::vector<std::vector<TexturedPoint>> levels;  ///< finest first
+};
+
+/// Takes the strongest gradient of every cell of `cell_px` pixels, where the surface is static and
+/// continuous; its depth is averaged over the pixels around it on the same surface.
+IntensityKeyframe make_intensity_keyframe(const std::vector<IntensityLevel>& levels,
+                                          const Eigen::Isometry3d& T_world_sensor,
+                                          const PhotometricConfig& config, const DepthNoise& noise);
+
+/// Exposure change between two images, current = gain * keyframe + bias, and the spread of the
+/// residuals left [grey levels]; both re-estimated in every iteration.
+struct PhotometricState {
+  double gain = 1.0;
+  double bias = 0.0;
+  double sigma = 12.0;
+};
+
+/// Sum over one keyframe's points with what the next iteration's state is made of.
+struct PhotometricEquations {
+  NormalEquations equations;
+  int visible = 0;                             ///< points that fell on a consistent static pixel
+  std::array<std::uint32_t, 128> histogram{};  ///< of |residual|, one grey level a bin
+  double sw = 0.0, sk = 0.0, sc = 0.0, skk = 0.0, skc = 0.0;  ///< weighted moments for the gain
+
+  PhotometricEquations& operator+=(const PhotometricEquations& other);
+  PhotometricState next(const PhotometricState& now, double min_sigma) const;
+};
+
+/// Photometric residuals of a keyframe's points in the current image, beyond the paper:
+/// r = I(pi(T^-1 T_k p)) - (gain I_k + bias), weighted by a t-distribution (Kerl et al., ICRA
+/// 2013). A point counts only where the current frame has a static depth that agrees with it: what
+/// the masks miss of a person stands before the point and is left out.
+PhotometricEquations photometric_equations(const IntensityKeyframe& keyframe, std::size_t level,
+                                           const IntensityLevel& current,
+                                           const Eigen::Isometry3d& T_world_sensor,
+                                           const PhotometricState& state,
+                                           const PhotometricConfig& config,
+                                           const DepthNoise& noise);
+
+}  // namespace mms

@@ -1,0 +1,139 @@
+#include "mms/localization/scan_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "mms/geometry/parallel.hpp"
+#include "mms/geometry/point_map.hpp"
+#include "mms/localization/local_surface.hpp"
+
+namespace mms {
+namespace {
+
+constexpr float kRadiusInVoxels = 2.5F;  ///< neighbourhood of eq. (2) and of the plane fit
+constexpr std::size_t kMinNeighbors = 6;
+constexpr int kSectors = 36;  ///< of direction around each of two axes
+constexpr std::size_t kEdgesPerSector = 8;
+constexpr float kPlaneFlatness = 0.2F;  ///< thickness over width of a plane
+constexpr double kMinVoxel = 0.05;      ///< [m]
+constexpr double kMaxVoxel = 1.0;       ///< [m]
+
+std::vector<Eigen::Vector3f> static_points(const LabeledCloud& cloud) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.labels[i] == PointLabel::kStatic) points.push_back(cloud.points[i]);
+  }
+  return points;
+}
+
+/// One point a voxel, the first: a mean would lie off thin structures.
+std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points, double voxel) {
+  PointMap map(voxel, {.max_points_per_voxel = 1});
+  map.insert(points);
+  return map.points();
+}
+
+struct Analysis {
+  float smoothness = 0.0F;  ///< magnitude of eq. (2) over range
+  std::optional<PlaneFeature> plane;
+};
+
+/// Eq. (2) and the plane through the neighbourhood; nothing with too few neighbours.
+std::optional<Analysis> analyse(const Eigen::Vector3f& point, const PointMap& map, float radius,
+                                const FeatureConfig& config, std::vector<Neighbor>& neighbors) {
+  map.within(point, radius, neighbors);
+  if (neighbors.size() < kMinNeighbors) return std::nullopt;
+  const float range = point.norm();
+  float sum = 0.0F;
+  PlaneFit fit(point);
+  for (const Neighbor& n : neighbors) {
+    sum += range - n.point.norm();
+    fit.add(n.point);
+  }
+  Analysis result;
+  result.smoothness = std::abs(sum) / static_cast<float>(neighbors.size()) / range;
+  const PlaneFit::Plane plane = fit.solve();
+  const float incidence = -plane.normal.dot(point) / range;
+  const bool flat = plane.thickness < kPlaneFlatness * plane.width;
+  // A scan's own geometry makes floors grazing far away; only the plainly degenerate go.
+  if (flat && incidence > 0.02F) {
+    result.plane = PlaneFeature{point, plane.normal, static_cast<float>(config.scan_noise)};
+  }
+  return result;
+}
+
+/// Index of the direction sector of a point, by azimuth around two axes so that any mounting works.
+std::size_t direction_sector(const Eigen::Vector3f& p) {
+  const auto sector = [](float a, float b) {
+    const float turn = (std::atan2(a, b) / static_cast<float>(M_PI) + 1.0F) * 0.5F;
+    return std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1);
+  };
+  return static_cast<std::size_t>(sector(p.y(), p.x()) * kSectors +
+                                  sector(p.z(), p.head<2>().norm()));
+}
+
+struct EdgeCandidate {
+  std::size_t sector;
+  float smoothness;
+  std::size_t index;
+};
+
+void choose_edges(std::vector<EdgeCandidate>& candidates,
+                  const std::vector<Eigen::Vector3f>& points, const FeatureConfig& config,
+                  std::vector<EdgeFeature>& edges) {
+  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.sector, b.smoothness, a.index) < std::tie(b.sector, a.smoothness, b.index);
+  });
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (i > 0 && candidates[i].sector != candidates[i - 1].sector) taken = 0;
+    if (taken++ >= kEdgesPerSector) continue;
+    edges.push_back({points[candidates[i].index], static_cast<float>(config.scan_noise)});
+  }
+}
+
+}  // namespace
+
+double automatic_scan_voxel(const std::vector<Eigen::Vector3f>& points) {
+  if (points.empty()) return kMinVoxel;
+  std::vector<float> ranges;
+  ranges.reserve(points.size());
+  for (const Eigen::Vector3f& p : points) ranges.push_back(p.norm());
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return std::clamp(static_cast<double>(*middle) / 25.0, kMinVoxel, kMaxVoxel);
+}
+
+void extract_scan_features(const LabeledCloud& cloud, const FeatureConfig& config,
+                           FeatureCloud& features) {
+  const std::vector<Eigen::Vector3f> all = static_points(cloud);
+  const double voxel = config.scan_voxel > 0.0 ? config.scan_voxel : automatic_scan_voxel(all);
+  const std::vector<Eigen::Vector3f> dense = thinned(all, 0.5 * voxel);
+  const std::vector<Eigen::Vector3f> points = thinned(dense, voxel);
+  const float radius = kRadiusInVoxels * 0.5F * static_cast<float>(voxel);
+  PointMap map(radius, {.max_points_per_voxel = 64});
+  map.insert(dense);
+
+  std::vector<std::optional<Analysis>> analyses(points.size());
+  parallel_chunks(points.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> neighbors;
+    for (std::size_t i = begin; i < end; ++i) {
+      analyses[i] = analyse(points[i], map, radius, config, neighbors);
+    }
+  });
+
+  std::vector<EdgeCandidate> candidates;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!analyses[i]) continue;
+    if (analyses[i]->plane) {
+      features.planes.push_back(*analyses[i]->plane);
+    } else if (analyses[i]->smoothness > static_cast<float>(config.edge_smoothness)) {
+      candidates.push_back({direction_sector(points[i]), analyses[i]->smoothness, i});
+    }
+  }
+  choose_edges(candidates, points, config, features.edges);
+}
+
+}  // namespace mms

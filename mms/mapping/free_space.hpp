@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mms/core/config.hpp"
+#include "mms/core/image.hpp"
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/geometry/camera.hpp"
+#include "mms/geometry/depth_noise.hpp"
+
+namespace mms {
+
+struct CarvingConfig {
+  bool enabled = true;
+  double margin = 0.10;  ///< [m]
+  double ratio = 1.0;
+
+  void visit(ConfigVisitor& v) {
+    v.boolean({"enabled", "", "remove from the map what later keyframes see through"}, enabled);
+    v.number({"margin", "m", "least distance of the measured surface behind, above noise"}, margin,
+             {0.0, 10.0});
+    v.number({"ratio", "", "looks through per hit that remove a voxel"}, ratio, {0.1, 1000.0});
+  }
+};
+
+/// The space one organised cloud sees to be empty: in front of its measured points, static or
+/// dynamic alike. A pixel counts only where it and its eight neighbours have a depth, and with the
+/// nearest of them, so that holes and the rims of objects carve nothing.
+class FreeSpace {
+ public:
+  FreeSpace(const LabeledCloud& cloud, double margin, const DepthNoise& noise);
+
+  /// True where the measured surface is clearly behind `point` (sensor frame [m]).
+  bool sees_through(const Eigen::Vector3f& point) const;
+
+  /// False where no point of the ball (sensor frame [m]) can be seen through; cheap.
+  bool may_see_into(const Eigen::Vector3f& center, float radius) const;
+
+ private:
+  Eigen::Vector2f pixel_of(const Eigen::Vector3f& point) const;
+  float needed_depth(float z) const { return z + margin_ + 3.0F * noise_.sigma(z); }
+
+  CameraModel camera_;
+  bool distorted_;
+  Eigen::Array2f focal_;   // of a camera without distortion, in single precision [px]
+  Eigen::Array2f center_;  // [px]
+  float margin_;
+  DepthNoise noise_;
+  Image<float> nearest_;   // of 3 x 3 pixels [m], 0 where any has none
+  Image<float> farthest_;  // of `nearest_` in kTile x kTile pixels
+};
+
+}  // namespace mms

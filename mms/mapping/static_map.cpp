@@ -1,0 +1,130 @@
+#include "mms/mapping/static_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "mms/mapping/voxel_normals.hpp"
+
+namespace mms {
+namespace {
+
+void increment(std::uint16_t& counter) {
+  if (counter < std::numeric_limits<std::uint16_t>::max()) ++counter;
+}
+
+/// Adds a point to the voxel's means.
+void add(const SurfacePoint& surface, const Eigen::Isometry3f& T_world_sensor,
+         std::uint32_t keyframe, Voxel& voxel) {
+  if (voxel.last_keyframe != keyframe) increment(voxel.hits);
+  voxel.last_keyframe = keyframe;
+  voxel.weight += surface.weight;
+  const float share = surface.weight / voxel.weight;
+  const Eigen::Vector3f color(surface.color.r, surface.color.g, surface.color.b);
+  voxel.position += share * (T_world_sensor * surface.point - voxel.position);
+  voxel.normal += share * (T_world_sensor.linear() * surface.normal - voxel.normal);
+  voxel.color += share * (color - voxel.color);
+}
+
+Rgb to_rgb(const Eigen::Vector3f& color) {
+  const auto channel = [](float value) { return static_cast<std::uint8_t>(value + 0.5F); };
+  return {channel(color.x()), channel(color.y()), channel(color.z())};
+}
+
+}  // namespace
+
+StaticMap::StaticMap(const StaticMapConfig& config) : config_(config), grid_(config.voxel_size) {}
+
+MapUpdate StaticMap::integrate(const LabeledCloud& cloud,
+                               const Transform<World, Sensor>& T_world_sensor) {
+  MapUpdate update;
+  if (!T_world_sensor.is_finite()) return update;
+  const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
+  viewpoints_.emplace_back(T.translation());
+  const std::vector<SurfacePoint> points = surface_points(cloud, config_.surface);
+  insert(points, T);
+  update.points = points.size();
+  if (config_.carving.enabled && cloud.organised()) {
+    const FreeSpace free_space(cloud, config_.carving.margin, config_.surface.noise);
+    update.carved = carve(free_space, T.inverse());
+  }
+  update.coarsened = keep_to_budget();
+  return update;
+}
+
+void StaticMap::insert(const std::vector<SurfacePoint>& points,
+                       const Eigen::Isometry3f& T_world_sensor) {
+  const auto keyframe = static_cast<std::uint32_t>(viewpoints_.size());
+  // A large map lies in main memory: half the time went into waiting for one voxel after the other.
+  constexpr std::size_t kBatch = 32;
+  std::array<VoxelGrid::Place, kBatch> places;
+  for (std::size_t begin = 0; begin < points.size(); begin += kBatch) {
+    const std::size_t count = std::min(kBatch, points.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      places[i] = grid_.place(Eigen::Vector3f(T_world_sensor * points[begin + i].point));
+      __builtin_prefetch(&places[i].voxel());
+      __builtin_prefetch(&places[i].voxel().cell);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      add(points[begin + i], T_world_sensor, keyframe, places[i].voxel());
+    }
+  }
+}
+
+std::size_t StaticMap::carve(const FreeSpace& free_space, const Eigen::Isometry3f& T_sensor_world) {
+  const auto keyframe = static_cast<std::uint32_t>(viewpoints_.size());
+  const auto ratio = static_cast<float>(config_.carving.ratio);
+  const auto side = static_cast<float>(grid_.block_size());
+  const float radius = 0.5F * std::sqrt(3.0F) * side;
+  const auto gone = [&](Voxel& voxel) {
+    if (voxel.last_keyframe == keyframe) return false;
+    if (!free_space.sees_through(T_sensor_world * voxel.position)) return false;
+    increment(voxel.seen_through);
+    return voxel.seen_through > ratio * voxel.hits;
+  };
+  std::size_t carved = 0;
+  for (VoxelBlock& block : grid_.blocks()) {
+    const Eigen::Vector3f corner(static_cast<float>(block.key.x), static_cast<float>(block.key.y),
+                                 static_cast<float>(block.key.z));
+    const Eigen::Vector3f center = (corner.array() + 0.5F).matrix() * side;
+    if (!free_space.may_see_into(T_sensor_world * center, radius)) continue;
+    carved += grid_.erase_if(block, gone);
+  }
+  return carved;
+}
+
+bool StaticMap::keep_to_budget() {
+  // The coarser copy is built beside the finer map and takes about a third of its memory.
+  const double limit = 0.75 * config_.memory * 1e6;
+  bool coarsened = false;
+  while (static_cast<double>(grid_.memory_bytes()) > limit && grid_.blocks().size() > 1) {
+    grid_ = grid_.coarsened();
+    coarsened = true;
+  }
+  return coarsened;
+}
+
+Eigen::Vector3f StaticMap::normal_of(const VoxelBlock& block, const Voxel& voxel) const {
+  const float length = voxel.normal.norm();
+  if (length > 1e-3F) return voxel.normal / length;
+  return neighbourhood_normal(grid_, block, voxel, viewpoints_[voxel.last_keyframe - 1]);
+}
+
+MapCloud StaticMap::cloud() const {
+  const std::size_t needed =
+      std::min(static_cast<std::size_t>(config_.min_observations), keyframes());
+  MapCloud cloud;
+  for (const VoxelBlock& block : grid_.blocks()) {
+    for (const Voxel& voxel : block.voxels) {
+      if (voxel.hits < needed) continue;
+      cloud.points.push_back(voxel.position);
+      cloud.colors.push_back(to_rgb(voxel.color));
+      cloud.normals.push_back(normal_of(block, voxel));
+      cloud.observations.push_back(voxel.hits);
+    }
+  }
+  return cloud;
+}
+
+}  // namespace mms

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "mms/core/config.hpp"
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/core/transform.hpp"
+#include "mms/mapping/free_space.hpp"
+#include "mms/mapping/map_cloud.hpp"
+#include "mms/mapping/surface_points.hpp"
+#include "mms/mapping/voxel_grid.hpp"
+
+namespace mms {
+
+struct StaticMapConfig {
+  double voxel_size = 0.02;  ///< [m]
+  double memory = 512.0;     ///< [MB]
+  int min_observations = 2;
+  SurfaceConfig surface{};
+  CarvingConfig carving{};
+
+  void visit(ConfigVisitor& v) {
+    v.number({"voxel_size", "m", "side of a voxel, doubled whenever the memory is used up"},
+             voxel_size, {0.001, 10.0});
+    v.number({"memory", "MB", "budget of the map"}, memory, {1.0, 1e6});
+    v.integer({"min_observations", "", "keyframes that have to see a voxel before it is shown"},
+              min_observations, {1.0, 1000.0});
+    v.group({"surface", "", "points that are fit for the map"}, surface);
+    v.group({"carving", "", "removal of what is seen to be gone"}, carving);
+  }
+};
+
+/// What one keyframe did to the static map.
+struct MapUpdate {
+  std::size_t points = 0;  ///< that went in
+  std::size_t carved = 0;  ///< voxels removed because they are seen through
+  bool coarsened = false;  ///< the voxel size grew to keep to the memory budget
+};
+
+/// The dense coloured static map (III-D): static points of the keyframes, down-sampled by a voxel
+/// grid to running means of position, colour and normal.
+///
+/// Beyond the paper: points that a mask missed leave ghosts of people in the map; a voxel is
+/// dropped once keyframes that measure something behind it outnumber those that measured it. Needs
+/// organised clouds; LiDAR scans only add. And the memory is bounded: when the budget is used up,
+/// voxels are merged to twice their size, so that the map stays whole.
+class StaticMap {
+ public:
+  explicit StaticMap(const StaticMapConfig& config = {});
+
+  /// Adds a keyframe's static points. A pose that is not finite changes nothing.
+  /// @throws DataError when an organised cloud's `camera` makes no camera.
+  MapUpdate integrate(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
+
+  /// The voxels seen by `min_observations` keyframes (or by all, while there are fewer), in the
+  /// order in which they came into the map.
+  MapCloud cloud() const;
+
+  std::size_t size() const { return grid_.size(); }  ///< voxels, those with few observations too
+  std::size_t memory_bytes() const { return grid_.memory_bytes(); }
+  double voxel_size() const { return grid_.voxel_size(); }  ///< current one [m]
+  std::size_t keyframes() const { return viewpoints_.size(); }
+
+ private:
+  void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor);
+  std::size_t carve(const FreeSpace& free_space, const Eigen::Isometry3f& T_sensor_world);
+  bool keep_to_budget();
+  Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
+
+  StaticMapConfig config_;
+  VoxelGrid grid_;
+  std::vector<Eigen::Vector3f> viewpoints_;  // of the keyframes; keyframe n is at n - 1
+};
+
+}  // namespace mms

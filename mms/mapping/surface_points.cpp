@@ -1,0 +1,112 @@
+#include "mms/mapping/surface_points.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace mms {
+namespace {
+
+/// The organised cloud as an image of inverse depth, which is linear on any plane, so that its
+/// second difference finds jumps without taking a floor at a grazing angle for one.
+class Grid {
+ public:
+  Grid(const LabeledCloud& cloud, const SurfaceConfig& config)
+      : cloud_(cloud), config_(config), inverse_(cloud.width, cloud.height) {
+    for (std::size_t i = 0; i < inverse_.size(); ++i) {
+      const float z = cloud.points[i].z();
+      inverse_[i] = z > 0.0F ? 1.0F / z : 0.0F;
+    }
+  }
+
+  /// Largest difference of inverse depth at depth `z` that noise and `max_jump` explain.
+  float tolerance(float z) const {
+    // 3 sigma of the second difference, whose variance is 1 + 1 + 2^2 of a depth's.
+    return (static_cast<float>(config_.max_jump) + 7.3F * config_.noise.sigma(z)) / (z * z);
+  }
+
+  bool on_surface(int x, int y, float tolerance) const {
+    return smooth(x, y, 1, 0, tolerance) && smooth(x, y, 0, 1, tolerance);
+  }
+
+  /// Normal from central differences; zero where a neighbour is missing or across a jump.
+  Eigen::Vector3f normal(int x, int y, float tolerance) const {
+    constexpr int kStep = 3;  // wide enough that noise turns it by about ten degrees at 2 m
+    const bool whole = inverse(x - kStep, y) > 0.0F && inverse(x + kStep, y) > 0.0F &&
+                       inverse(x, y - kStep) > 0.0F && inverse(x, y + kStep) > 0.0F &&
+                       smooth(x, y, kStep, 0, tolerance) && smooth(x, y, 0, kStep, tolerance);
+    if (!whole) return Eigen::Vector3f::Zero();
+    const Eigen::Vector3f along_x = point(x + kStep, y) - point(x - kStep, y);
+    const Eigen::Vector3f along_y = point(x, y + kStep) - point(x, y - kStep);
+    const Eigen::Vector3f normal = along_y.cross(along_x);  // towards the camera
+    const float length = normal.norm();
+    return length > 1e-12F ? Eigen::Vector3f(normal / length) : Eigen::Vector3f::Zero();
+  }
+
+ private:
+  const Eigen::Vector3f& point(int x, int y) const {
+    return cloud_.points[static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud_.width) +
+                         static_cast<std::size_t>(x)];
+  }
+
+  float inverse(int x, int y) const { return inverse_.contains(x, y) ? inverse_(x, y) : 0.0F; }
+
+  /// No jump at (x, y) along one axis. Beside a hole only the first difference is left.
+  bool smooth(int x, int y, int dx, int dy, float tolerance) const {
+    const float here = inverse_(x, y);
+    const float before = inverse(x - dx, y - dy);
+    const float after = inverse(x + dx, y + dy);
+    if (before > 0.0F && after > 0.0F) return std::abs(2.0F * here - before - after) <= tolerance;
+    const float single = std::max(before, after);
+    return single == 0.0F || std::abs(here - single) <= tolerance;
+  }
+
+  const LabeledCloud& cloud_;
+  const SurfaceConfig& config_;
+  Image<float> inverse_;  // [1/m], 0 for no return
+};
+
+Rgb color_of(const LabeledCloud& cloud, std::size_t i) {
+  return cloud.colors.empty() ? SurfacePoint{}.color : cloud.colors[i];
+}
+
+std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const SurfaceConfig& config) {
+  const Grid grid(cloud, config);
+  const auto least = static_cast<float>(config.noise.base);
+  std::vector<SurfacePoint> result;
+  result.reserve(cloud.points.size());
+  for (int y = 0; y < cloud.height; ++y) {
+    for (int x = 0; x < cloud.width; ++x) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
+                     static_cast<std::size_t>(x);
+      const float z = cloud.points[i].z();
+      if (cloud.labels[i] != PointLabel::kStatic || !(z > 0.0F)) continue;
+      if (z > static_cast<float>(config.max_depth)) continue;
+      const float tolerance = grid.tolerance(z);
+      if (!grid.on_surface(x, y, tolerance)) continue;
+      const float ratio = least / config.noise.sigma(z);
+      result.push_back(
+          {cloud.points[i], grid.normal(x, y, tolerance), ratio * ratio, color_of(cloud, i)});
+    }
+  }
+  return result;
+}
+
+std::vector<SurfacePoint> scan_points(const LabeledCloud& cloud, const SurfaceConfig& config) {
+  const auto limit = static_cast<float>(config.max_range);
+  std::vector<SurfacePoint> result;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.labels[i] != PointLabel::kStatic) continue;
+    if (!(cloud.points[i].norm() <= limit)) continue;
+    result.push_back({cloud.points[i], Eigen::Vector3f::Zero(), 1.0F, color_of(cloud, i)});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> surface_points(const LabeledCloud& cloud, const SurfaceConfig& config) {
+  return cloud.organised() ? organised_points(cloud, config) : scan_points(cloud, config);
+}
+
+}  // namespace mms

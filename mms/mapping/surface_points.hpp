@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mms/core/config.hpp"
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/geometry/depth_noise.hpp"
+
+namespace mms {
+
+struct SurfaceConfig {
+  double max_depth = 6.0;     ///< [m]
+  double max_range = 1000.0;  ///< [m]
+  double max_jump = 0.05;     ///< [m]
+  DepthNoise noise{};  ///< of the depth camera; the sensor's, so not among the visited fields
+
+  void visit(ConfigVisitor& v) {
+    v.number({"max_depth", "m", "farthest point of a depth image that is mapped"}, max_depth,
+             {0.1, 1000.0});
+    v.number({"max_range", "m", "farthest point of a LiDAR scan that is mapped"}, max_range,
+             {0.1, 1e5});
+    v.number({"max_jump", "m", "bend between neighbouring pixels that is no surface, above noise"},
+             max_jump, {0.0, 10.0});
+  }
+};
+
+/// A static point fit for the map, in the sensor frame.
+struct SurfacePoint {
+  Eigen::Vector3f point;                             ///< [m]
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the sensor; zero if unknown
+  float weight = 1.0F;                               ///< 1 / variance, 1 at the least noise
+  Rgb color{128, 128, 128};
+};
+
+/// The static points of `cloud` that lie within range and, where the cloud is organised, not on a
+/// depth discontinuity, where a pixel averages two surfaces and hangs in the air between them.
+std::vector<SurfacePoint> surface_points(const LabeledCloud& cloud, const SurfaceConfig& config);
+
+}  // namespace mms

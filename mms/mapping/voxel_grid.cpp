@@ -1,0 +1,99 @@
+#include "mms/mapping/voxel_grid.hpp"
+
+#include <algorithm>
+
+namespace mms {
+namespace {
+
+constexpr int kBits = VoxelBlock::kBits;
+constexpr int kMask = VoxelBlock::kSide - 1;
+
+VoxelKey block_of(const VoxelKey& key) {
+  return {key.x >> kBits, key.y >> kBits, key.z >> kBits};
+}
+
+std::uint16_t cell_of(const VoxelKey& key) {
+  return static_cast<std::uint16_t>((key.x & kMask) | ((key.y & kMask) << kBits) |
+                                    ((key.z & kMask) << (2 * kBits)));
+}
+
+void merge(const Voxel& from, Voxel& into) {
+  const bool first = into.hits == 0;
+  into.weight += from.weight;
+  const float share = from.weight / into.weight;
+  into.position += share * (from.position - into.position);
+  into.normal += share * (from.normal - into.normal);
+  into.color += share * (from.color - into.color);
+  into.hits = std::max(into.hits, from.hits);
+  into.seen_through = first ? from.seen_through : std::min(into.seen_through, from.seen_through);
+  into.last_keyframe = std::max(into.last_keyframe, from.last_keyframe);
+}
+
+}  // namespace
+
+VoxelKey VoxelBlock::voxel_key(const Voxel& voxel) const {
+  const int cell = voxel.cell;
+  return {key.x * kSide + (cell & kMask), key.y * kSide + ((cell >> kBits) & kMask),
+          key.z * kSide + (cell >> (2 * kBits))};
+}
+
+VoxelGrid::VoxelGrid(double voxel_size)
+    : voxel_size_(voxel_size), inverse_size_(static_cast<float>(1.0 / voxel_size)) {}
+
+std::size_t VoxelGrid::block_index(const VoxelKey& key) {
+  if (last_block_ < blocks_.size() && blocks_[last_block_].key == key) return last_block_;
+  const auto [entry, created] = index_.insert({key, static_cast<std::uint32_t>(blocks_.size())});
+  if (created) blocks_.emplace_back().key = key;
+  return last_block_ = entry->second;
+}
+
+VoxelGrid::Place VoxelGrid::place(const VoxelKey& key) {
+  VoxelBlock& block = blocks_[block_index(block_of(key))];
+  const std::uint16_t cell = cell_of(key);
+  if (block.slot[cell] == 0) {
+    const std::size_t before = block.voxels.capacity();
+    block.voxels.emplace_back().cell = cell;
+    block.slot[cell] = static_cast<std::uint16_t>(block.voxels.size());
+    capacity_ += block.voxels.capacity() - before;
+    ++size_;
+  }
+  return {&block, block.slot[cell] - 1U};
+}
+
+const Voxel* VoxelGrid::find(const VoxelKey& key) const {
+  const auto entry = index_.find(block_of(key));
+  if (entry == index_.end()) return nullptr;
+  const VoxelBlock& block = blocks_[entry->second];
+  const std::uint16_t slot = block.slot[cell_of(key)];
+  return slot == 0 ? nullptr : &block.voxels[slot - 1U];
+}
+
+void VoxelGrid::erase(VoxelBlock& block, std::size_t index) {
+  block.slot[block.voxels[index].cell] = 0;
+  if (index + 1 != block.voxels.size()) {
+    block.voxels[index] = block.voxels.back();
+    block.slot[block.voxels[index].cell] = static_cast<std::uint16_t>(index + 1);
+  }
+  block.voxels.pop_back();
+  --size_;
+}
+
+VoxelGrid VoxelGrid::coarsened() const {
+  VoxelGrid coarse(2.0 * voxel_size_);
+  for (const VoxelBlock& block : blocks_) {
+    for (const Voxel& voxel : block.voxels) {
+      const VoxelKey key = block.voxel_key(voxel);
+      merge(voxel, coarse.place(VoxelKey{key.x >> 1, key.y >> 1, key.z >> 1}).voxel());
+    }
+  }
+  return coarse;
+}
+
+std::size_t VoxelGrid::memory_bytes() const {
+  using Entry = std::pair<VoxelKey, std::uint32_t>;
+  constexpr std::size_t kBucket = sizeof(Entry) + 8;  // robin_map's distance and stored hash
+  return blocks_.size() * sizeof(VoxelBlock) + capacity_ * sizeof(Voxel) +
+         index_.bucket_count() * kBucket;
+}
+
+}  // namespace mms

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+#include "mms/core/frame.hpp"
+#include "mms/pipeline/frame_result.hpp"
+#include "mms/pipeline/slam_system.hpp"
+
+namespace mms {
+
+struct AsyncOptions {
+  int threads = 2;  ///< 1 runs every step in the calling thread
+  bool realtime =
+      false;  ///< frames come at their stamps' pace; those that find no room are dropped
+};
+
+/// A frame on its way out of the pipeline.
+struct Processed {
+  Frame frame;
+  FrameResult result;
+  double read_ms = 0.0;  ///< time the source took for the frame
+};
+
+/// Runs a SlamSystem over a stream: reading, perception and localisation of successive frames
+/// overlap in threads joined by bounded queues. The steps and their order are those of
+/// `SlamSystem::process`, so the results are the same bits for any number of threads.
+class AsyncPipeline {
+ public:
+  using Source = std::function<std::optional<Frame>()>;
+  using Sink = std::function<void(const Processed&)>;
+
+  explicit AsyncPipeline(const AsyncOptions& options) : options_(options) {}
+
+  /// Processes all frames of `source` and hands them to `sink`, in order and in the calling thread.
+  /// @throws what source, system or sink throw, after the threads have ended.
+  void run(SlamSystem& system, const Source& source, const Sink& sink);
+
+  /// Frames dropped in real time so far.
+  std::size_t dropped() const { return dropped_; }
+
+ private:
+  void run_serial(SlamSystem& system, const Source& source, const Sink& sink);
+  void run_threaded(SlamSystem& system, const Source& source, const Sink& sink);
+
+  AsyncOptions options_;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace mms

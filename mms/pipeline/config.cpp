@@ -1,0 +1,15 @@
+#include "mms/pipeline/config.hpp"
+
+namespace mms {
+
+void SystemConfig::visit(ConfigVisitor& v) {
+  v.group({"depth_noise", "", "the depth camera's noise, used by every module"}, depth_noise);
+  v.group({"fusion", "", "masks and geometry into static and dynamic points (III-B)"}, fusion);
+  v.group({"features", "", "edge and planar features (III-C.1)"}, features);
+  v.group({"odometry", "", "data association and pose (III-C.2, III-C.3)"}, odometry);
+  v.group({"keyframes", "", "which frames update the static map (III-C.4)"}, keyframes);
+  v.group({"static_map", "", "dense coloured map of what does not move (III-D)"}, static_map);
+  v.group({"dynamic_map", "", "tracked objects (III-D)"}, dynamic_map);
+}
+
+}  // namespace mms

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "mms/core/config.hpp"
+#include "mms/fusion/fusion_config.hpp"
+#include "mms/geometry/depth_noise.hpp"
+#include "mms/localization/feature_extractor.hpp"
+#include "mms/localization/odometry.hpp"
+#include "mms/mapping/dynamic_map.hpp"
+#include "mms/mapping/keyframe_selector.hpp"
+#include "mms/mapping/static_map.hpp"
+
+namespace mms {
+
+/// All settings of a SlamSystem, a group a module; `mms config dump` prints them with their
+/// meaning.
+struct SystemConfig {
+  DepthNoise depth_noise;
+  FusionConfig fusion;
+  FeatureConfig features;
+  OdometryConfig odometry;
+  KeyframeConfig keyframes;
+  StaticMapConfig static_map;
+  DynamicMapConfig dynamic_map;
+
+  void visit(ConfigVisitor& v);
+};
+
+}  // namespace mms

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/core/odometry_estimate.hpp"
+
+namespace mms {
+
+/// The steps of a frame that are timed.
+enum class Stage { kSegmentation, kFusion, kFeatures, kOdometry, kMapping };
+inline constexpr std::size_t kStageCount = 5;
+
+constexpr std::string_view to_string(Stage stage) {
+  constexpr std::array<std::string_view, kStageCount> kNames = {"segmentation", "fusion",
+                                                                "features", "odometry", "mapping"};
+  return kNames[static_cast<std::size_t>(stage)];
+}
+
+/// Duration of every stage of one frame [ms].
+using StageTimes = std::array<double, kStageCount>;
+
+/// What `SlamSystem::process` gives back of one frame.
+struct FrameResult {
+  OdometryEstimate odometry;
+  LabeledCloud cloud;
+  bool keyframe = false;
+  double dynamic_share = 0.0;  ///< of the valid points, in [0, 1]
+  StageTimes stage_ms{};
+};
+
+}  // namespace mms

@@ -1,0 +1,74 @@
+#include "mms/pipeline/slam_system.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace mms {
+namespace {
+
+/// Runs one step and notes how long it took.
+template <class Step>
+auto timed(StageTimes& times, Stage stage, const Step& step) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  auto result = step();
+  const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
+  times[static_cast<std::size_t>(stage)] = elapsed.count();
+  return result;
+}
+
+/// Gives every module the one depth noise model.
+SystemConfig with_shared_noise(SystemConfig config) {
+  config.fusion.noise = config.depth_noise;
+  config.features.noise = config.depth_noise;
+  config.static_map.surface.noise = config.depth_noise;
+  return config;
+}
+
+}  // namespace
+
+SlamSystem::SlamSystem(const SystemConfig& given, std::unique_ptr<Segmenter> segmenter)
+    : segmenter_(std::move(segmenter)),
+      fusion_(with_shared_noise(given).fusion),
+      extractor_(with_shared_noise(given).features),
+      odometry_(given.odometry, given.depth_noise),
+      keyframes_(given.keyframes),
+      static_map_(with_shared_noise(given).static_map),
+      dynamic_map_(given.dynamic_map) {}
+
+FrameResult SlamSystem::process(const Frame& frame) {
+  return localize(perceive(frame));
+}
+
+Perception SlamSystem::perceive(const Frame& frame) {
+  Perception p;
+  const Segmentation segmentation = timed(p.stage_ms, Stage::kSegmentation, [&] {
+    return segmenter_->segment(frame);  // III-A, eq. (1)
+  });
+  p.labeled = timed(p.stage_ms, Stage::kFusion, [&] {
+    return fusion_.fuse(frame, segmentation);  // III-B
+  });
+  p.features = timed(p.stage_ms, Stage::kFeatures, [&] {
+    return extractor_.extract(p.labeled);  // III-C.1, eq. (2)
+  });
+  return p;
+}
+
+FrameResult SlamSystem::localize(Perception perception) {
+  FrameResult result;
+  result.stage_ms = perception.stage_ms;
+  result.cloud = std::move(perception.labeled);
+  result.dynamic_share = dynamic_share(result.cloud);
+  result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
+    return odometry_.estimate(perception.features);  // III-C.2, III-C.3, eqs. (3)-(5)
+  });
+  result.keyframe = timed(result.stage_ms, Stage::kMapping, [&] {
+    const bool keyframe = keyframes_.is_keyframe(result.odometry);                      // III-C.4
+    if (keyframe) static_map_.integrate(result.cloud, result.odometry.T_world_sensor);  // III-D
+    dynamic_map_.update(result.cloud, result.odometry);
+    return keyframe;
+  });
+  return result;
+}
+
+}  // namespace mms

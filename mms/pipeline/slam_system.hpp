@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+
+#include "mms/core/frame.hpp"
+#include "mms/fusion/semantic_fusion.hpp"
+#include "mms/localization/feature_extractor.hpp"
+#include "mms/localization/odometry.hpp"
+#include "mms/mapping/dynamic_map.hpp"
+#include "mms/mapping/keyframe_selector.hpp"
+#include "mms/mapping/static_map.hpp"
+#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/frame_result.hpp"
+#include "mms/segmentation/segmenter.hpp"
+
+namespace mms {
+
+/// Output of a frame's steps that need no other frame (III-A, III-B, III-C.1).
+struct Perception {
+  LabeledCloud labeled;
+  FeatureCloud features;
+  StageTimes stage_ms{};
+};
+
+/// The whole method, one frame at a time. Synchronous: owns no thread, file or clock beside the
+/// stop watch of its stages. Parallel steps run in the caller's tbb::task_arena; the result does
+/// not depend on how many threads that has.
+class SlamSystem {
+ public:
+  /// @throws ConfigError when a setting makes no sense with another.
+  SlamSystem(const SystemConfig& config, std::unique_ptr<Segmenter> segmenter);
+
+  /// Localises a frame and integrates it into the maps. Frames come in the order of their stamps.
+  /// @throws DataError when the frame's images and calibration disagree in size.
+  FrameResult process(const Frame& frame);
+
+  /// The two halves of `process`, for a pipeline that overlaps them between frames.
+  Perception perceive(const Frame& frame);
+  FrameResult localize(Perception perception);
+
+  const StaticMap& static_map() const { return static_map_; }
+  const DynamicMap& dynamic_map() const { return dynamic_map_; }
+
+ private:
+  std::unique_ptr<Segmenter> segmenter_;
+  SemanticFusion fusion_;
+  FeatureExtractor extractor_;
+  Odometry odometry_;
+  KeyframeSelector keyframes_;
+  StaticMap static_map_;
+  DynamicMap dynamic_map_;
+};
+
+}  // namespace mms

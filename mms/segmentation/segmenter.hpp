@@ -1,0 +1,17 @@
+#pragma once
+
+#include "mms/core/frame.hpp"
+#include "mms/core/segmentation.hpp"
+
+namespace mms {
+
+/// Finds the potentially dynamic objects in a frame's image (III-A).
+class Segmenter {
+ public:
+  virtual ~Segmenter() = default;
+
+  /// The instances of `frame`; the result has the size of the image they were found in.
+  virtual Segmentation segment(const Frame& frame) = 0;
+};
+
+}  // namespace mms

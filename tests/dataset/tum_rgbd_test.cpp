@@ -1,0 +1,233 @@
+#include "mms/dataset/tum_rgbd.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/open_dataset.hpp"
+#include "mms/dataset/tum_calibration.hpp"
+#include "tests/dataset/recording.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+
+std::string fault_of(const TempFolder& folder, const SourceOptions& options = {}) {
+  return message_of<DataError>([&] { open_dataset(folder.path(), options); });
+}
+
+TEST(TumRgbd, ReadsFrames) {
+  const TempFolder folder;
+  write_tum(folder, 3);
+  folder.write("groundtruth.txt", "5.0 1 2 3 0 0 0 1\n");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "f0 f1 f2");
+  EXPECT_EQ(played.source->size(), 3U);
+  EXPECT_EQ(played.source->skipped(), 0U);
+  EXPECT_TRUE(played.warnings.empty());
+  EXPECT_EQ(played.source->ground_truth().size(), 1U);
+  const Frame& frame = played.frames[2];
+  EXPECT_EQ(frame.index, 2);
+  EXPECT_EQ(frame.stamp, Timestamp(5'200'000'000));
+  EXPECT_EQ(frame.color(7, 5), (Rgb{2, 0, 0}));
+  EXPECT_EQ(frame.depth(7, 5), 1.5F);
+  EXPECT_TRUE(frame.mask.empty());
+  EXPECT_EQ(frame.calibration->camera->fx, 10.0);
+}
+
+TEST(TumRgbd, DescribesItself) {
+  const TempFolder folder;
+  write_tum(folder, 3);
+  const auto lines = open_dataset(folder.path())->describe();
+  for (const char* fact : {"layout: TUM RGB-D", "3 colour and 3 depth images, 3 matched",
+                           "calibration.yaml", "masks: none", "image: 8x6 pixels, 1000 depth units",
+                           "frames: 3", "0.200 s", "rate: 10.00 Hz", "ground truth: none"}) {
+    EXPECT_TRUE(any_has(lines, fact)) << fact;
+  }
+}
+
+TEST(TumRgbd, SkipPassesOverFrames) {
+  const TempFolder folder;
+  write_tum(folder, 4);
+  const auto source = open_dataset(folder.path());
+  source->skip(2);
+  EXPECT_EQ(source->next()->name, "f2");
+  source->skip(100);
+  EXPECT_FALSE(source->next());
+  EXPECT_EQ(source->skipped(), 0U);
+}
+
+TEST(TumRgbd, AssociationsInEitherOrder) {
+  const TempFolder folder;
+  write_tum(folder, 2);
+  std::filesystem::remove(folder.path() / "depth.txt");
+  folder.write("associations.txt", "5.0 rgb/f0.png 5.01 depth/f0.png\n");
+  EXPECT_EQ(Playback(open_dataset(folder.path())).names(), "f0");
+  folder.write("associations.txt", "5.01 depth/f1.png 5.0 rgb/f1.png\n");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "f1");
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(5'000'000'000));
+}
+
+TEST(TumRgbd, DamagedFramesAreSkippedAndNamed) {
+  const TempFolder folder;
+  write_tum(folder, 7);
+  const auto color = [&](int i) { return folder.path() / "rgb" / file_of(i); };
+  std::filesystem::remove(color(0));
+  folder.write("rgb/f1.png", std::string("\x89PNG\r\n\x1a\nhalf", 12));
+  folder.write("rgb/f2.png", "");
+  write_png(color(3), Image<Rgb>(4, 3));
+  write_png(folder.path() / "depth/f4.png", Image<std::uint16_t>(4, 3));
+  write_png(folder.path() / "depth/f5.png", Image<std::uint8_t>(kWidth, kHeight));
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "f6");
+  EXPECT_EQ(played.frames[0].index, 6);
+  EXPECT_EQ(played.source->skipped(), 6U);
+  ASSERT_EQ(played.warnings.size(), 6U);
+  const char* faults[] = {"no such file",
+                          "truncated PNG",
+                          "is empty",
+                          "is 4x3 pixels, the calib",
+                          "is 4x3 pixels, the calib",
+                          "16-bit depth PNG"};
+  for (std::size_t i = 0; i < 6; ++i) {
+    expect_in(std::string("frame f").append(std::to_string(i)) + " skipped: ", played.warnings[i]);
+    expect_in(faults[i], played.warnings[i]);
+  }
+}
+
+TEST(TumRgbd, ARecordingOfDamagedFramesGivesNone) {
+  const TempFolder folder;
+  write_tum(folder, 3);
+  std::filesystem::remove_all(folder.path() / "depth");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_TRUE(played.frames.empty());
+  EXPECT_EQ(played.source->skipped(), played.source->size());
+}
+
+TEST(TumRgbd, DepthWithoutReturnsIsOrdinary) {
+  const TempFolder folder;
+  write_tum(folder, 1);
+  write_depth(folder.path() / "depth/f0.png", 0);
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.frames.size(), 1U);
+  EXPECT_EQ(played.frames[0].depth(0, 0), 0.0F);
+}
+
+TEST(TumRgbd, DuplicateStampsKeepTheFirst) {
+  const TempFolder folder;
+  write_tum(folder, 3);
+  folder.write("rgb.txt", "5.0 rgb/f0.png\n5.0 rgb/f1.png\n5.2 rgb/f2.png\n");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "f0 f2");
+  EXPECT_TRUE(any_has(played.warnings, "rgb.txt:2: line left out, its stamp was there before"));
+}
+
+TEST(TumRgbd, StampsGoingBackAreSkippedAndCounted) {
+  const TempFolder folder;
+  write_tum(folder, 3);
+  folder.write("rgb.txt", "5.1 rgb/f1.png\n5.0 rgb/f0.png\n5.2 rgb/f2.png\n");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "f1 f2");
+  EXPECT_EQ(played.source->skipped(), 1U);
+  EXPECT_TRUE(
+      any_has(played.warnings, "frame f0 skipped: its stamp 5.000000000 is not later than"));
+}
+
+TEST(TumRgbd, DamagedLinesAreLeftOut) {
+  const TempFolder folder;
+  write_tum(folder, 2);
+  folder.write("rgb.txt", "5.0 rgb/f0.png\nx rgb/f1.png\n5.1\n5.1 rgb/f1.png\n");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "f0 f1");
+  EXPECT_TRUE(
+      any_has(played.warnings, "rgb.txt:2: line left out, 'stamp path' is wanted (2 such lines)"));
+}
+
+TEST(TumRgbd, MasksAreReadAndMissingOnesNamedOnce) {
+  const TempFolder folder;
+  write_tum(folder, 3);
+  std::filesystem::create_directories(folder.path() / "masks");
+  write_png(folder.path() / "masks/f0.png", Image<std::uint8_t>(kWidth, kHeight, 2));
+  write_png(folder.path() / "masks/f2.png", Image<std::uint8_t>(3, 3, 2));
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "f0 f1");
+  EXPECT_EQ(played.frames[0].mask(3, 3), 2);
+  EXPECT_TRUE(played.frames[1].mask.empty());
+  ASSERT_EQ(played.warnings.size(), 2U);
+  expect_in("only 2 of 3 frames have a mask, the first one missing is f1.png", played.warnings[0]);
+  expect_in("frame f2 skipped: ", played.warnings[1]);
+  expect_in("is 3x3 pixels", played.warnings[1]);
+  EXPECT_EQ(Playback(open_dataset(folder.path(), {.masks = {}, .load_masks = false})).names(),
+            "f0 f1 f2");
+}
+
+TEST(TumRgbd, AnotherFolderOfMasks) {
+  const TempFolder folder;
+  write_tum(folder, 1);
+  std::filesystem::create_directories(folder.path() / "other");
+  const SourceOptions options{.masks = folder.path() / "other"};
+  expect_in("has a mask for none of the frames", fault_of(folder, options));
+  write_png(options.masks / "f0.png", Image<std::uint8_t>(kWidth, kHeight, 1));
+  EXPECT_EQ(Playback(open_dataset(folder.path(), options)).frames[0].mask(0, 0), 1);
+}
+
+TEST(TumRgbd, MissingListsAreNamed) {
+  const TempFolder folder;
+  write_tum(folder, 1);
+  std::filesystem::remove(folder.path() / "depth.txt");
+  expect_in("is a TUM-layout sequence, but depth.txt is missing", fault_of(folder));
+  std::filesystem::remove(folder.path() / "rgb.txt");
+  expect_in("rgb.txt and depth.txt are missing", fault_of(folder));
+  folder.write("depth.txt", "1 depth/f0.png\n");
+  expect_in("but rgb.txt is missing", fault_of(folder));
+}
+
+TEST(TumRgbd, ListsWithoutMatchesAreFaults) {
+  const TempFolder folder;
+  write_tum(folder, 1);
+  folder.write("depth.txt", "9.0 depth/f0.png\n");
+  expect_in("of 1 colour and 1 depth images no two have stamps within 0.02 s", fault_of(folder));
+  folder.write("depth.txt", "# nothing\n");
+  expect_in("depth.txt: lists no images", fault_of(folder));
+}
+
+TEST(TumRgbd, WithoutCalibrationItSaysWhatToAdd) {
+  const TempFolder folder;
+  write_tum(folder, 1);
+  std::filesystem::remove(folder.path() / "calibration.yaml");
+  expect_in("add calibration.yaml with fx, fy, cx, cy, width, height", fault_of(folder));
+  folder.write("calibration.yaml", "fx: [oops\n");
+  message_of<ConfigError>([&] { open_dataset(folder.path()); });
+}
+
+TEST(TumRgbd, GarbledTruthNamesItsLine) {
+  const TempFolder folder;
+  write_tum(folder, 1);
+  folder.write("groundtruth.txt", "5.0 1 2 3 0 0 0 1\n5.1 1 2\n");
+  expect_in("groundtruth.txt:2: 3 columns, 8 wanted", fault_of(folder));
+}
+
+TEST(TumCalibration, IsKnownByTheFoldersName) {
+  EXPECT_EQ(tum_default_calibration("/d/rgbd_dataset_freiburg1_xyz")->camera->fx, 517.3);
+  EXPECT_EQ(tum_default_calibration("/d/FR2_desk/")->camera->fx, 520.9);
+  EXPECT_EQ(tum_default_calibration("fr3_walking")->camera->distortion, (std::array<double, 5>{}));
+  EXPECT_EQ(tum_default_calibration("fr3_walking")->depth_scale, 5000.0);
+  EXPECT_FALSE(tum_default_calibration("/fr1/kitchen"));
+}
+
+TEST(TumRgbd, ReadsTheSharedRecordings) {
+  const std::filesystem::path shared =
+      std::filesystem::path(MMS_SOURCE_DIR) / "../shared/data/rgbd";
+  if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";
+  const auto source = open_dataset(shared / "lab_crowd");
+  EXPECT_EQ(source->size(), 149U);
+  const auto frame = source->next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->color.width(), 640);
+  EXPECT_TRUE(frame->mask.same_size(frame->depth));
+  EXPECT_EQ(open_dataset(shared / "fr1_xyz_clip")->ground_truth().empty(), false);
+}
+
+}  // namespace
+}  // namespace mms

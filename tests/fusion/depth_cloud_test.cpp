@@ -1,0 +1,68 @@
+#include "mms/fusion/depth_cloud.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "mms/geometry/camera.hpp"
+#include "tests/fusion/scene.hpp"
+
+namespace mms {
+namespace {
+
+using testing::render;
+using testing::room;
+using testing::View;
+
+TEST(DepthCloud, PointsProjectToTheirBlocksCentre) {
+  const View view = render(room());
+  const LabeledCloud cloud = DepthCloudBuilder(FusionConfig{}).build(view.frame);
+  ASSERT_EQ(cloud.width, 320);
+  ASSERT_EQ(cloud.height, 240);
+  const CameraModel full(*view.frame.calibration->camera);
+  const auto i = static_cast<std::size_t>(50 * cloud.width + 70);
+  const Eigen::Vector2d pixel = full.project(cloud.points[i].cast<double>());
+  EXPECT_NEAR(pixel.x(), 140.5, 1e-3);
+  EXPECT_NEAR(pixel.y(), 100.5, 1e-3);
+  EXPECT_NEAR(cloud.points[i].z(), 4.0F, 1e-4F);
+  EXPECT_EQ(cloud.colors[i], (Rgb{100, 110, 120}));
+}
+
+TEST(DepthCloud, BlockOverAnOcclusionBorderKeepsTheNearSurface) {
+  View view = render(room());
+  view.frame.depth(200, 100) = 2.0F;
+  view.frame.depth(201, 100) = 2.01F;
+  const LabeledCloud cloud = DepthCloudBuilder(FusionConfig{}).build(view.frame);
+  EXPECT_NEAR(cloud.points[50 * 320 + 100].z(), 2.005F, 1e-5F);
+}
+
+TEST(DepthCloud, DepthOutOfRangeIsNoReturn) {
+  View view = render(room());
+  for (auto& z : view.frame.depth.pixels()) z = 0.1F;
+  FusionConfig config;
+  EXPECT_EQ(DepthCloudBuilder(config).build(view.frame).labels[1000], PointLabel::kInvalid);
+  for (auto& z : view.frame.depth.pixels()) z = 11.0F;
+  EXPECT_EQ(DepthCloudBuilder(config).build(view.frame).labels[1000], PointLabel::kInvalid);
+  for (auto& z : view.frame.depth.pixels()) z = 10.0F;
+  EXPECT_EQ(DepthCloudBuilder(config).build(view.frame).labels[1000], PointLabel::kStatic);
+}
+
+TEST(DepthCloud, OtherStridesAgreeOnAFlatWall) {
+  const View view = render(room());
+  for (const int stride : {1, 3, 4}) {
+    FusionConfig config;
+    config.stride = stride;
+    const LabeledCloud cloud = DepthCloudBuilder(config).build(view.frame);
+    EXPECT_EQ(cloud.width, 640 / stride);
+    EXPECT_EQ(cloud.height, 480 / stride);
+    EXPECT_NEAR(cloud.points[0].z(), 4.0F, 1e-4F);
+  }
+}
+
+TEST(DepthCloud, ColourOfAnotherSizeIsRefused) {
+  View view = render(room());
+  view.frame.color = Image<Rgb>(320, 240);
+  EXPECT_THROW(DepthCloudBuilder(FusionConfig{}).build(view.frame), DataError);
+}
+
+}  // namespace
+}  // namespace mms

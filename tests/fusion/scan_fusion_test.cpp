@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mms/fusion/semantic_fusion.hpp"
+#include "tests/fusion/scene.hpp"
+
+namespace mms {
+namespace {
+
+using testing::mask_of;
+using testing::render;
+using testing::room_with_person;
+using testing::Scene;
+using testing::segmentation_of;
+using testing::Thing;
+using testing::View;
+
+/// LiDAR 0.3 m above and 0.1 m beside the camera, x forward, z up.
+Transform<Camera, Lidar> extrinsics() {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() << 0, -1, 0,  //
+      0, 0, -1,            //
+      1, 0, 0;
+  T.translation() << 0.1, -0.3, 0.0;
+  return Transform<Camera, Lidar>(T);
+}
+
+struct ScanView {
+  Frame frame;
+  std::vector<Thing> truth;
+  Segmentation segmentation;
+};
+
+/// 48 rings from -25 to 10 degrees, 0.4 degrees apart, all around.
+ScanView scan(const Scene& scene, int mask_grow) {
+  const View view = render(scene);
+  ScanView result;
+  auto calibration = std::make_shared<Calibration>(*view.frame.calibration);
+  calibration->T_camera_lidar = extrinsics();
+  result.frame.name = "scan";
+  result.frame.calibration = calibration;
+  result.frame.color = view.frame.color;
+  result.segmentation = segmentation_of(view, {mask_of(view, Thing::kPerson, mask_grow)});
+  const Eigen::Isometry3f T = extrinsics().isometry().cast<float>();
+  constexpr float kDegree = std::numbers::pi_v<float> / 180.0F;
+  for (int ring = 0; ring < 48; ++ring) {
+    const float up = (-25.0F + 35.0F * static_cast<float>(ring) / 47.0F) * kDegree;
+    for (int step = 0; step < 900; ++step) {
+      const float around = (0.4F * static_cast<float>(step) + 0.01F) * kDegree;
+      const Eigen::Vector3f direction(std::cos(up) * std::cos(around),
+                                      std::cos(up) * std::sin(around), std::sin(up));
+      const Scene::Hit hit = scene.cast(T.translation(), T.linear() * direction);
+      if (hit.thing == Thing::kNothing) continue;
+      result.frame.scan.points.push_back(direction * hit.distance);
+      result.truth.push_back(hit.thing);
+    }
+  }
+  return result;
+}
+
+double dynamic_share_of(const LabeledCloud& cloud, const ScanView& view, Thing thing) {
+  int seen = 0;
+  int dynamic = 0;
+  for (std::size_t i = 0; i < view.truth.size(); ++i) {
+    if (view.truth[i] != thing) continue;
+    ++seen;
+    dynamic += cloud.labels[i] == PointLabel::kDynamic;
+  }
+  return static_cast<double>(dynamic) / seen;
+}
+
+TEST(ScanFusion, ExtrinsicsCarryTheMaskToTheScan) {
+  const ScanView view = scan(room_with_person(), 0);
+  const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
+  EXPECT_FALSE(cloud.organised());
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.97);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.001);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kFloor), 0.002);
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  EXPECT_NEAR(cloud.clusters[0].centroid.x(), 2.5F, 0.1F);
+}
+
+TEST(ScanFusion, WallBehindASloppyMaskComesBack) {
+  const ScanView view = scan(room_with_person(), 15);
+  const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.97);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.001);
+}
+
+TEST(ScanFusion, VisionModeLabelsBehindTheOutlineToo) {
+  const ScanView view = scan(room_with_person(), 15);
+  FusionConfig config;
+  config.mode = FusionMode::kVision;
+  const LabeledCloud cloud = SemanticFusion(config).fuse(view.frame, view.segmentation);
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kWall), 0.001);
+}
+
+TEST(ScanFusion, WithoutCameraAllIsStatic) {
+  ScanView view = scan(room_with_person(), 0);
+  view.frame.calibration = std::make_shared<Calibration>();
+  const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
+  EXPECT_EQ(dynamic_share(cloud), 0.0);
+}
+
+TEST(ScanFusion, BadPointsAreInvalidAndAnEmptyScanIsEmpty) {
+  ScanView view = scan(room_with_person(), 0);
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  view.frame.scan.points[0] = Eigen::Vector3f(kInf, 0.0F, 0.0F);
+  view.frame.scan.points[1] = Eigen::Vector3f::Constant(std::nanf(""));
+  view.frame.scan.points[2] = Eigen::Vector3f::Zero();
+  SemanticFusion fusion{FusionConfig{}};
+  const LabeledCloud cloud = fusion.fuse(view.frame, view.segmentation);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(cloud.labels[i], PointLabel::kInvalid);
+  view.frame.scan.points.clear();
+  EXPECT_TRUE(fusion.fuse(view.frame, view.segmentation).points.empty());
+}
+
+TEST(ScanFusion, SameInputGivesTheSameBits) {
+  const ScanView view = scan(room_with_person(), 3);
+  SemanticFusion fusion{FusionConfig{}};
+  const LabeledCloud a = fusion.fuse(view.frame, view.segmentation);
+  const LabeledCloud b = fusion.fuse(view.frame, view.segmentation);
+  EXPECT_EQ(a.labels, b.labels);
+  EXPECT_EQ(a.cluster, b.cluster);
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,201 @@
+#include "mms/fusion/semantic_fusion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "mms/core/error.hpp"
+#include "tests/fusion/scene.hpp"
+
+namespace mms {
+namespace {
+
+using testing::mask_of;
+using testing::render;
+using testing::room;
+using testing::room_with_person;
+using testing::segmentation_of;
+using testing::Thing;
+using testing::View;
+
+LabeledCloud fuse(const View& view, std::vector<Instance> instances,
+                  FusionMode mode = FusionMode::kMultimodal) {
+  FusionConfig config;
+  config.mode = mode;
+  return SemanticFusion(config).fuse(view.frame, segmentation_of(view, std::move(instances)));
+}
+
+/// Share of the dynamic points among those whose whole block sees `thing`.
+double dynamic_share_of(const LabeledCloud& cloud, const View& view, Thing thing) {
+  int seen = 0;
+  int dynamic = 0;
+  for (int y = 0; y < cloud.height; ++y) {
+    for (int x = 0; x < cloud.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * cloud.width + x);
+      const bool is_thing =
+          view.truth(2 * x, 2 * y) == thing && view.truth(2 * x + 1, 2 * y) == thing &&
+          view.truth(2 * x, 2 * y + 1) == thing && view.truth(2 * x + 1, 2 * y + 1) == thing;
+      if (!is_thing) continue;
+      ++seen;
+      dynamic += cloud.labels[i] == PointLabel::kDynamic;
+    }
+  }
+  return seen == 0 ? 0.0 : static_cast<double>(dynamic) / seen;
+}
+
+void expect_only_person(const LabeledCloud& cloud, const View& view) {
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.002);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kFloor), 0.01);
+}
+
+TEST(SemanticFusion, ExactMaskMakesThePersonDynamicAndNothingElse) {
+  const View view = render(room_with_person());
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
+  expect_only_person(cloud, view);
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  const DynamicCluster& person = cloud.clusters[0];
+  EXPECT_EQ(person.object_class, ObjectClass::kPerson);
+  EXPECT_NEAR(person.box_min.x(), -0.25F, 0.03F);
+  EXPECT_NEAR(person.box_max.x(), 0.25F, 0.03F);
+  EXPECT_NEAR(person.box_min.y(), -0.5F, 0.06F);
+  EXPECT_NEAR(person.centroid.z(), 2.5F, 0.05F);
+  EXPECT_GT(person.points, 9000);
+}
+
+TEST(SemanticFusion, HalfAMaskMakesTheWholePersonDynamic) {
+  const View view = render(room_with_person());
+  Instance half = mask_of(view, Thing::kPerson);
+  for (int y = 307; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) half.mask(x, y) = 0;
+  }
+  expect_only_person(fuse(view, {half}), view);
+}
+
+TEST(SemanticFusion, ErodedMaskIsCompletedByGeometry) {
+  const View view = render(room_with_person());
+  expect_only_person(fuse(view, {mask_of(view, Thing::kPerson, -15)}), view);
+}
+
+TEST(SemanticFusion, MaskFarTooLargeGivesTheWallBack) {
+  const View view = render(room_with_person());
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson, 20)});
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.001);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kFloor), 0.03);
+}
+
+TEST(SemanticFusion, MissingMaskLeavesAllStatic) {
+  const View view = render(room_with_person());
+  const LabeledCloud cloud = fuse(view, {});
+  EXPECT_EQ(dynamic_share(cloud), 0.0);
+  EXPECT_TRUE(cloud.clusters.empty());
+}
+
+TEST(SemanticFusion, OverlappingMasksAreDynamicTwice) {
+  auto scene = room_with_person();
+  scene.add(Thing::kOther, {0.1F, -0.6F, 3.0F}, {0.6F, 1.2F, 3.3F});
+  const View view = render(scene);
+  Instance front = mask_of(view, Thing::kPerson, 6);
+  Instance back = mask_of(view, Thing::kOther, 6);
+  const LabeledCloud cloud = fuse(view, {front, back});
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kOther), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.002);
+  EXPECT_EQ(cloud.clusters.size(), 2U);
+}
+
+TEST(SemanticFusion, PersonLeaningOnTheWallDoesNotTakeItAlong) {
+  const View view = render(room().add(Thing::kPerson, {-0.25F, -0.5F, 3.7F}, {0.25F, 1.2F, 4.0F}));
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
+  expect_only_person(cloud, view);
+}
+
+TEST(SemanticFusion, DeskBehindASloppyMaskComesBack) {
+  auto scene = room_with_person();
+  scene.add(Thing::kDesk, {-0.8F, 0.4F, 3.1F}, {1.0F, 1.2F, 3.6F});
+  const View view = render(scene);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson, 10)});
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kDesk), 0.002);
+}
+
+TEST(SemanticFusion, PersonTouchingFurnitureIsSplitOff) {
+  auto scene = room_with_person();
+  // Shelf boards, each too low for a plane of its own, that meet the person's side.
+  for (int k = 0; k < 6; ++k) {
+    const float y = -0.4F + 0.25F * static_cast<float>(k);
+    const float z = k % 2 == 0 ? 2.55F : 2.62F;
+    scene.add(Thing::kDesk, {0.25F, y, z}, {1.4F, y + 0.22F, z + 0.2F});
+  }
+  const View view = render(scene);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kDesk), 0.2);
+}
+
+TEST(SemanticFusion, VisionModeTakesTheDilatedMaskAsItIs) {
+  const View view = render(room_with_person());
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)}, FusionMode::kVision);
+  EXPECT_EQ(dynamic_share_of(cloud, view, Thing::kPerson), 1.0);
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kWall), 0.005);
+  EXPECT_EQ(cloud.clusters.size(), 1U);
+}
+
+TEST(SemanticFusion, NoneModeIgnoresTheMask) {
+  const View view = render(room_with_person());
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)}, FusionMode::kNone);
+  EXPECT_EQ(dynamic_share(cloud), 0.0);
+}
+
+TEST(SemanticFusion, PixelsWithoutReturnUnderTheMaskAreDynamic) {
+  View view = render(room_with_person());
+  for (int y = 200; y < 220; ++y) {
+    for (int x = 310; x < 330; ++x) view.frame.depth(x, y) = 0.0F;
+  }
+  view.frame.depth(20, 20) = view.frame.depth(21, 20) = 0.0F;
+  view.frame.depth(20, 21) = view.frame.depth(21, 21) = std::numeric_limits<float>::infinity();
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
+  EXPECT_NE(cloud.dynamic_pixels(160, 105), 0);
+  EXPECT_EQ(cloud.dynamic_pixels(10, 10), 0);
+  const auto corner = static_cast<std::size_t>(10 * cloud.width + 10);
+  EXPECT_EQ(cloud.labels[corner], PointLabel::kInvalid);
+  EXPECT_TRUE(cloud.points[corner].hasNaN());
+}
+
+TEST(SemanticFusion, DepthWithoutAnyReturnIsAnInvalidCloud) {
+  View view = render(room_with_person());
+  const Instance mask = mask_of(view, Thing::kPerson);
+  view.frame.depth = Image<float>(640, 480, std::numeric_limits<float>::quiet_NaN());
+  const LabeledCloud cloud = fuse(view, {mask});
+  EXPECT_EQ(dynamic_share(cloud), 0.0);
+  EXPECT_TRUE(cloud.clusters.empty());
+}
+
+TEST(SemanticFusion, SizesThatDisagreeAreNamed) {
+  const View view = render(room());
+  SemanticFusion fusion{FusionConfig{}};
+  try {
+    fusion.fuse(view.frame, {320, 240, {}});
+    FAIL() << "masks of another size were taken";
+  } catch (const DataError& error) {
+    EXPECT_NE(std::strstr(error.what(), "320 x 240"), nullptr) << error.what();
+    EXPECT_NE(std::strstr(error.what(), "640 x 480"), nullptr) << error.what();
+  }
+}
+
+TEST(SemanticFusion, SameInputGivesTheSameBits) {
+  const View view = render(room_with_person());
+  const Instance mask = mask_of(view, Thing::kPerson, -8);
+  const LabeledCloud a = fuse(view, {mask});
+  const LabeledCloud b = fuse(view, {mask});
+  EXPECT_EQ(a.labels, b.labels);
+  EXPECT_EQ(a.cluster, b.cluster);
+  ASSERT_EQ(a.clusters.size(), b.clusters.size());
+  EXPECT_EQ(a.clusters[0].centroid, b.clusters[0].centroid);
+  EXPECT_EQ(a.clusters[0].box_max, b.clusters[0].box_max);
+}
+
+}  // namespace
+}  // namespace mms

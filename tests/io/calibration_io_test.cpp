@@ -1,0 +1,85 @@
+#include "mms/io/calibration_io.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "mms/geometry/se3.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using testing::expect_in;
+using testing::message_of;
+using testing::TempFolder;
+
+const std::string kCamera =
+    "fx: 500\nfy: 501\ncx: 320.5\ncy: 240\nwidth: 640\nheight: 480\ndepth_scale: 5000\n";
+
+TEST(CalibrationIo, ReadsACamera) {
+  const TempFolder folder;
+  const Calibration calibration =
+      read_calibration(folder.write("c.yaml", kCamera + "distortion: [0.1, -0.2, 0.01, 0.02]\n"));
+  EXPECT_EQ(*calibration.camera,
+            (CameraIntrinsics{500, 501, 320.5, 240, 640, 480, {0.1, -0.2, 0.01, 0.02, 0}}));
+  EXPECT_EQ(calibration.depth_scale, 5000.0);
+  EXPECT_TRUE(calibration.T_camera_lidar.isometry().matrix().isIdentity(0.0));
+}
+
+TEST(CalibrationIo, ReadsExtrinsicsFlatOrInRows) {
+  const TempFolder folder;
+  const auto z_of = [&](const std::string& yaml) {
+    const Calibration calibration = read_calibration(folder.write("c.yaml", yaml));
+    EXPECT_FALSE(calibration.camera);
+    return calibration.T_camera_lidar.translation().z();
+  };
+  EXPECT_EQ(z_of("T_camera_lidar: [1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3]\n"), 3.0);
+  EXPECT_EQ(z_of("T_camera_lidar:\n- [1, 0, 0, 1]\n- [0, 1, 0, 2]\n- [0, 0, 1, 3]\n"
+                 "- [0, 0, 0, 1]\n"),
+            3.0);
+}
+
+TEST(CalibrationIo, RoundTripsExactly) {
+  const TempFolder folder;
+  Calibration written;
+  written.camera = CameraIntrinsics{517.3, 516.5, 318.6, 255.3, 640, 480, {0.2, -0.9, 0, 0, 1.1}};
+  written.depth_scale = 999.7;
+  Vector6d tangent;
+  tangent << 0.1, -0.2, 1.0 / 3.0, 0.4, -0.5, 0.6;
+  written.T_camera_lidar = Transform<Camera, Lidar>(se3::exp(tangent));
+  const auto path = folder.path() / "calibration.yaml";
+  write_calibration(path, written);
+  const Calibration read = read_calibration(path);
+  EXPECT_EQ(read.camera, written.camera);
+  EXPECT_EQ(read.depth_scale, written.depth_scale);
+  EXPECT_EQ(read.T_camera_lidar.isometry().matrix(), written.T_camera_lidar.isometry().matrix());
+}
+
+TEST(CalibrationIo, FaultsNameFileLineAndKey) {
+  const TempFolder folder;
+  const std::pair<std::string, const char*> cases[] = {
+      {kCamera + "fz: 3\n", ":8: unknown key 'fz' (did you mean 'fx'?)"},
+      {"fx: 500\nfy: 500\n", ": key 'cx' is missing (a camera needs"},
+      {"fx: 0\n" + kCamera.substr(8), ":1: fx is 0, allowed is 0.001 to 100000"},
+      {"fx: -5\n" + kCamera.substr(8), ":1: fx is -5, allowed is"},
+      {"fx: wide\n" + kCamera.substr(8), ":1: fx is 'wide', a number is wanted"},
+      {"fx: .nan\n" + kCamera.substr(8), ":1: fx is '.nan', a number is wanted"},
+      {kCamera + "distortion: [1, 2]\n", ":8: distortion is no list of 4 or 5 numbers"},
+      {kCamera + "distortion: [1, 2, 3, x]\n", ":8: distortion is 'x', a number is wanted"},
+      {kCamera + "width: 640\n", ":8: width is there twice"},
+      {"T_camera_lidar: 5\n", ":1: T_camera_lidar is '5', a matrix is wanted"},
+      {"T_camera_lidar: [1, 2, 3]\n", ":1: T_camera_lidar makes no rigid transform"},
+      {"T_camera_lidar: [1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0]\n", "is not a rotation"},
+      {"T_camera_lidar: &a [*a]\n", "T_camera_lidar"},
+      {"{{{{", "is not YAML"},
+  };
+  for (const auto& [yaml, fault] : cases) {
+    const auto path = folder.write("c.yaml", yaml);
+    const std::string message = message_of<ConfigError>([&] { read_calibration(path); });
+    expect_in(path.string(), message);
+    expect_in(fault, message);
+  }
+}
+
+}  // namespace
+}  // namespace mms

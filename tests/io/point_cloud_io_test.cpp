@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "mms/core/error.hpp"
+#include "mms/io/files.hpp"
+#include "mms/io/kitti_io.hpp"
+#include "mms/io/pcd_io.hpp"
+#include "mms/io/ply_io.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using testing::expect_in;
+using testing::message_of;
+using testing::TempFolder;
+
+PointCloudFile full_cloud() {
+  PointCloudFile cloud;
+  for (int i = 0; i < 100; ++i) {
+    const auto byte = static_cast<std::uint8_t>(i * 2);
+    cloud.points.push_back(Eigen::Vector3f::Random() * 50.0F);
+    cloud.normals.push_back(Eigen::Vector3f::Random().normalized());
+    cloud.colors.push_back({byte, 255, static_cast<std::uint8_t>(255 - byte)});
+    cloud.labels.push_back(i % 7 - 1);
+    cloud.observations.push_back(i * 1000);
+  }
+  return cloud;
+}
+
+void expect_equal(const PointCloudFile& a, const PointCloudFile& b) {
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.colors, b.colors);
+  EXPECT_EQ(a.labels, b.labels);
+  EXPECT_EQ(a.observations, b.observations);
+}
+
+TEST(PointCloudIo, RoundTripsExactly) {
+  const TempFolder folder;
+  PointCloudFile points_only;
+  points_only.points = full_cloud().points;
+  for (const PointCloudFile& cloud : {full_cloud(), points_only, PointCloudFile{}}) {
+    write_ply(folder.path() / "a.ply", cloud);
+    expect_equal(read_ply(folder.path() / "a.ply"), cloud);
+    write_pcd(folder.path() / "a.pcd", cloud);
+    expect_equal(read_pcd(folder.path() / "a.pcd"), cloud);
+  }
+}
+
+TEST(PointCloudIo, KeepsPointsThatAreNotFinite) {
+  const TempFolder folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  PointCloudFile cloud;
+  cloud.points.emplace_back(nan, infinity, -infinity);
+  write_ply(folder.path() / "a.ply", cloud);
+  const Eigen::Vector3f read = read_ply(folder.path() / "a.ply").points[0];
+  EXPECT_TRUE(std::isnan(read.x()));
+  EXPECT_EQ(read.y(), infinity);
+  EXPECT_EQ(read.z(), -infinity);
+}
+
+TEST(PointCloudIo, VectorsHaveToBeParallel) {
+  const TempFolder folder;
+  PointCloudFile cloud = full_cloud();
+  cloud.labels.pop_back();
+  expect_in("100 points, but 99 labels",
+            message_of<DataError>([&] { write_ply(folder.path() / "a.ply", cloud); }));
+  message_of<DataError>([&] { write_pcd(folder.path() / "a.pcd", cloud); });
+  EXPECT_TRUE(list_folder(folder.path()).empty());
+}
+
+TEST(Ply, ReadsAsciiOfOtherPrograms) {
+  const TempFolder folder;
+  const auto path =
+      folder.write("a.ply",
+                   "ply\r\nformat ascii 1.0\r\ncomment by hand\r\n"
+                   "element vertex 2\r\nproperty double x\r\nproperty double y\r\n"
+                   "property double z\r\nproperty float quality\r\n"
+                   "property uchar red\r\nproperty uchar green\r\n"
+                   "property uchar blue\r\nproperty uint label\r\nelement face 1\r\n"
+                   "property list uchar int vertex_indices\r\nend_header\r\n"
+                   "1 2 3 0.5 10 20 30 7\r\n-1.5 nan 1e30 0 0 0 255 0\r\n3 0 1 1\r\n");
+  const PointCloudFile cloud = read_ply(path);
+  ASSERT_EQ(cloud.points.size(), 2U);
+  EXPECT_EQ(cloud.points[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_TRUE(std::isnan(cloud.points[1].y()));
+  EXPECT_EQ(cloud.colors[1], (Rgb{0, 0, 255}));
+  EXPECT_EQ(cloud.labels, (std::vector<std::int32_t>{7, 0}));
+  EXPECT_TRUE(cloud.normals.empty());
+}
+
+const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
+const std::string kBinary = "ply\nformat binary_little_endian 1.0\n";
+
+TEST(Ply, HostileHeadersAreRefusedBeforeAllocating) {
+  const TempFolder folder;
+  const std::pair<std::string, const char*> cases[] = {
+      {"", "the header does not end"},
+      {"png\n", "is not a PLY file"},
+      {std::string(100000, 'x'), "the header does not end"},
+      {"ply\nformat binary_big_endian 1.0\n", "unsupported PLY format 'binary_big_endian'"},
+      {kBinary, "the header does not end"},
+      {kBinary + "element vertex -1\n" + kXyz + "end_header\n", "'-1' is not a count"},
+      {kBinary + "element vertex many\n" + kXyz + "end_header\n", "'many' is not a count"},
+      {kBinary + "element vertex 9000000000000000000\n" + kXyz + "end_header\n0123456789ab",
+       "promises 9000000000000000000 points, but has the bytes of 1"},
+      {"ply\nformat ascii 1.0\nelement vertex 1000000000\n" + kXyz + "end_header\n1 2 3\n",
+       "promises 1000000000 points, but has room for"},
+      {kBinary + "element vertex 1\nend_header\n", "has points without x y z"},
+      {kBinary + "element vertex 1\n" + kXyz + "property float x\nend_header\n", "twice"},
+      {kBinary + "element vertex 1\nproperty list int int x\nend_header\n", "lists"},
+      {kBinary + "element vertex 1\nproperty text x\nend_header\n", "unknown property type"},
+      {kBinary + "element face 1\nend_header\n", "the first element is no vertex"},
+      {kBinary + "property float x\nend_header\n", "unexpected 'property'"},
+      {kBinary + "element vertex 1\n" + kXyz + "property float nx\nend_header\n", "only some of"},
+      {kBinary + "element vertex 1\n" + kXyz + "property float red\nend_header\n", "uchar"},
+  };
+  for (const auto& [bytes, fault] : cases) {
+    const auto path = folder.write("a.ply", bytes);
+    const std::string message = message_of<DataError>([&] { read_ply(path); });
+    expect_in(path.string(), message);
+    expect_in(fault, message);
+  }
+}
+
+TEST(Ply, ValuesThatDoNotFitAreRefused) {
+  const TempFolder folder;
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\n" + kXyz;
+  const auto label =
+      folder.write("a.ply", head + "property double label\nend_header\n0 0 0 1e10\n");
+  expect_in("value 1e+10, allowed is", message_of<DataError>([&] { read_ply(label); }));
+  const auto nan = folder.write("a.ply", head + "property float label\nend_header\n0 0 0 nan\n");
+  message_of<DataError>([&] { read_ply(nan); });
+  const auto word = folder.write("a.ply", head + "end_header\n0 zero 0\n");
+  expect_in("'zero' at point 0 is not a number", message_of<DataError>([&] { read_ply(word); }));
+  const auto cut = folder.write("a.ply", head + "end_header\n100 2000\n");
+  expect_in("ends before point 0", message_of<DataError>([&] { read_ply(cut); }));
+}
+
+TEST(Pcd, ReadsAsciiWithPackedColours) {
+  const TempFolder folder;
+  const auto path = folder.write("a.pcd",
+                                 "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb curvature\n"
+                                 "SIZE 4 4 4 4 4\nTYPE F F F U F\nCOUNT 1 1 1 1 2\nWIDTH 1\n"
+                                 "HEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3 16711935 0.1 0.2\n");
+  const PointCloudFile cloud = read_pcd(path);
+  EXPECT_EQ(cloud.points[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_EQ(cloud.colors[0], (Rgb{255, 0, 255}));
+}
+
+TEST(Pcd, BadHeadersAreRefused) {
+  const TempFolder folder;
+  const std::string xyz = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
+  const std::pair<std::string, const char*> cases[] = {
+      {"hello\n", "the header does not end"},
+      {"DATA binary\n", "it has no FIELDS"},
+      {xyz + "POINTS 5\nDATA binary_compressed\n", "unsupported DATA 'binary_compressed'"},
+      {xyz + "POINTS 5\nDATA binary\n0123456789ab", "promises 5 points, but has the bytes of 1"},
+      {xyz + "POINTS\nDATA binary\n", "is not a count"},
+      {xyz + "COUNT 1 1\nPOINTS 1\nDATA binary\n", "different lengths"},
+      {xyz + "COUNT 1 1 1000000000000\nPOINTS 1\nDATA binary\n", "allowed is up to 4096"},
+      {"FIELDS x\nSIZE 3\nTYPE F\nPOINTS 1\nDATA binary\n", "unknown TYPE and SIZE 'F3'"},
+      {"FIELDS\nSIZE\nTYPE\nPOINTS 1\nDATA binary\n", "without x y z"},
+  };
+  for (const auto& [bytes, fault] : cases) {
+    const auto path = folder.write("a.pcd", bytes);
+    expect_in(fault, message_of<DataError>([&] { read_pcd(path); }));
+  }
+}
+
+TEST(KittiScan, ReadsPointsAndKeepsNaN) {
+  const TempFolder folder;
+  const float values[] = {1.0F, 2.0F, 3.0F, 0.5F, std::nanf(""), 0.0F, 0.0F, 0.25F};
+  std::string bytes(sizeof values, '\0');
+  std::memcpy(bytes.data(), values, sizeof values);
+  const LidarScan scan = read_kitti_scan(folder.write("a.bin", bytes));
+  ASSERT_EQ(scan.points.size(), 2U);
+  EXPECT_EQ(scan.points[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_TRUE(std::isnan(scan.points[1].x()));
+  EXPECT_EQ(scan.intensity, (std::vector<float>{0.5F, 0.25F}));
+  EXPECT_TRUE(scan.time_offset.empty());
+}
+
+TEST(KittiScan, BadSizesAreRefused) {
+  const TempFolder folder;
+  const auto empty = folder.write("a.bin", "");
+  const auto cut = folder.write("b.bin", std::string(33, 'x'));
+  expect_in("empty scan of 0 bytes", message_of<DataError>([&] { read_kitti_scan(empty); }));
+  expect_in("has 33 bytes, not a multiple of 16",
+            message_of<DataError>([&] { read_kitti_scan(cut); }));
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,175 @@
+#include "mms/mapping/static_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/mapping/synthetic_cloud.hpp"
+
+namespace mms {
+namespace {
+
+using test::organised_cloud;
+using test::plane_cloud;
+using test::pose;
+
+const Eigen::Vector3d kForward(0.0, 0.0, 1.0);
+
+/// A wall at 3 m, with something 0.4 m wide before it.
+LabeledCloud wall_with_ghost(float ghost_depth) {
+  return organised_cloud(
+      [=](int x, int, const Eigen::Vector3f&) { return x >= 60 && x < 100 ? ghost_depth : 3.0F; });
+}
+
+std::size_t points_before_the_wall(const StaticMap& map) {
+  std::size_t count = 0;
+  for (const Eigen::Vector3f& point : map.cloud().points) count += point.z() < 2.5F;
+  return count;
+}
+
+TEST(StaticMap, MeansOfAPlaneSeenFromSeveralPosesLieOnIt) {
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.2, 1.0).normalized();
+  StaticMap map;
+  for (int i = 0; i < 5; ++i) {
+    const auto T = pose({0.1 * i, -0.05 * i, 0.08 * i}, 0.05 * i);
+    map.integrate(plane_cloud(normal, 2.0, T), T);
+  }
+  const MapCloud cloud = map.cloud();
+  ASSERT_GT(cloud.size(), 5000U);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    EXPECT_NEAR(normal.dot(cloud.points[i].cast<double>()), 2.0, 1e-4);
+    if (!cloud.normals[i].isZero()) {
+      EXPECT_GT(cloud.normals[i].cast<double>().dot(-normal), 0.999);
+    }
+    EXPECT_EQ(cloud.colors[i], (Rgb{100, 150, 200}));
+  }
+}
+
+TEST(StaticMap, CountsKeyframesNotPoints) {
+  StaticMap map({.voxel_size = 0.5});
+  const LabeledCloud cloud = plane_cloud(kForward, 2.1, pose({0, 0, 0}));
+  for (int i = 0; i < 3; ++i) map.integrate(cloud, pose({0, 0, 0}));
+  for (const int observations : map.cloud().observations) EXPECT_EQ(observations, 3);
+  EXPECT_EQ(map.keyframes(), 3U);
+}
+
+TEST(StaticMap, ShowsWhatWasSeenOnceOnlyWhileThereIsNothingElse) {
+  StaticMap map;
+  map.integrate(plane_cloud(kForward, 2.0, pose({0, 0, 0})), pose({0, 0, 0}));
+  const std::size_t first = map.cloud().size();
+  EXPECT_EQ(first, map.size());
+  const auto elsewhere = pose({0, 0, 0}, 3.0);
+  map.integrate(plane_cloud({0, 0, -1}, 2.0, elsewhere), elsewhere);
+  EXPECT_GT(map.size(), first);
+  EXPECT_EQ(map.cloud().size(), 0U);
+}
+
+TEST(StaticMap, CarvesAGhostButNotTheWall) {
+  StaticMap map({.min_observations = 1});
+  map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0}));
+  ASSERT_GT(points_before_the_wall(map), 1000U);
+  std::size_t carved = 0;
+  for (int i = 0; i < 3; ++i) {
+    carved += map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0})).carved;
+  }
+  EXPECT_GT(carved, 1000U);
+  EXPECT_LT(points_before_the_wall(map), 100U);  // its rim in the image's outermost pixels
+  EXPECT_EQ(map.size(), map.cloud().size());
+}
+
+TEST(StaticMap, KeepsWhatIsHiddenOrHit) {
+  StaticMap map({.min_observations = 1});
+  map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0}));
+  const std::size_t before = map.size();
+  std::size_t carved = 0;
+  for (int i = 0; i < 5; ++i) {
+    carved += map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0})).carved;
+  }
+  EXPECT_EQ(carved, 0U);
+  EXPECT_GT(map.size(), before);
+}
+
+TEST(StaticMap, DynamicDepthBehindCarvesToo) {
+  StaticMap map({.min_observations = 1});
+  map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0}));
+  LabeledCloud behind = wall_with_ghost(2.5F);
+  for (PointLabel& label : behind.labels) label = PointLabel::kDynamic;
+  for (int i = 0; i < 3; ++i) map.integrate(behind, pose({0, 0, 0}));
+  EXPECT_LT(points_before_the_wall(map), 100U);
+}
+
+TEST(StaticMap, DepthWithHolesDoesNotCarve) {
+  StaticMap map({.min_observations = 1});
+  map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0}));
+  const std::size_t ghost = points_before_the_wall(map);
+  const LabeledCloud holes = organised_cloud(
+      [](int x, int y, const Eigen::Vector3f&) { return x % 2 == 0 && y % 2 == 0 ? 0.0F : 3.0F; });
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(map.integrate(holes, pose({0, 0, 0})).carved, 0U);
+  EXPECT_EQ(points_before_the_wall(map), ghost);
+}
+
+TEST(StaticMap, CarvingCanBeSwitchedOff) {
+  StaticMapConfig config;
+  config.carving.enabled = false;
+  StaticMap map(config);
+  map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0}));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0})).carved, 0U);
+  }
+}
+
+TEST(StaticMap, DoublesTheVoxelSizeInsteadOfForgetting) {
+  StaticMap whole;
+  StaticMap bounded({.memory = 1.0});
+  bool coarsened = false;
+  for (int i = 0; i < 10; ++i) {
+    const auto T = pose({2.0 * i, 0.0, 0.0});
+    const LabeledCloud cloud = plane_cloud(kForward, 2.0, T);
+    whole.integrate(cloud, T);
+    coarsened |= bounded.integrate(cloud, T).coarsened;
+    EXPECT_LE(bounded.memory_bytes(), 1000000U);
+  }
+  EXPECT_TRUE(coarsened);
+  EXPECT_GT(bounded.voxel_size(), whole.voxel_size());
+  VoxelGrid kept(bounded.voxel_size());
+  for (const Eigen::Vector3f& point : bounded.cloud().points) {
+    EXPECT_NEAR(point.z(), 2.0F, 1e-4F);
+    kept.at(point);
+  }
+  const auto inverse = static_cast<float>(1.0 / bounded.voxel_size());
+  for (const Eigen::Vector3f& point : whole.cloud().points) {
+    const VoxelKey key = voxel_key(point, inverse);
+    bool found = false;
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy)
+        found |= kept.find({key.x + dx, key.y + dy, key.z}) != nullptr;
+    }
+    EXPECT_TRUE(found) << point.transpose();
+  }
+}
+
+TEST(StaticMap, GivesScansNormalsFromTheirNeighbourhood) {
+  LabeledCloud scan;
+  for (int i = 0; i < 400; ++i) {
+    scan.points.emplace_back(0.1F * static_cast<float>(i % 20), 0.1F * static_cast<float>(i / 20),
+                             5.03F);
+  }
+  scan.height = 1;
+  scan.width = 400;
+  scan.labels.assign(400, PointLabel::kStatic);
+  StaticMap map({.voxel_size = 0.1});
+  map.integrate(scan, pose({0, 0, 0}));
+  const MapCloud cloud = map.cloud();
+  ASSERT_GT(cloud.size(), 300U);
+  for (const Eigen::Vector3f& normal : cloud.normals) EXPECT_NEAR(normal.z(), -1.0F, 1e-3F);
+  EXPECT_EQ(cloud.colors[0], (Rgb{128, 128, 128}));
+}
+
+TEST(StaticMap, IgnoresAPoseThatIsNotFinite) {
+  StaticMap map;
+  const LabeledCloud cloud = plane_cloud(kForward, 2.0, pose({0, 0, 0}));
+  EXPECT_EQ(map.integrate(cloud, pose({NAN, 0, 0})).points, 0U);
+  EXPECT_EQ(map.size(), 0U);
+  EXPECT_EQ(map.cloud().size(), 0U);
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,71 @@
+#include "mms/mapping/surface_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/mapping/synthetic_cloud.hpp"
+
+namespace mms {
+namespace {
+
+using test::organised_cloud;
+using test::plane_cloud;
+using test::pose;
+
+TEST(SurfacePoints, KeepAWholePlaneWithItsNormal) {
+  const auto points = surface_points(plane_cloud({0, 0, 1}, 2.0, pose({0, 0, 0})), {});
+  ASSERT_EQ(points.size(), 160U * 120U);
+  const SurfacePoint& middle = points[60 * 160 + 80];
+  EXPECT_NEAR(middle.normal.z(), -1.0F, 1e-4F);
+  EXPECT_EQ(middle.color, (Rgb{100, 150, 200}));
+}
+
+TEST(SurfacePoints, KeepAFloorAtAGrazingAngle) {
+  const LabeledCloud cloud = organised_cloud([](int, int, const Eigen::Vector3f& ray) {
+    const float z = 1.2F / ray.y();
+    return z > 0.0F && z < 6.0F ? z : 0.0F;
+  });
+  const auto returns = std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kStatic);
+  // Only the row next to the horizon, where the first difference is all there is, may go.
+  EXPECT_GE(surface_points(cloud, {}).size(), static_cast<std::size_t>(returns - 160));
+}
+
+TEST(SurfacePoints, DropPixelsBetweenTwoSurfaces) {
+  const LabeledCloud cloud = organised_cloud([](int x, int, const Eigen::Vector3f&) {
+    return x < 80 ? 1.0F : x == 80 ? 2.0F : 3.0F;
+  });
+  for (const SurfacePoint& surface : surface_points(cloud, {})) {
+    EXPECT_TRUE(surface.point.z() == 1.0F || surface.point.z() == 3.0F) << surface.point.z();
+  }
+}
+
+TEST(SurfacePoints, DropWhatIsFarDynamicOrInvalid) {
+  LabeledCloud cloud = organised_cloud([](int x, int, const Eigen::Vector3f&) {
+    return x < 40 ? 0.0F : x < 80 ? 7.0F : 2.0F;
+  });
+  for (std::size_t i = 0; i < cloud.labels.size(); ++i) {
+    if (i % 160 >= 120) cloud.labels[i] = PointLabel::kDynamic;
+  }
+  const auto points = surface_points(cloud, {});
+  EXPECT_NEAR(static_cast<double>(points.size()), 40.0 * 120.0, 120.0);
+  for (const SurfacePoint& surface : points) EXPECT_EQ(surface.point.z(), 2.0F);
+}
+
+TEST(SurfacePoints, WeighNearPointsMore) {
+  const auto near = surface_points(plane_cloud({0, 0, 1}, 1.0, pose({0, 0, 0})), {});
+  const auto far = surface_points(plane_cloud({0, 0, 1}, 4.0, pose({0, 0, 0})), {});
+  EXPECT_GT(near[9680].weight, 10.0F * far[9680].weight);
+}
+
+TEST(SurfacePoints, TakeFarPointsOfScans) {
+  LabeledCloud scan;
+  scan.height = 1;
+  scan.points = {{50.0F, 0.0F, 0.0F}, {NAN, NAN, NAN}, {2000.0F, 0.0F, 0.0F}, {0.0F, -3.0F, 0.0F}};
+  scan.labels = {PointLabel::kStatic, PointLabel::kInvalid, PointLabel::kStatic,
+                 PointLabel::kDynamic};
+  const auto points = surface_points(scan, {});
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_EQ(points[0].point.x(), 50.0F);
+}
+
+}  // namespace
+}  // namespace mms
