@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/open_dataset.hpp"
 #include "mms/evaluation/drift.hpp"
 #include "mms/evaluation/map_error.hpp"
+#include "mms/evaluation/map_residue.hpp"
 #include "mms/evaluation/trajectory_error.hpp"
 #include "mms/io/ply_io.hpp"
 #include "mms/io/text_table.hpp"
@@ -108,11 +110,28 @@ void evaluate_map_files(const Arguments& arguments) {
   print(metric_values(error), arguments.json);
 }
 
+void evaluate_residue_of(const Arguments& arguments) {
+  const auto source = open_dataset(arguments.reference, {.masks = {}, .load_masks = false});
+  RoomDepth room;
+  std::optional<CameraIntrinsics> camera;
+  while (const auto frame = source->next()) {
+    if (!frame->has_depth()) {
+      throw DataError(arguments.reference, "has no depth images",
+                      "the residue is seen by a camera");
+    }
+    room.add(frame->depth);
+    camera = frame->calibration->camera;
+  }
+  if (!camera) throw DataError(arguments.reference, "has no readable frame");
+  const auto map = read_ply(arguments.estimate).points;
+  print(metric_values(evaluate_residue(map, room.far_mode(), *camera)), arguments.json);
+}
+
 /// A subcommand whose arguments live as long as its callback.
 CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& description,
                       const std::shared_ptr<Arguments>& arguments, void (*run)(const Arguments&)) {
   CLI::App* command = parent.add_subcommand(name, description);
-  command->add_flag("--json", arguments->json, "print one JSON object");
+  command->add_flag("--json", arguments->json, "print one JSON object in place of a table");
   command->callback([arguments, run] { run(*arguments); });
   return command;
 }
@@ -121,20 +140,21 @@ void add_trajectory_command(CLI::App& eval) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = add_command(eval, "trajectory", "ATE and RPE against a reference", arguments,
                                   evaluate_trajectory_files);
-  command->add_option("reference", arguments->reference, "TUM or KITTI file")->required();
-  command->add_option("estimate", arguments->estimate, "file of the same form")->required();
+  command->add_option("REFERENCE", arguments->reference, "truth, a TUM or KITTI file")->required();
+  command->add_option("ESTIMATE", arguments->estimate, "trajectory, a file of the same form")
+      ->required();
   command
-      ->add_option("--max-difference", arguments->max_difference,
-                   "of matched stamps [s]; KITTI files are matched frame by frame")
+      ->add_option(
+          "--max-difference", arguments->max_difference,
+          "largest difference of matched stamps [s]; KITTI files are matched frame by frame")
       ->check(CLI::Range(0.0, 60.0))
       ->capture_default_str();
-  CLI::Option* delta =
-      command
-          ->add_option(
-              "--rpe-delta", arguments->rpe_delta,
-              "between the poses of an RPE pair (default: 1 s, for KITTI files 10 m of path)")
-          ->check(CLI::Range(1e-9, 1e9));
-  command->add_option("--rpe-unit", arguments->rpe_unit, "of --rpe-delta: s, m or frames")
+  CLI::Option* delta = command
+                           ->add_option("--rpe-delta", arguments->rpe_delta,
+                                        "how far apart the poses of an RPE pair are (default: 1 s; "
+                                        "KITTI files: 10 m of path)")
+                           ->check(CLI::Range(1e-9, 1e9));
+  command->add_option("--rpe-unit", arguments->rpe_unit, "unit of --rpe-delta")
       ->check(CLI::IsMember({"s", "m", "frames"}))
       ->needs(delta);
 }
@@ -146,25 +166,40 @@ void add_drift_command(CLI::App& eval) {
                   [](const Arguments& a) {
                     print(metric_values(evaluate_drift(read_trajectory(a.estimate))), a.json);
                   });
-  command->add_option("estimate", arguments->estimate, "TUM or KITTI file")->required();
+  command->add_option("ESTIMATE", arguments->estimate, "trajectory, a TUM or KITTI file")
+      ->required();
 }
 
 void add_map_command(CLI::App& eval) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = add_command(eval, "map", "cleanness SA, DA, AA, HA of a static map (5 cm)",
+  CLI::App* command = add_command(eval, "map", "Cleanness SA, DA, AA, HA of a static map (5 cm)",
                                   arguments, evaluate_map_files);
-  command->add_option("truth", arguments->reference, "PLY with a label of each point")->required();
-  command->add_option("map", arguments->estimate, "PLY in the same world frame")->required();
+  command
+      ->add_option("TRUTH", arguments->reference,
+                   "PLY whose points have a label: 0 static, else the id of an object")
+      ->required();
+  command->add_option("MAP", arguments->estimate, "PLY in the same world frame")->required();
+}
+
+void add_residue_command(CLI::App& eval) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(
+      eval, "residue", "What moving things left in a map, seen by a camera that stood still",
+      arguments, evaluate_residue_of);
+  command->add_option("DATA", arguments->reference, "recording of the camera that stood still")
+      ->required();
+  command->add_option("MAP", arguments->estimate, "PLY of its static map")->required();
 }
 
 }  // namespace
 
 void add_eval_command(CLI::App& app) {
-  CLI::App* eval = app.add_subcommand("eval", "measure results against truth");
+  CLI::App* eval = app.add_subcommand("eval", "Measure results against truth");
   eval->require_subcommand(1);
   add_trajectory_command(*eval);
   add_drift_command(*eval);
   add_map_command(*eval);
+  add_residue_command(*eval);
 }
 
 }  // namespace mms

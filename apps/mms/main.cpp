@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "config_command.hpp"
 #include "doctor_command.hpp"
@@ -10,15 +11,16 @@
 #include "info_command.hpp"
 #include "mms/core/error.hpp"
 #include "run_command.hpp"
+#include "usage.hpp"
 
 namespace {
 
 constexpr int kFault = 1;  ///< of the user's data or files
 constexpr int kUsage = 2;  ///< of the command line
 
-int fail(const char* what) {
+int fail(const std::string& what, int exit_code = kFault) {
   fmt::print(stderr, "mms: {}\n", what);
-  return kFault;
+  return exit_code;
 }
 
 }  // namespace
@@ -38,7 +40,8 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsage;
+    const bool asked = error.get_exit_code() == 0;  // for help or the version
+    return asked ? app.exit(error) : fail(mms::usage_fault(app, error), kUsage);
   } catch (const mms::Error& error) {
     return fail(error.what());
   } catch (const std::bad_alloc&) {

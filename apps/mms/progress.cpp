@@ -18,6 +18,7 @@ constexpr std::chrono::seconds kPipePeriod{5};
 Progress::Progress(std::size_t total) : total_(total), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 void Progress::show(const RunLog& log, const DynamicMap& objects) {
+  const std::scoped_lock lock(mutex_);
   const Clock::time_point now = Clock::now();
   const bool last = log.frames().size() >= total_;
   const auto period = terminal_ ? Clock::duration(kTerminalPeriod) : Clock::duration(kPipePeriod);
@@ -33,11 +34,13 @@ void Progress::show(const RunLog& log, const DynamicMap& objects) {
 }
 
 void Progress::warn(const std::string& message) {
+  const std::scoped_lock lock(mutex_);
   fmt::print(stderr, "{}warning: {}\n", open_line_ ? "\r\033[K" : "", message);
   open_line_ = false;
 }
 
 void Progress::finish() {
+  const std::scoped_lock lock(mutex_);
   if (open_line_) fmt::print(stderr, "\n");
   open_line_ = false;
 }

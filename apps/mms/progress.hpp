@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <mutex>
 #include <string>
 
 #include "mms/mapping/dynamic_map.hpp"
@@ -10,7 +11,7 @@
 namespace mms {
 
 /// The progress line on stderr: rewritten in place on a terminal, a plain line every five seconds
-/// when piped.
+/// when piped. Warnings may come from another thread than the frames.
 class Progress {
  public:
   explicit Progress(std::size_t total);
@@ -24,6 +25,7 @@ class Progress {
 
   std::string line(const RunLog& log, const DynamicMap& objects) const;
 
+  std::mutex mutex_;
   std::size_t total_;
   bool terminal_;
   bool open_line_ = false;

@@ -48,13 +48,19 @@ void check_writable(const fs::path& folder) {
 ResultFolder::ResultFolder(const fs::path& output, const std::string& data)
     : path_(output.empty() ? default_folder(data) : output), default_place_(output.empty()) {
   std::error_code error;
-  fs::create_directories(path_, error);
+  made_ = fs::create_directories(path_, error);
   if (error || !fs::is_directory(path_)) {
     throw FileError(path_.string(),
                     "cannot be made a folder: " + (error ? error.message() : "it is a file"),
                     "choose another with -o");
   }
   check_writable(path_);
+}
+
+ResultFolder::~ResultFolder() {
+  if (!made_) return;
+  std::error_code ignored;
+  fs::remove(path_, ignored);  // fails, as it should, where there is anything inside
 }
 
 void ResultFolder::make_latest() const {

@@ -13,6 +13,11 @@ class ResultFolder {
   /// @throws FileError when the folder cannot be made or written to.
   ResultFolder(const std::filesystem::path& output, const std::string& data);
 
+  /// Removes the folder if it was made for a run that left nothing in it.
+  ~ResultFolder();
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+
   const std::filesystem::path& path() const { return path_; }
 
   /// Lets results/latest point to the folder, if it is one of results/.
@@ -21,6 +26,7 @@ class ResultFolder {
  private:
   std::filesystem::path path_;
   bool default_place_ = false;
+  bool made_ = false;
 };
 
 }  // namespace mms

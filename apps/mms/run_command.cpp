@@ -25,6 +25,8 @@
 namespace mms {
 namespace {
 
+constexpr int kMaxCount = 1'000'000'000;  // of frames
+
 SystemConfig load_settings(const RunOptions& options) {
   SystemConfig config;
   if (!options.config.empty()) load_config(options.config, config);
@@ -113,13 +115,16 @@ void add_run_command(CLI::App& app) {
                    "what makes a point dynamic (default: as the settings say, multimodal)")
       ->check(CLI::IsMember({"multimodal", "vision", "none"}));
   command->add_option("--frames", options->frames, "process at most N frames")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, kMaxCount))
       ->default_str("all");
   command->add_option("--start", options->start, "pass over the first K frames")
+      ->check(CLI::Range(0, kMaxCount))
       ->capture_default_str();
   command->add_flag("--realtime", options->realtime,
                     "play at the recording's pace and drop frames that come too fast");
-  command->add_option("--threads", options->threads, "threads to use (default: one a core)")
+  command
+      ->add_option("--threads", options->threads,
+                   "threads to use (default: one a core); the results are the same for any number")
       ->check(CLI::Range(1, 256));
   command->callback([options] { run(*options); });
 }

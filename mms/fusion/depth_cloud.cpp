@@ -60,12 +60,13 @@ class Block {
       farthest = is_return && z > farthest ? z : farthest;
     });
     if (farthest == 0.0F) return 0.0F;
-    const bool is_flat = farthest - nearest <= kSurfaceStep;
-    const float limit = is_flat ? farthest : nearest + surface_step(nearest);
+    if (farthest - nearest > kSurfaceStep) {
+      farthest = std::min(farthest, nearest + surface_step(nearest));
+    }
     float sum = 0.0F;
     float count = 0.0F;
     for_each(image, x, y, [&](float z) {
-      const bool is_on_surface = z >= nearest && z <= limit && z <= max_;
+      const bool is_on_surface = z >= nearest && z <= farthest;
       sum += is_on_surface ? z : 0.0F;
       count += is_on_surface ? 1.0F : 0.0F;
     });

@@ -16,10 +16,11 @@ enum class FusionMode {
 };
 
 /// Which planes are taken out before clustering, so that a person does not drag along the floor
-/// under or the wall behind them. The limits are above what the flat part of a torso reaches.
+/// under or the wall behind them. `min_extent` is above the width that a torso (radius 0.17 m) is
+/// flat within `tolerance`; flat sides of masked objects are told by `max_masked_share`.
 struct PlaneRemoval {
-  double min_area = 0.1;          ///< [m^2]
-  double min_extent = 0.25;       ///< along the shorter principal axis [m]
+  double min_area = 0.05;         ///< [m^2]
+  double min_extent = 0.2;        ///< along the shorter principal axis [m]
   double min_share = 0.02;        ///< of the valid points
   double tolerance = 0.02;        ///< distance of a point on the plane, before noise [m]
   double noise_factor = 2.5;      ///< sigmas of depth noise added to `tolerance`

@@ -48,9 +48,8 @@ void relabel_grid(const NodeGrid& grid, const Nodes& nodes, const GridPlanes& pl
                   LabeledCloud& cloud) {
   const auto radius = static_cast<float>(config.relabel_radius);
   const auto noise_factor = static_cast<float>(config.noise_factor);
-  const float max_sigma = config.noise.sigma(static_cast<float>(config.max_range));
-  const float reach = kSeedReach * (radius + noise_factor * max_sigma);
-  const std::vector<int> nearest = nearest_seeds(nodes, objects.label, reach);
+  const std::vector<int> nearest =
+      nearest_seeds(nodes, objects.label, kSeedReach * radius, kSeedReach * noise_factor);
   std::size_t n = 0;
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u, ++n) {

@@ -71,13 +71,15 @@ class Propagation {
 
 }  // namespace
 
-std::vector<int> nearest_seeds(const Nodes& nodes, const std::vector<int>& label, float reach) {
+std::vector<int> nearest_seeds(const Nodes& nodes, const std::vector<int>& label, float reach,
+                               float noise_factor) {
   Propagation propagation(nodes, label);
   propagation.run();
   std::vector<int> seeds(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Candidate& best = propagation.best()[i];
-    const bool is_far = nodes.points[i].allFinite() && best.distance2 > reach * reach;
+    const float limit = reach + noise_factor * nodes.sigma[i];
+    const bool is_far = nodes.points[i].allFinite() && best.distance2 > limit * limit;
     seeds[i] = is_far ? -1 : best.seed;
   }
   return seeds;

@@ -11,7 +11,10 @@ namespace mms {
 /// node without a point takes over any. Exact where the way to the nearest seed lies on one
 /// surface.
 /// @param label  negative for nodes that are no seeds
-/// @return index of the seed, -1 where none is within `reach` [m]
-std::vector<int> nearest_seeds(const Nodes& nodes, const std::vector<int>& label, float reach);
+/// @param reach         distance up to which seeds matter, before noise [m]
+/// @param noise_factor  sigmas of the node's noise added to it
+/// @return index of the seed, -1 where none is within reach
+std::vector<int> nearest_seeds(const Nodes& nodes, const std::vector<int>& label, float reach,
+                               float noise_factor);
 
 }  // namespace mms

@@ -50,16 +50,20 @@ Clusters cluster_grid(std::span<const Eigen::Vector3f> points, int width,
                       const ClusterSize& size) {
   const std::vector<std::uint8_t> use = usable(points, keep);
   UnionFind sets(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (use[i] == 0) continue;
-    const int x = static_cast<int>(i) % width;
-    const int y = static_cast<int>(i) / width;
-    for (const Offset& offset : kBefore) {
-      if (x + offset.x < 0 || x + offset.x >= width || y + offset.y < 0) continue;
-      const std::size_t j = static_cast<std::size_t>((y + offset.y) * width + x + offset.x);
-      if (use[j] == 0) continue;
-      const float limit = std::max(tolerance[i], tolerance[j]);
-      if ((points[i] - points[j]).squaredNorm() <= limit * limit) sets.unite(i, j);
+  const int height = width > 0 ? static_cast<int>(points.size()) / width : 0;
+  std::size_t i = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x, ++i) {
+      if (use[i] == 0) continue;
+      std::size_t root = i;
+      for (const Offset& offset : kBefore) {
+        if (x + offset.x < 0 || x + offset.x >= width || y + offset.y < 0) continue;
+        const auto j = static_cast<std::size_t>((y + offset.y) * width + x + offset.x);
+        if (use[j] == 0) continue;
+        const float limit = std::max(tolerance[i], tolerance[j]);
+        const bool is_linked = (points[i] - points[j]).squaredNorm() <= limit * limit;
+        if (is_linked) root = sets.unite(root, j);
+      }
     }
   }
   return number_sets(sets, use, size);

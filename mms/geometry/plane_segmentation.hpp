@@ -26,8 +26,8 @@ struct PlaneSample {
 
 /// What counts as a plane, see `find_planes`.
 struct PlaneSearch {
-  float min_area = 0.1F;          ///< of all its samples [m^2]
-  float min_extent = 0.25F;       ///< along the shorter principal axis [m]
+  float min_area = 0.05F;         ///< of all its samples [m^2]
+  float min_extent = 0.2F;        ///< along the shorter principal axis [m]
   float min_share = 0.02F;        ///< of the samples
   float max_normal_angle = 0.4F;  ///< between sample and plane [rad]
   int max_planes = 6;

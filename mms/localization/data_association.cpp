@@ -96,7 +96,7 @@ class Matcher {
       maps_.edges.nearest(target, 2, gate_, neighbors_);
       return line_of_two(neighbors_, min_separation());
     }
-    maps_.edges.within(target, gate_, neighbors_);
+    maps_.edges.within(target, std::min(gate_, maps_.voxel_size()), neighbors_);
     return principal_line(neighbors_);
   }
 

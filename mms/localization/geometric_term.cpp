@@ -15,11 +15,12 @@ constexpr double kInlierSigmas = 3.0;
 /// Adds matches at one pose.
 class Linearizer {
  public:
-  Linearizer(const Eigen::Isometry3d& T, const GeometricConfig& config) : T_(T), config_(config) {}
+  Linearizer(const Eigen::Isometry3d& T, const GeometricConfig& config, double slack)
+      : T_(T), config_(config), common_sigma_(std::hypot(config.map_sigma, slack)) {}
 
   void add(const EdgeMatch& match, GeometricEquations& sum) const {
     const VectorResidual r = point_to_line(T_, match.point, match.on_line, match.direction);
-    const double sigma = std::hypot(match.sigma, config_.map_sigma);
+    const double sigma = std::hypot(match.sigma, common_sigma_);
     const double normalized = r.value.norm() / sigma;
     const double w = weight(normalized, sigma);
     sum.edges.information += w * r.jacobian.transpose() * r.jacobian;
@@ -30,7 +31,7 @@ class Linearizer {
 
   void add(const PlaneMatch& match, GeometricEquations& sum) const {
     const ScalarResidual r = point_to_plane(T_, match.point, match.on_plane, match.normal);
-    const double sigma = std::hypot(match.sigma, config_.map_sigma);
+    const double sigma = std::hypot(match.sigma, common_sigma_);
     const double normalized = std::abs(r.value) / sigma;
     sum.planes.add(r.value, r.jacobian, weight(normalized, sigma));
     if (normalized < kInlierSigmas) {
@@ -46,6 +47,7 @@ class Linearizer {
 
   Eigen::Isometry3d T_;
   const GeometricConfig& config_;
+  double common_sigma_;  ///< part of the standard deviation all residuals share [m]
 };
 
 template <class Match>
@@ -69,6 +71,9 @@ void GeometricConfig::visit(ConfigVisitor& v) {
   v.boolean({"planes", "", "use planar features, eq. (4)"}, planes);
   v.number({"gate", "voxels", "largest distance of a feature to its counterpart"}, gate,
            {0.5, 20.0});
+  v.number(
+      {"slack", "voxels", "standard deviation of the residuals a frame's registration starts with"},
+      slack, {0.0, 10.0});
   v.number({"map_sigma", "m", "error of the local maps, added to the measurement's"}, map_sigma,
            {1e-5, 1.0});
   v.number({"robust_scale", "", "standard deviations at which Cauchy's weight is one half"},
@@ -86,8 +91,8 @@ GeometricEquations& GeometricEquations::operator+=(const GeometricEquations& oth
 
 GeometricEquations geometric_equations(const Matches& matches,
                                        const Eigen::Isometry3d& T_world_sensor,
-                                       const GeometricConfig& config) {
-  const Linearizer linearizer(T_world_sensor, config);
+                                       const GeometricConfig& config, double slack) {
+  const Linearizer linearizer(T_world_sensor, config, slack);
   GeometricEquations sum;
   if (config.planes) sum += sum_over(matches.planes, linearizer);
   if (config.edges) sum += sum_over(matches.edges, linearizer);

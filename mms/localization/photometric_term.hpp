@@ -14,7 +14,7 @@ namespace mms {
 
 struct PhotometricConfig {
   bool enabled = true;
-  double min_gradient = 4.0;
+  double min_gradient = 6.0;
   int cell_px = 3;
   double min_sigma = 3.0;
   double weight = 1.0;

@@ -11,6 +11,9 @@ namespace {
 /// Share of a voxel the pose may move before features are associated anew.
 constexpr double kReassociationShift = 0.1;
 
+constexpr double kSlackDecay = 0.5;
+constexpr double kSettledShare = 0.1;  ///< step over slack at which the slack is tightened
+
 /// Residuals within three sigma of a photometric term; t-weights are never zero.
 int count_inliers(const PhotometricEquations& equations, double sigma) {
   const auto limit =
@@ -60,37 +63,66 @@ class GaussNewton {
   RegistrationResult run() {
     const bool photometric =
         config_.photometric.enabled && !features_.intensity.empty() && !target_.keyframes.empty();
-    if (!photometric) {
-      iterate(-1, config_.max_iterations);
-      return result_;
-    }
-    for (int level = static_cast<int>(features_.intensity.size()) - 1; level >= 0; --level) {
-      for (PhotometricState& state : states_) state.sigma = PhotometricState{}.sigma;
-      iterate(level, config_.iterations_per_level);
+    slack_ = config_.geometric.slack * target_.maps.voxel_size();
+    if (photometric) {
+      run_pyramid();
+    } else {
+      run_geometry();
     }
     return result_;
   }
 
  private:
+  /// From the coarsest level of the intensity pyramid to the finest.
+  void run_pyramid() {
+    for (int level = static_cast<int>(features_.intensity.size()) - 1; level >= 0; --level) {
+      for (PhotometricState& state : states_) state.sigma = PhotometricState{}.sigma;
+      if (level == 0) slack_ = 0.0;
+      iterate(level, config_.iterations_per_level);
+      tighten();
+    }
+  }
+
+  /// From residuals of the size of a first guess's error to those of the noise.
+  void run_geometry() {
+    while (slack_ > 0.0 && result_.iterations < config_.max_iterations) {
+      iterate(-1, config_.max_iterations - result_.iterations);
+      tighten();
+    }
+    slack_ = 0.0;
+    iterate(-1, std::max(1, config_.max_iterations - result_.iterations));
+  }
+
+  void tighten() {
+    slack_ *= kSlackDecay;
+    if (slack_ < config_.geometric.map_sigma) slack_ = 0.0;
+  }
+
   /// @param level  of the intensity pyramid, -1 for none
   void iterate(int level, int max_iterations) {
     result_.converged = false;
+    // While the slack is larger than the noise, a step well below it changes nothing.
+    const double settled_translation =
+        std::max(config_.converged_translation, kSettledShare * slack_);
+    const double settled_rotation =
+        std::max(config_.converged_rotation, kSettledShare * slack_ / std::max(scale_, 1.0));
     for (int i = 0; i < max_iterations && !result_.converged; ++i) {
       const NormalEquations equations = linearize(level);
-      const Step step = solve(equations, config_.degenerate_sigma);
+      const Step step = solve(equations, std::hypot(config_.degenerate_sigma, slack_));
       result_.information = equations.information;
       result_.degenerate_directions = step.degenerate_directions;
       result_.T_world_sensor = result_.T_world_sensor * se3::exp(step.tangent);
       ++result_.iterations;
-      result_.converged = step.tangent.head<3>().norm() < config_.converged_translation &&
-                          step.tangent.tail<3>().norm() < config_.converged_rotation;
+      result_.converged = step.tangent.head<3>().norm() < settled_translation &&
+                          step.tangent.tail<3>().norm() < settled_rotation;
     }
     result_.T_world_sensor = se3::normalized(result_.T_world_sensor);
   }
 
   NormalEquations linearize(int level) {
     refresh_matches();
-    result_.geometric = geometric_equations(matches_, result_.T_world_sensor, config_.geometric);
+    result_.geometric =
+        geometric_equations(matches_, result_.T_world_sensor, config_.geometric, slack_);
     NormalEquations sum = result_.geometric.edges;
     sum += result_.geometric.planes;
     if (level >= 0) add_photometric(static_cast<std::size_t>(level), sum);
@@ -132,7 +164,8 @@ class GaussNewton {
   Matches matches_;
   Eigen::Isometry3d matched_at_ = Eigen::Isometry3d::Identity();
   bool associated_ = false;
-  double scale_;  ///< distance at which a rotation is felt [m]
+  double slack_ = 0.0;  ///< standard deviation the pose's error adds to residuals [m]
+  double scale_;        ///< distance at which a rotation is felt [m]
 };
 
 }  // namespace

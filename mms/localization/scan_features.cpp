@@ -15,9 +15,10 @@ constexpr float kRadiusInVoxels = 2.5F;  ///< neighbourhood of eq. (2) and of th
 constexpr std::size_t kMinNeighbors = 6;
 constexpr int kSectors = 36;  ///< of direction around each of two axes
 constexpr std::size_t kEdgesPerSector = 8;
-constexpr float kPlaneFlatness = 0.2F;  ///< thickness over width of a plane
-constexpr double kMinVoxel = 0.05;      ///< [m]
-constexpr double kMaxVoxel = 1.0;       ///< [m]
+constexpr float kPlaneFlatness = 0.2F;   ///< thickness over width of a plane
+constexpr float kMinPlaneWidth = 0.25F;  ///< share of the radius: a single ring is no plane
+constexpr double kMinVoxel = 0.05;       ///< [m]
+constexpr double kMaxVoxel = 1.0;        ///< [m]
 
 std::vector<Eigen::Vector3f> static_points(const LabeledCloud& cloud) {
   std::vector<Eigen::Vector3f> points;
@@ -56,7 +57,8 @@ std::optional<Analysis> analyse(const Eigen::Vector3f& point, const PointMap& ma
   result.smoothness = std::abs(sum) / static_cast<float>(neighbors.size()) / range;
   const PlaneFit::Plane plane = fit.solve();
   const float incidence = -plane.normal.dot(point) / range;
-  const bool flat = plane.thickness < kPlaneFlatness * plane.width;
+  const bool flat =
+      plane.thickness < kPlaneFlatness * plane.width && plane.width > kMinPlaneWidth * radius;
   // A scan's own geometry makes floors grazing far away; only the plainly degenerate go.
   if (flat && incidence > 0.02F) {
     result.plane = PlaneFeature{point, plane.normal, static_cast<float>(config.scan_noise)};

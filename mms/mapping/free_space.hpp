@@ -12,8 +12,8 @@ namespace mms {
 
 struct CarvingConfig {
   bool enabled = true;
-  double margin = 0.10;  ///< [m]
-  double ratio = 1.0;
+  double margin = 0.03;  ///< [m]
+  double ratio = 0.5;
 
   void visit(ConfigVisitor& v) {
     v.boolean({"enabled", "", "remove from the map what later keyframes see through"}, enabled);
@@ -38,7 +38,8 @@ class FreeSpace {
 
  private:
   Eigen::Vector2f pixel_of(const Eigen::Vector3f& point) const;
-  float needed_depth(float z) const { return z + margin_ + 3.0F * noise_.sigma(z); }
+  /// One sigma is enough: the nearest of nine pixels lies some 1.5 sigma before the surface.
+  float needed_depth(float z) const { return z + margin_ + noise_.sigma(z); }
 
   CameraModel camera_;
   bool distorted_;

@@ -25,8 +25,19 @@ class Grid {
     return (static_cast<float>(config_.max_jump) + 7.3F * config_.noise.sigma(z)) / (z * z);
   }
 
-  bool on_surface(int x, int y, float tolerance) const {
-    return smooth(x, y, 1, 0, tolerance) && smooth(x, y, 0, 1, tolerance);
+  /// Whether the pixel lies inside a surface: it and its eight neighbours have a depth, and no jump
+  /// goes through any of them. On the rims of things depth and colour wobble by a pixel.
+  bool inside_surface(int x, int y, float tolerance) const {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (inverse_.contains(x + dx, y + dy) && inverse(x + dx, y + dy) <= 0.0F) return false;
+      }
+    }
+    for (int d = -1; d <= 1; ++d) {
+      if (inverse_.contains(x + d, y) && !smooth(x + d, y, 1, 0, tolerance)) return false;
+      if (inverse_.contains(x, y + d) && !smooth(x, y + d, 0, 1, tolerance)) return false;
+    }
+    return true;
   }
 
   /// Normal from central differences; zero where a neighbour is missing or across a jump.
@@ -83,7 +94,7 @@ std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const Surf
       if (cloud.labels[i] != PointLabel::kStatic || !(z > 0.0F)) continue;
       if (z > static_cast<float>(config.max_depth)) continue;
       const float tolerance = grid.tolerance(z);
-      if (!grid.on_surface(x, y, tolerance)) continue;
+      if (!grid.inside_surface(x, y, tolerance)) continue;
       const float ratio = least / config.noise.sigma(z);
       result.push_back(
           {cloud.points[i], grid.normal(x, y, tolerance), ratio * ratio, color_of(cloud, i)});

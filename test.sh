@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, checks the format and runs all tests.
+# The last line counts them: "N passed, N failed, N skipped".
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+source .ci/setup.sh
+
+readonly report="$PWD/build/release/tests.xml"
+
+# A file that is not formatted counts as one failure, however many there are.
+format_failures() {
+  git -c safe.directory='*' ls-files -z '*.cpp' '*.hpp' |
+    xargs -0 clang-format --dry-run -Werror >&2 && echo 0 || echo 1
+}
+
+# count NAME: of the attributes at the head of the tests' report.
+count() {
+  grep -m1 -oP "^\s*$1=\"\K[0-9]+" "$report"
+}
+
+install_packages
+if ! build; then
+  echo "0 passed, 1 failed"
+  exit 1
+fi
+
+rm -f "$report"
+failed=$(format_failures)
+ctest --test-dir build/release -j2 --output-on-failure --output-junit "$report" || true
+if [ ! -s "$report" ]; then
+  echo "0 passed, 1 failed"
+  exit 1
+fi
+
+skipped=$(($(count skipped) + $(count disabled)))
+passed=$(($(count tests) - $(count failures) - skipped))
+failed=$((failed + $(count failures)))
+echo "$passed passed, $failed failed, $skipped skipped"
+[ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]

@@ -1,0 +1,232 @@
+#include "mms/localization/odometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "mms/localization/feature_extractor.hpp"
+#include "tests/geometry/threads.hpp"
+#include "tests/localization/box_room.hpp"
+
+namespace mms {
+namespace {
+
+using testing::BoxRoom;
+using testing::motion;
+using testing::position_error;
+
+constexpr std::int64_t kMillisecond = 1'000'000;
+
+/// A steady drive through the room, truth at any instant.
+Eigen::Isometry3d truth_at(Timestamp stamp) {
+  const double t = stamp.seconds();
+  return motion(0.3 * t, -0.1 * t, 0.2 * t, 0.05 * t, 0.2 * t, -0.1 * t);
+}
+
+FeatureCloud features_at(std::int64_t milliseconds) {
+  const Timestamp stamp(milliseconds * kMillisecond);
+  FeatureCloud features = testing::exact_features(BoxRoom{}, truth_at(stamp), 16);
+  features.stamp = stamp;
+  return features;
+}
+
+FeatureCloud nothing_at(std::int64_t milliseconds) {
+  FeatureCloud features;
+  features.stamp = Timestamp(milliseconds * kMillisecond);
+  return features;
+}
+
+/// As many features as in `features_at`, but anywhere, with any normal.
+FeatureCloud nonsense_at(std::int64_t milliseconds) {
+  FeatureCloud features = features_at(milliseconds);
+  std::mt19937 random(static_cast<unsigned>(milliseconds));
+  std::uniform_real_distribution<float> any(-1.0F, 1.0F);
+  const auto vector = [&] {
+    return Eigen::Vector3f(Eigen::Vector3f::NullaryExpr([&] { return any(random); }));
+  };
+  for (auto& f : features.planes) {
+    f.point = 2.0F * vector();
+    f.normal = vector().normalized();
+  }
+  for (auto& f : features.edges) f.point = 2.0F * vector();
+  return features;
+}
+
+double error_of(const OdometryEstimate& estimate) {
+  return position_error(estimate.T_world_sensor.isometry(), truth_at(estimate.stamp));
+}
+
+TEST(Odometry, TheFirstFrameIsTheOrigin) {
+  Odometry odometry({}, {});
+  const auto estimate = odometry.estimate(features_at(0));
+  EXPECT_EQ(estimate.status, Status::kInitialized);
+  EXPECT_TRUE(estimate.T_world_sensor.isometry().isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST(Odometry, TooFewFeaturesDoNotInitialise) {
+  Odometry odometry({}, {});
+  EXPECT_EQ(odometry.estimate(nothing_at(0)).status, Status::kLost);
+  EXPECT_EQ(odometry.estimate(nothing_at(50)).status, Status::kLost);
+  const auto first = odometry.estimate(features_at(100));
+  EXPECT_EQ(first.status, Status::kInitialized);
+  EXPECT_TRUE(first.T_world_sensor.isometry().isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_EQ(odometry.estimate(features_at(150)).status, Status::kTracking);
+}
+
+TEST(Odometry, TracksIrregularStamps) {
+  Odometry odometry({}, {});
+  for (const int ms : {0, 30, 60, 63, 160, 190, 290, 291, 420, 450, 700, 730, 1000}) {
+    const auto estimate = odometry.estimate(features_at(ms));
+    EXPECT_EQ(estimate.status, ms == 0 ? Status::kInitialized : Status::kTracking) << ms;
+    EXPECT_EQ(estimate.stamp, Timestamp(ms * kMillisecond));
+    EXPECT_LT(error_of(estimate), 2e-3) << ms;
+    EXPECT_EQ(estimate.degenerate_directions, 0);
+  }
+}
+
+TEST(Odometry, LosesTheWayAndFindsItAgain) {
+  Odometry odometry({}, {});
+  std::vector<Status> statuses;
+  std::vector<OdometryEstimate> estimates;
+  for (int ms = 0; ms <= 1000; ms += 50) {
+    const bool blind = ms >= 500 && ms < 700;
+    estimates.push_back(odometry.estimate(blind ? nothing_at(ms) : features_at(ms)));
+    const Status expected = ms == 0     ? Status::kInitialized
+                            : blind     ? Status::kLost
+                            : ms == 700 ? Status::kRecovered
+                                        : Status::kTracking;
+    EXPECT_EQ(estimates.back().status, expected) << ms;
+    EXPECT_TRUE(blind || error_of(estimates.back()) < 2e-3) << ms;
+  }
+  // Lost, it goes on in the direction it went, ever more slowly.
+  const auto step = [&](std::size_t i) {
+    return position_error(estimates[i].T_world_sensor.isometry(),
+                          estimates[i - 1].T_world_sensor.isometry());
+  };
+  EXPECT_NEAR(step(10), step(9), 0.2 * step(9));
+  EXPECT_LT(step(12), 0.7 * step(10));
+  EXPECT_GT(step(12), 0.0);
+}
+
+TEST(Odometry, LostFramesDoNotChangeTheMaps) {
+  Odometry blinded({}, {});
+  Odometry fooled({}, {});
+  for (int ms = 0; ms <= 1000; ms += 50) {
+    const bool bad = ms >= 500 && ms < 650;
+    const auto a = blinded.estimate(bad ? nothing_at(ms) : features_at(ms));
+    const auto b = fooled.estimate(bad ? nonsense_at(ms) : features_at(ms));
+    EXPECT_EQ(a.status, b.status) << ms;
+    EXPECT_EQ(a.status == Status::kLost, bad) << ms;
+    EXPECT_EQ(a.T_world_sensor.isometry().matrix(), b.T_world_sensor.isometry().matrix()) << ms;
+  }
+}
+
+TEST(Odometry, AJumpIsNotBelieved) {
+  OdometryConfig config;
+  config.max_speed = 1.0;
+  Odometry odometry(config, {});
+  odometry.estimate(features_at(0));
+  odometry.estimate(features_at(50));
+  FeatureCloud jump = testing::exact_features(
+      BoxRoom{}, truth_at(Timestamp(50 * kMillisecond)) * motion(0.2, 0, 0, 0, 0, 0), 16);
+  jump.stamp = Timestamp(100 * kMillisecond);
+  EXPECT_EQ(odometry.estimate(jump).status, Status::kLost);
+}
+
+TEST(Odometry, OneWallIsReportedDegenerate) {
+  const auto wall_at = [](int ms) {
+    FeatureCloud features = features_at(ms);
+    features.edges.clear();
+    const Eigen::Isometry3d T = truth_at(features.stamp);
+    std::erase_if(features.planes,
+                  [&](const PlaneFeature& f) { return (T * f.point.cast<double>()).z() < 3.99; });
+    return features;
+  };
+  OdometryConfig config;
+  config.min_inliers = 20;
+  Odometry odometry(config, {});
+  odometry.estimate(wall_at(0));
+  const auto estimate = odometry.estimate(wall_at(50));
+  EXPECT_EQ(estimate.status, Status::kDegenerate);
+  EXPECT_EQ(estimate.degenerate_directions, 3);
+}
+
+TEST(Odometry, DepthTakenLaterThanTheImageIsMovedBack) {
+  const auto drive = [](bool tell) {
+    Odometry odometry({}, {});
+    double worst = 0.0;
+    for (int ms = 0; ms <= 600; ms += 50) {
+      const int late = ms == 0 ? 0 : 10;
+      FeatureCloud features = features_at(ms + late);
+      features.stamp = Timestamp(ms * kMillisecond);
+      if (tell) features.points_offset = Duration(late * kMillisecond);
+      const auto estimate = odometry.estimate(features);
+      if (ms > 200) worst = std::max(worst, error_of(estimate));
+    }
+    return worst;
+  };
+  EXPECT_GT(drive(false), 3e-3);  // 10 ms at 0.37 m/s
+  EXPECT_LT(drive(true), 1e-3);
+}
+
+TEST(Odometry, EqualStampsAreSurvived) {
+  Odometry odometry({}, {});
+  odometry.estimate(features_at(0));
+  for (int i = 0; i < 3; ++i) {
+    const auto estimate = odometry.estimate(features_at(0));
+    EXPECT_TRUE(estimate.T_world_sensor.is_finite());
+    EXPECT_LT(error_of(estimate), 1e-3);
+  }
+  EXPECT_LT(error_of(odometry.estimate(features_at(50))), 2e-3);
+}
+
+/// Extraction, photometric term and odometry over noisy images.
+std::vector<OdometryEstimate> image_odometry(Association association) {
+  FeatureExtractor extractor{FeatureConfig{}};
+  OdometryConfig config;
+  config.registration.geometric.association = association;
+  Odometry odometry(config, {});
+  std::vector<OdometryEstimate> estimates;
+  for (int ms = 0; ms <= 500; ms += 50) {
+    const Timestamp stamp(ms * kMillisecond);
+    LabeledCloud cloud =
+        testing::organised_cloud(BoxRoom{}, truth_at(stamp), 1.0, static_cast<unsigned>(ms));
+    cloud.stamp = stamp;
+    estimates.push_back(odometry.estimate(extractor.extract(cloud)));
+  }
+  return estimates;
+}
+
+class ImageOdometry : public ::testing::TestWithParam<Association> {};
+INSTANTIATE_TEST_SUITE_P(Odometry, ImageOdometry,
+                         ::testing::Values(Association::kPaper, Association::kSurface),
+                         testing::association_name);
+
+TEST_P(ImageOdometry, FollowsTheCamera) {
+  for (const OdometryEstimate& estimate : image_odometry(GetParam())) {
+    EXPECT_LT(error_of(estimate), 0.01);
+    if (estimate.status == Status::kInitialized) continue;
+    EXPECT_EQ(estimate.status, Status::kTracking);
+    EXPECT_GT(estimate.intensity_inliers, 300);
+    EXPECT_GT(estimate.plane_inliers, 100);
+  }
+}
+
+TEST_P(ImageOdometry, IsTheSameBitsForAnyNumberOfThreads) {
+  const auto run = [&] { return image_odometry(GetParam()); };
+  const auto one = testing::on_threads(1, run);
+  for (const int threads : {2, 4}) {
+    const auto many = testing::on_threads(threads, run);
+    ASSERT_EQ(many.size(), one.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(many[i].T_world_sensor.isometry().matrix(),
+                one[i].T_world_sensor.isometry().matrix());
+      EXPECT_EQ(many[i].information, one[i].information);
+      EXPECT_EQ(many[i].plane_rms, one[i].plane_rms);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mms

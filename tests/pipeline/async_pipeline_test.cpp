@@ -1,0 +1,141 @@
+#include "mms/pipeline/async_pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <thread>
+
+#include "mms/core/error.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/pipeline/played_room.hpp"
+
+namespace mms {
+namespace {
+
+using testing::mask_system;
+using testing::message_of;
+using testing::room_frames;
+
+constexpr std::size_t kFrames = 10;
+
+/// Gives the first `count` frames of the room.
+AsyncPipeline::Source first_frames(std::size_t count) {
+  return [count, next = std::size_t{0}]() mutable -> std::optional<Frame> {
+    if (next >= count) return std::nullopt;
+    return room_frames()[next++];
+  };
+}
+
+/// Throws when it comes to a frame.
+class FailingSegmenter : public Segmenter {
+ public:
+  explicit FailingSegmenter(std::int64_t at) : at_(at) {}
+  Segmentation segment(const Frame& frame) override {
+    if (frame.index == at_) throw DataError(frame.name, "the segmenter fails");
+    return {};
+  }
+
+ private:
+  std::int64_t at_;
+};
+
+class AsyncPipelineThreads : public ::testing::TestWithParam<int> {
+ protected:
+  AsyncPipeline pipeline_{{.threads = GetParam()}};
+};
+INSTANTIATE_TEST_SUITE_P(AsyncPipeline, AsyncPipelineThreads, ::testing::Values(1, 2, 4));
+
+TEST_P(AsyncPipelineThreads, GivesTheBitsOfTheSynchronousSystem) {
+  SlamSystem reference = mask_system();
+  SlamSystem system = mask_system();
+  std::size_t next = 0;
+  const auto caller = std::this_thread::get_id();
+  pipeline_.run(system, first_frames(kFrames), [&](const Processed& processed) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    ASSERT_LT(next, kFrames);
+    EXPECT_EQ(processed.frame.index, room_frames()[next].index);
+    EXPECT_EQ(processed.frame.color.pixels(), room_frames()[next].color.pixels());
+    EXPECT_TRUE(testing::same_bits(processed.result, reference.process(room_frames()[next])));
+    ++next;
+  });
+  EXPECT_EQ(next, kFrames);
+  EXPECT_EQ(pipeline_.dropped(), 0U);
+  const MapCloud map = system.static_map().cloud();
+  EXPECT_EQ(map.points, reference.static_map().cloud().points);
+  EXPECT_EQ(map.colors, reference.static_map().cloud().colors);
+  EXPECT_EQ(system.dynamic_map().tracks().size(), reference.dynamic_map().tracks().size());
+}
+
+TEST_P(AsyncPipelineThreads, AnEmptySourceIsNoProblem) {
+  SlamSystem system = mask_system();
+  int calls = 0;
+  pipeline_.run(system, first_frames(0), [&](const Processed&) { ++calls; });
+  EXPECT_EQ(calls, 0);
+}
+
+TEST_P(AsyncPipelineThreads, TheSourcesExceptionArrives) {
+  SlamSystem system = mask_system();
+  auto frames = first_frames(kFrames);
+  int given = 0;
+  const auto source = [&]() -> std::optional<Frame> {
+    if (given++ == 3) throw FileError("depth.png", "cannot be read");
+    return frames();
+  };
+  const std::string message =
+      message_of<FileError>([&] { pipeline_.run(system, source, [](const Processed&) {}); });
+  EXPECT_EQ(message, "depth.png: cannot be read");
+  EXPECT_EQ(given, 4);
+}
+
+TEST_P(AsyncPipelineThreads, TheSegmentersExceptionArrives) {
+  SlamSystem system(SystemConfig{}, std::make_unique<FailingSegmenter>(2));
+  std::size_t delivered = 0;
+  const std::string message = message_of<DataError>([&] {
+    pipeline_.run(system, first_frames(kFrames), [&](const Processed&) { ++delivered; });
+  });
+  EXPECT_EQ(message, "room_2: the segmenter fails");
+  EXPECT_LE(delivered, 2U);
+}
+
+TEST_P(AsyncPipelineThreads, TheSinksExceptionArrivesAndEndsTheRun) {
+  SlamSystem system = mask_system();
+  std::size_t delivered = 0;
+  // A source without end: the run ends only if the threads are told to.
+  const auto endless = []() -> std::optional<Frame> { return room_frames()[0]; };
+  const std::string message = message_of<std::runtime_error>([&] {
+    pipeline_.run(system, endless, [&](const Processed&) {
+      if (++delivered == 2) throw std::runtime_error("the disk is full");
+    });
+  });
+  EXPECT_EQ(message, "the disk is full");
+  EXPECT_EQ(delivered, 2U);
+  // And it can be used again.
+  SlamSystem fresh = mask_system();
+  pipeline_.run(fresh, first_frames(2), [&](const Processed&) { ++delivered; });
+  EXPECT_EQ(delivered, 4U);
+}
+
+TEST_P(AsyncPipelineThreads, EveryRealtimeFrameIsProcessedOrDropped) {
+  AsyncPipeline pipeline({.threads = GetParam(), .realtime = true});
+  SlamSystem system = mask_system();
+  std::size_t next = 0;
+  const auto burst = [&]() -> std::optional<Frame> {
+    if (next == 30) return std::nullopt;
+    Frame frame = room_frames()[next];
+    frame.stamp = Timestamp(static_cast<std::int64_t>(next));  // all at once
+    ++next;
+    return frame;
+  };
+  std::size_t processed = 0;
+  std::int64_t last = -1;
+  pipeline.run(system, burst, [&](const Processed& p) {
+    EXPECT_GT(p.frame.index, last);
+    last = p.frame.index;
+    ++processed;
+  });
+  EXPECT_GT(processed, 0U);
+  EXPECT_EQ(processed + pipeline.dropped(), 30U);
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,235 @@
+#include "mms/pipeline/slam_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "mms/core/error.hpp"
+#include "mms/geometry/camera.hpp"
+#include "mms/segmentation/none_segmenter.hpp"
+#include "tests/geometry/threads.hpp"
+#include "tests/pipeline/played_room.hpp"
+
+namespace mms {
+namespace {
+
+using testing::mask_system;
+using testing::room;
+using testing::room_frames;
+
+struct Played {
+  double ate_rmse = 0.0;  ///< without alignment: both begin at the origin [m]
+  MapCloud map;
+  std::vector<FrameResult> results;
+};
+
+Played play(FusionMode mode) {
+  SlamSystem system = mask_system(mode);
+  Played played;
+  double squares = 0.0;
+  for (const Frame& frame : room_frames()) {
+    played.results.push_back(system.process(frame));
+    const auto truth = room().truth(static_cast<int>(frame.index)).T_world_sensor;
+    const auto& estimate = played.results.back().odometry.T_world_sensor;
+    squares += (estimate.translation() - truth.translation()).squaredNorm();
+  }
+  played.ate_rmse = std::sqrt(squares / static_cast<double>(room_frames().size()));
+  played.map = system.static_map().cloud();
+  return played;
+}
+
+const Played& played(FusionMode mode) {
+  static const Played multimodal = play(FusionMode::kMultimodal);
+  static const Played none = play(FusionMode::kNone);
+  return mode == FusionMode::kNone ? none : multimodal;
+}
+
+/// Share of the map's points that stand in the free space of the empty room, inside the true box of
+/// somebody as he was at some frame: the ghosts.
+double ghost_share(const MapCloud& map) {
+  RoomConfig config = room().config();
+  config.moving_objects = config.noise = false;
+  const SimulatedRoom empty(config);
+  std::vector<char> ghost(map.size(), 0);
+  for (int index = 0; index < 40; index += 4) {
+    const Frame truth = empty.render(index);
+    const CameraModel camera(*truth.calibration->camera);
+    const auto T_sensor_world = room().truth(index).T_world_sensor.inverse();
+    const auto objects = room().objects(index);
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      const Eigen::Vector3d world = map.points[i].cast<double>();
+      const bool inside = std::any_of(objects.begin(), objects.end(), [&](const auto& object) {
+        const Eigen::Vector3d local = object.T_world_box.inverse() * world;
+        return (local.cwiseAbs() - object.half_extent).maxCoeff() < 0.0;
+      });
+      const Eigen::Vector3d p = T_sensor_world * world;
+      if (!inside || p.z() <= 0.1) continue;
+      const Eigen::Vector2d pixel = camera.project(p);
+      const int u = static_cast<int>(std::lround(pixel.x()));
+      const int v = static_cast<int>(std::lround(pixel.y()));
+      if (!truth.depth.contains(u, v)) continue;
+      ghost[i] |= static_cast<double>(truth.depth(u, v)) > p.z() + 0.15;
+    }
+  }
+  return std::accumulate(ghost.begin(), ghost.end(), 0.0) /
+         static_cast<double>(std::max<std::size_t>(1, map.size()));
+}
+
+TEST(SlamSystem, FollowsTheCameraThroughARoomOfPeople) {
+  const Played& run = played(FusionMode::kMultimodal);
+  RecordProperty("ate_rmse_mm", std::to_string(1e3 * run.ate_rmse));
+  EXPECT_LT(run.ate_rmse, 0.015);
+  EXPECT_EQ(run.results.front().odometry.status, Status::kInitialized);
+  double most_dynamic = 0.0;
+  for (std::size_t i = 1; i < run.results.size(); ++i) {
+    EXPECT_EQ(run.results[i].odometry.status, Status::kTracking) << i;
+    EXPECT_EQ(run.results[i].odometry.stamp, room_frames()[i].stamp);
+    most_dynamic = std::max(most_dynamic, run.results[i].dynamic_share);
+  }
+  EXPECT_GT(most_dynamic, 0.05);
+}
+
+TEST(SlamSystem, HardlyAnythingOfThePeopleIsInTheStaticMap) {
+  const MapCloud& map = played(FusionMode::kMultimodal).map;
+  EXPECT_GT(map.size(), 10000U);
+  const double ghosts = ghost_share(map);
+  const double without_filter = ghost_share(played(FusionMode::kNone).map);
+  RecordProperty("ghost_percent", std::to_string(100.0 * ghosts));
+  RecordProperty("ghost_percent_none", std::to_string(100.0 * without_filter));
+  EXPECT_LT(ghosts, 0.002);
+  EXPECT_GT(without_filter, 0.01);  // or the measure would measure nothing
+}
+
+TEST(SlamSystem, WithoutAnyFilterItIsNotBetter) {
+  const double none = played(FusionMode::kNone).ate_rmse;
+  RecordProperty("ate_rmse_mm", std::to_string(1e3 * none));
+  EXPECT_GT(none, 0.9 * played(FusionMode::kMultimodal).ate_rmse);
+  for (const FrameResult& result : played(FusionMode::kNone).results) {
+    EXPECT_EQ(result.dynamic_share, 0.0);
+  }
+}
+
+TEST(SlamSystem, PeopleBecomeTracks) {
+  SlamSystem system = mask_system();
+  for (int i = 0; i < 15; ++i) system.process(room_frames()[static_cast<std::size_t>(i)]);
+  ASSERT_FALSE(system.dynamic_map().active().empty());
+  const auto objects = room().objects(14);
+  for (const Track& track : system.dynamic_map().active()) {
+    const ObjectObservation& last = track.history.back();
+    const Eigen::Vector3d centre = 0.5 * (last.box_min + last.box_max);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const SimulatedObject& object : objects) {
+      nearest = std::min(nearest, (object.T_world_box.translation() - centre).norm());
+    }
+    EXPECT_LT(nearest, 0.7);
+  }
+}
+
+TEST(SlamSystem, ProcessIsPerceiveThenLocalize) {
+  SlamSystem whole = mask_system();
+  SlamSystem halves = mask_system();
+  for (std::size_t i = 0; i < 5; ++i) {
+    const FrameResult a = whole.process(room_frames()[i]);
+    const FrameResult b = halves.localize(halves.perceive(room_frames()[i]));
+    EXPECT_TRUE(testing::same_bits(a, b)) << i;
+  }
+}
+
+TEST(SlamSystem, SameBitsForAnyNumberOfThreads) {
+  const auto run = [&] {
+    SlamSystem system = mask_system();
+    std::vector<FrameResult> results;
+    for (std::size_t i = 0; i < 10; ++i) results.push_back(system.process(room_frames()[i]));
+    return std::pair(results, system.static_map().cloud().points);
+  };
+  room_frames();
+  const auto one = testing::on_threads(1, run);
+  for (const int threads : {2, 4}) {
+    const auto many = testing::on_threads(threads, run);
+    for (std::size_t i = 0; i < 10; ++i) {
+      EXPECT_TRUE(testing::same_bits(one.first[i], many.first[i])) << i;
+    }
+    EXPECT_EQ(one.second, many.second);
+  }
+}
+
+/// A frame of the room whose depth is everywhere `value`.
+Frame blind(std::size_t index, float value) {
+  Frame frame = room_frames()[index];
+  frame.depth = Image<float>(frame.depth.width(), frame.depth.height(), value);
+  return frame;
+}
+
+TEST(SlamSystem, FiftyFramesWithoutDepthAreLostAndThenItRecovers) {
+  SlamSystem system = mask_system();
+  for (std::size_t i = 0; i < 5; ++i) system.process(room_frames()[i]);
+  const std::size_t map_size = system.static_map().size();
+  const std::array<float, 3> no_return = {0.0F, std::numeric_limits<float>::quiet_NaN(),
+                                          std::numeric_limits<float>::infinity()};
+  const Duration period = room_frames()[1].stamp - room_frames()[0].stamp;
+  for (int i = 1; i <= 50; ++i) {
+    Frame frame = blind(4, no_return[static_cast<std::size_t>(i) % 3]);
+    frame.stamp = room_frames()[4].stamp + i * period;
+    const FrameResult result = system.process(frame);
+    EXPECT_EQ(result.odometry.status, Status::kLost);
+    EXPECT_TRUE(result.odometry.T_world_sensor.is_finite());
+    EXPECT_FALSE(result.keyframe);
+    EXPECT_EQ(result.dynamic_share, 0.0);
+  }
+  EXPECT_EQ(system.static_map().size(), map_size);
+  for (std::size_t i = 5; i < 8; ++i) {
+    Frame frame = room_frames()[i];
+    frame.stamp = frame.stamp + 50 * period;
+    const FrameResult result = system.process(frame);
+    EXPECT_EQ(result.odometry.status, i == 5 ? Status::kRecovered : Status::kTracking);
+    const Eigen::Vector3d truth = room().truth(static_cast<int>(i)).T_world_sensor.translation();
+    EXPECT_LT((result.odometry.T_world_sensor.translation() - truth).norm(), 0.03);
+  }
+}
+
+TEST(SlamSystem, BlindFromTheStartItBeginsWhenItSees) {
+  SlamSystem system = mask_system();
+  EXPECT_EQ(system.process(blind(0, 0.0F)).odometry.status, Status::kLost);
+  EXPECT_EQ(system.process(blind(1, NAN)).odometry.status, Status::kLost);
+  EXPECT_EQ(system.static_map().size(), 0U);
+  const FrameResult first = system.process(room_frames()[2]);
+  EXPECT_EQ(first.odometry.status, Status::kInitialized);
+  EXPECT_TRUE(first.odometry.T_world_sensor.isometry().isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_GT(system.static_map().size(), 0U);
+}
+
+TEST(SlamSystem, FramesWithoutAnythingAreLost) {
+  SlamSystem system = mask_system();
+  Frame nothing;
+  nothing.calibration = room_frames()[0].calibration;
+  EXPECT_EQ(system.process(nothing).odometry.status, Status::kLost);
+  system.process(room_frames()[0]);
+  nothing.stamp = room_frames()[1].stamp;
+  const FrameResult result = system.process(nothing);
+  EXPECT_EQ(result.odometry.status, Status::kLost);
+  EXPECT_TRUE(result.cloud.points.empty());
+  EXPECT_EQ(system.process(room_frames()[2]).odometry.status, Status::kRecovered);
+}
+
+TEST(SlamSystem, SizesThatDisagreeAreADataError) {
+  SlamSystem system = mask_system();
+  Frame frame = room_frames()[0];
+  frame.depth = Image<float>(100, 100, 2.0F);
+  EXPECT_THROW(system.process(frame), DataError);
+}
+
+TEST(SlamSystem, AFrameWhollyUnderAMaskIsLost) {
+  SlamSystem system = mask_system();
+  system.process(room_frames()[0]);
+  Frame covered = room_frames()[1];
+  for (std::uint8_t& pixel : covered.mask.pixels()) pixel = 1;
+  for (float& z : covered.depth.pixels()) z = 1.0F;  // somebody stands before the lens
+  const FrameResult result = system.process(covered);
+  EXPECT_EQ(result.odometry.status, Status::kLost);
+  EXPECT_GT(result.dynamic_share, 0.9);
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,226 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mms/io/files.hpp"
+#include "mms/io/image_io.hpp"
+#include "mms/io/ply_io.hpp"
+#include "mms/io/trajectory_io.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/recordings.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;  // NOLINT: helpers of the tests
+
+Outcome run_data(const TempFolder& folder) {
+  return run_mms(folder.path(), {"run", "data", "-o", "out"});
+}
+
+/// Expects a run of data/ that skipped some frames, saying why in one warning each.
+void expect_skipped(const TempFolder& folder, int frames, int skipped, const std::string& part) {
+  const Outcome outcome = run_data(folder);
+  expect_done(outcome);
+  const auto metrics = json_file(folder.path() / "out/metrics.json");
+  EXPECT_EQ(metrics["frames"], frames);
+  EXPECT_EQ(metrics["frames_skipped"], skipped);
+  EXPECT_EQ(lines_with(outcome, part), skipped) << outcome.err;
+  EXPECT_EQ(lines_with(outcome, "warning: "), skipped) << outcome.err;
+  EXPECT_EQ(read_trajectory_tum(folder.path() / "out/trajectory.tum").size(),
+            static_cast<std::size_t>(frames));
+}
+
+TEST(BadInput, EmptyFolder) {
+  const TempFolder folder;
+  fs::create_directories(folder.path() / "data");
+  expect_fault(run_data(folder), "data: is empty: no recording (wanted are rgb.txt and depth.txt");
+  expect_fault(run_mms(folder.path(), {"info", "data"}), "data: is empty: no recording");
+  EXPECT_FALSE(fs::exists(folder.path() / "out"));
+}
+
+TEST(BadInput, NoSuchFolder) {
+  const TempFolder folder;
+  expect_fault(run_data(folder), "data: there is no such recording");
+  folder.write("data", "a file");
+  expect_fault(run_data(folder), "data: is a file, a recording is a folder");
+}
+
+TEST(BadInput, MissingDepthList) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(2));
+  fs::remove(folder.path() / "data/depth.txt");
+  expect_fault(run_data(folder), "data: is a TUM-layout sequence, but depth.txt is missing");
+}
+
+TEST(BadInput, TruncatedPng) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(4));
+  for (const char* file : {"data/rgb/0001.png", "data/depth/0002.png"}) {
+    const std::string bytes = read_file(folder.path() / file);
+    folder.write(file, bytes.substr(0, bytes.size() / 2));
+  }
+  expect_skipped(folder, 2, 2, "truncated PNG");
+}
+
+TEST(BadInput, EightBitDepth) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(3));
+  write_png(folder.path() / "data/depth/0001.png", Image<std::uint8_t>(160, 120, 9));
+  expect_skipped(folder, 2, 1, "frame 0001 skipped: data/depth/0001.png: ");
+}
+
+TEST(BadInput, ColourAndDepthOfDifferentSize) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(3));
+  write_png(folder.path() / "data/depth/0000.png", Image<std::uint16_t>(80, 60, 1500));
+  write_png(folder.path() / "data/rgb/0002.png", Image<Rgb>(80, 60));
+  expect_skipped(folder, 1, 2, "is 80x60 pixels, the calibration says 160x120");
+}
+
+TEST(BadInput, MaskOfAnotherSize) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(3));
+  write_png(folder.path() / "data/masks/0001.png", Image<std::uint8_t>(80, 60));
+  expect_skipped(folder, 2, 1, "data/masks/0001.png: is 80x60 pixels, the calibration says");
+}
+
+TEST(BadInput, EveryFrameDamaged) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(2));
+  fs::remove_all(folder.path() / "data/depth");
+  expect_fault(run_data(folder), "data: none of its 2 frames could be processed");
+  EXPECT_FALSE(fs::exists(folder.path() / "out")) << "an empty folder of results is left over";
+}
+
+/// A recording with depth in its first and last frames only.
+void write_blind_stretch(const TempFolder& folder, int blind) {
+  write_room(folder.path() / "data", small_room(blind + 8));
+  for (int i = 4; i < blind + 4; ++i) {
+    write_png(folder.path() / "data/depth" / (frame_name(i) + ".png"),
+              Image<std::uint16_t>(160, 120, 0));
+  }
+}
+
+TEST(BadInput, DepthOfZeroForFiftyFrames) {
+  const TempFolder folder;
+  write_blind_stretch(folder, 50);
+  expect_skipped(folder, 58, 0, "warning");
+  const auto status = json_file(folder.path() / "out/metrics.json")["status"];
+  EXPECT_GT(status["lost"].get<int>() + status["degenerate"].get<int>(), 0);
+  for (const StampedPose& pose : read_trajectory_tum(folder.path() / "out/trajectory.tum")) {
+    EXPECT_LT(pose.T_world_sensor.translation().norm(), 5.0);
+  }
+}
+
+TEST(BadInput, DepthOfZeroThroughout) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(3));
+  for (int i = 0; i < 3; ++i) {
+    write_png(folder.path() / "data/depth" / (frame_name(i) + ".png"),
+              Image<std::uint16_t>(160, 120, 0));
+  }
+  expect_skipped(folder, 3, 0, "warning");
+  EXPECT_TRUE(read_ply(folder.path() / "out/static_map.ply").points.empty());
+}
+
+TEST(BadInput, NanAndInfinityInAScan) {
+  const TempFolder folder;
+  write_hall(folder.path() / "data", 3);
+  LidarScan scan = hall_scan(0.05);
+  const float bad[] = {std::numeric_limits<float>::quiet_NaN(),
+                       std::numeric_limits<float>::infinity(),
+                       -std::numeric_limits<float>::infinity(), 1e30F, 0.0F};
+  for (std::size_t i = 0; i < scan.points.size(); i += 7) {
+    scan.points[i][static_cast<int>(i % 3)] = bad[i % 5];
+    scan.intensity[i] = bad[(i + 1) % 5];
+  }
+  write_scan(folder.path() / "data/000001.bin", scan);
+  LidarScan hopeless = scan;
+  for (auto& point : hopeless.points) point.setConstant(bad[0]);
+  write_scan(folder.path() / "data/000002.bin", hopeless);
+  expect_skipped(folder, 3, 0, "warning");
+  const Trajectory poses = read_trajectory_tum(folder.path() / "out/trajectory.tum");
+  EXPECT_NEAR(poses[1].T_world_sensor.translation().x(), 0.05, 0.02);
+  for (const auto& point : read_ply(folder.path() / "out/static_map.ply").points) {
+    ASSERT_TRUE(point.allFinite());
+  }
+}
+
+TEST(BadInput, ScanOfNoBytes) {
+  const TempFolder folder;
+  write_hall(folder.path() / "data", 3);
+  folder.write("data/000001.bin", "");
+  expect_skipped(folder, 2, 1, "frame 000001 skipped: data/000001.bin: is an empty scan of 0 b");
+}
+
+TEST(BadInput, TruncatedScan) {
+  const TempFolder folder;
+  write_hall(folder.path() / "data", 3);
+  folder.write("data/000002.bin", std::string(1001, '\0'));
+  expect_skipped(folder, 2, 1, "has 1001 bytes, not a multiple of 16");
+}
+
+TEST(BadInput, StampsGoingBack) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(4));
+  const auto list = [&](const std::string& kind) {
+    std::string text;
+    for (const char* line :
+         {"1.0 KIND/0000.png", "1.2 KIND/0001.png", "1.1 KIND/0002.png", "1.3 KIND/0003.png"}) {
+      text += std::string(line).replace(4, 4, kind) + "\n";
+    }
+    folder.write("data/" + kind + ".txt", text);
+  };
+  list("rgb");
+  list("depth");
+  expect_skipped(folder, 3, 1, "frame 0002 skipped: its stamp 1.100000000 is not later than");
+}
+
+TEST(BadInput, StampsGoingBackInTimes) {
+  const TempFolder folder;
+  write_hall(folder.path() / "data", 3);
+  folder.write("data/times.txt", "0.0\n0.2\n0.1\n");
+  expect_skipped(folder, 2, 1, "frame 000002 skipped: its stamp 0.100000000 is not later than");
+}
+
+TEST(BadInput, OutputThatCannotBeWritten) {
+  const TempFolder folder;
+  folder.write("occupied", "a file");
+  const std::string small = "sim:room?width=160&height=120&frames=2";
+  expect_fault(run_mms(folder.path(), {"run", small, "-o", "occupied"}),
+               "occupied: cannot be made a folder");
+  expect_fault(run_mms(folder.path(), {"run", small, "-o", "occupied/below"}),
+               "occupied/below: cannot be made a folder");
+}
+
+TEST(BadInput, AResultThatCannotBeReplaced) {
+  const TempFolder folder;
+  fs::create_directories(folder.path() / "out/metrics.json/in_the_way");
+  expect_fault(
+      run_mms(folder.path(), {"run", "sim:room?width=160&height=120&frames=2", "-o", "out"}),
+      "out/metrics.json: cannot be written");
+}
+
+TEST(BadInput, FaultyCalibration) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(2));
+  folder.write("data/calibration.yaml", "fx: 100\nfy: wide\n");
+  expect_fault(run_data(folder), "calibration.yaml:2: ");
+  fs::remove(folder.path() / "data/calibration.yaml");
+  expect_fault(run_data(folder), "data: has no camera calibration (add calibration.yaml with fx");
+}
+
+TEST(BadInput, FaultyAddressOfTheSimulation) {
+  const TempFolder folder;
+  expect_fault(run_mms(folder.path(), {"run", "sim:room?sead=3"}), "unknown key 'sead' (keys are");
+  expect_fault(run_mms(folder.path(), {"run", "sim:room?frames=many"}),
+               "frames is 'many', allowed");
+  expect_fault(run_mms(folder.path(), {"run", "sim:hall"}), "sim:hall: ");
+}
+
+}  // namespace
+}  // namespace mms

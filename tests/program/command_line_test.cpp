@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/io/temp_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/recordings.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;  // NOLINT: helpers of the tests
+using Words = std::vector<std::string>;
+
+/// Commands and the words their help must name.
+const std::map<Words, Words> kCommands = {
+    {{}, {"run", "eval", "info", "config", "doctor", "--version"}},
+    {{"run"},
+     {"DATA", "-c,--config", "-o,--output", "--segmenter", "masks", "none", "--masks", "--fusion",
+      "multimodal", "vision", "--frames", "--start", "--realtime", "--threads"}},
+    {{"eval"}, {"trajectory", "drift", "map"}},
+    {{"eval", "trajectory"},
+     {"REFERENCE", "ESTIMATE", "--json", "--max-difference", "--rpe-delta", "--rpe-unit"}},
+    {{"eval", "drift"}, {"ESTIMATE", "--json"}},
+    {{"eval", "map"}, {"TRUTH", "MAP", "--json"}},
+    {{"info"}, {"DATA", "--masks"}},
+    {{"config"}, {"dump", "check"}},
+    {{"config", "dump"}, {"FILE"}},
+    {{"config", "check"}, {"FILE"}},
+    {{"doctor"}, {"--help"}},
+};
+
+TEST(CommandLine, HelpNamesEveryFlag) {
+  const TempFolder folder;
+  for (const auto& [command, words] : kCommands) {
+    Words arguments = command;
+    arguments.emplace_back("--help");
+    const Outcome outcome = run_mms(folder.path(), arguments);
+    expect_done(outcome);
+    EXPECT_TRUE(outcome.err.empty()) << outcome.err;
+    for (const std::string& word : words) expect_in(word, outcome.out);
+  }
+}
+
+TEST(CommandLine, VersionIsOneLine) {
+  const TempFolder folder;
+  const Outcome outcome = run_mms(folder.path(), {"--version"});
+  expect_done(outcome);
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
+}
+
+TEST(CommandLine, WrongWordsAreUsageFaultsThatNameThem) {
+  const TempFolder folder;
+  const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
+  expect_usage_fault(run({}), "a command is wanted: run, eval, info, config or doctor");
+  expect_usage_fault(run({"rum"}), "'rum'");
+  expect_usage_fault(run({"eval"}), "a command is wanted: trajectory, drift or map");
+  expect_usage_fault(run({"eval", "trajektory", "a", "b"}), "'trajektory'");
+  expect_usage_fault(run({"run", "--frmes", "3"}), "--frmes");
+  expect_usage_fault(run({"run", "one", "two"}), "two");
+  expect_usage_fault(run({"run", "--fusion", "magic"}), "{multimodal,vision,none}");
+  expect_usage_fault(run({"run", "--frames", "0"}), "--frames: Value 0 not in range 1 to");
+  expect_usage_fault(run({"run", "--start", "-1"}), "--start: Value -1 not in range 0 to");
+  expect_usage_fault(run({"run", "--threads", "two"}), "--threads");
+  expect_usage_fault(run({"eval", "drift"}), "ESTIMATE is required");
+  expect_usage_fault(run({"info"}), "DATA is required");
+}
+
+TEST(CommandLine, UsageFaultsSayWhereHelpIs) {
+  const TempFolder folder;
+  expect_in("(mms eval drift --help)", run_mms(folder.path(), {"eval", "drift", "--x"}).err);
+  expect_in("(mms --help)", run_mms(folder.path(), {"--x"}).err);
+}
+
+TEST(Info, DescribesARecording) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(5));
+  const Outcome outcome = run_mms(folder.path(), {"info", "data"});
+  expect_done(outcome);
+  for (const char* fact :
+       {"layout: TUM RGB-D", "5 colour and 5 depth images, 5 matched", "masks: 5 of 5",
+        "image: 160x120 pixels, 1000 depth units per metre", "rate: 15.00 Hz",
+        "ground truth: 5 poses", "frame 0: readable", "frame 2: readable", "frame 4: readable"}) {
+    expect_in(fact, outcome.out);
+  }
+}
+
+TEST(Info, NamesADamagedFrame) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(3));
+  folder.write("data/rgb/0000.png", "");
+  const Outcome outcome = run_mms(folder.path(), {"info", "data"});
+  expect_done(outcome);
+  expect_in("frame 0: frame 0000 skipped: data/rgb/0000.png: is empty", outcome.out);
+  expect_in("frame 1: readable", outcome.out);
+}
+
+TEST(Info, DescribesALidarFolder) {
+  const TempFolder folder;
+  write_hall(folder.path() / "data", 2);
+  const Outcome outcome = run_mms(folder.path(), {"info", "data"});
+  expect_done(outcome);
+  expect_in("layout: KITTI LiDAR scans", outcome.out);
+  expect_in("frames: 2", outcome.out);
+}
+
+TEST(Doctor, FindsThisMachineWell) {
+  const TempFolder folder;
+  const Outcome outcome = run_mms(folder.path(), {"doctor"});
+  expect_done(outcome);
+  for (const char* line : {"cores", "memory", "tracking a simulated room", "ok"}) {
+    expect_in(line, outcome.out);
+  }
+  EXPECT_EQ(outcome.out.find("FAILED"), std::string::npos) << outcome.out;
+}
+
+}  // namespace
+}  // namespace mms

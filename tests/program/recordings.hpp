@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "mms/core/frame.hpp"
+#include "mms/simulation/simulated_room.hpp"
+
+namespace mms::testing {
+
+/// A small room that is quick to render.
+RoomConfig small_room(int frames);
+
+/// "0003" of frame 3, the name of its images without extension.
+std::string frame_name(int index);
+
+/// Writes a simulated room as a TUM-layout sequence with masks, truth and calibration: frame i has
+/// the stamp 100 + i / hz.
+void write_room(const std::filesystem::path& folder, const RoomConfig& config);
+
+/// A spinning LiDAR's scan of an empty hall, taken `x` metres from its middle.
+LidarScan hall_scan(double x);
+
+/// Writes scans taken while driving 5 cm a frame as a KITTI folder of 000000.bin, 000001.bin, ...
+void write_hall(const std::filesystem::path& folder, int frames);
+void write_scan(const std::filesystem::path& file, const LidarScan& scan);
+
+/// The parsed file; a failure of the test and null where it is none.
+nlohmann::json json_file(const std::filesystem::path& path);
+
+std::set<std::string> keys_of(const nlohmann::json& object);
+
+}  // namespace mms::testing

@@ -1,0 +1,219 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "mms/io/files.hpp"
+#include "mms/io/ply_io.hpp"
+#include "mms/io/trajectory_io.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/recordings.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;  // NOLINT: helpers of the tests
+using Keys = std::set<std::string>;
+
+constexpr int kFrames = 6;
+
+int count_lines(const std::string& text) {
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Runs `mms run` on a small recording of the folder, with more arguments, into out/.
+Outcome run_recording(const TempFolder& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"run", "data", "-o", "out"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_mms(folder.path(), arguments);
+}
+
+void expect_time_statistics(const nlohmann::json& times) {
+  EXPECT_EQ(keys_of(times), (Keys{"mean", "p50", "p99"}));
+  EXPECT_LE(times["p50"], times["p99"]);
+}
+
+TEST(Run, WritesTheFilesOfTheContract) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(kFrames));
+  const Outcome outcome = run_recording(folder);
+  expect_done(outcome);
+  const fs::path out = folder.path() / "out";
+  const Trajectory poses = read_trajectory_tum(out / "trajectory.tum");
+  ASSERT_EQ(poses.size(), std::size_t{kFrames});
+  EXPECT_EQ(poses[0].stamp.to_string(), "100.000000000");
+  EXPECT_EQ(read_trajectory_kitti(out / "trajectory_kitti.txt").size(), poses.size());
+  EXPECT_GE(read_trajectory_tum(out / "keyframes.tum").size(), 1U);
+  const PointCloudFile map = read_ply(out / "static_map.ply");
+  EXPECT_GT(map.points.size(), 1000U);
+  EXPECT_EQ(map.colors.size(), map.points.size());
+  EXPECT_EQ(map.normals.size(), map.points.size());
+  expect_done(run_mms(folder.path(), {"config", "check", "out/config.yaml"}));
+  expect_in("report: out/report.html", outcome.out);
+  expect_in("map:    out/static_map.ply", outcome.out);
+}
+
+TEST(Run, MetricsHaveTheKeysOfTheContract) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(kFrames));
+  expect_done(run_recording(folder));
+  const auto metrics = json_file(folder.path() / "out/metrics.json");
+  EXPECT_EQ(keys_of(metrics),
+            (Keys{"frames", "frames_skipped", "hz", "ms_per_frame", "stages", "peak_rss_mb",
+                  "status", "dynamic_share", "tracks", "trajectory", "drift"}));
+  EXPECT_EQ(metrics["frames"], kFrames);
+  EXPECT_EQ(metrics["frames_skipped"], 0);
+  expect_time_statistics(metrics["ms_per_frame"]);
+  for (const auto& [name, times] : metrics["stages"].items()) expect_time_statistics(times);
+  int frames = 0;
+  for (const auto& [name, count] : metrics["status"].items()) frames += count.get<int>();
+  EXPECT_EQ(frames, kFrames);
+  EXPECT_GT(metrics["dynamic_share"], 0.0);
+  EXPECT_EQ(keys_of(metrics["trajectory"]),
+            (Keys{"matched", "poses", "ate_rmse_m", "ate_mean_m", "ate_median_m", "ate_max_m",
+                  "rpe_trans_rmse_m", "rpe_rot_rmse_deg"}));
+  EXPECT_LT(metrics["trajectory"]["ate_rmse_m"], 0.05);
+  EXPECT_EQ(keys_of(metrics["drift"]), (Keys{"poses", "atde_cm", "mtde_cm"}));
+}
+
+TEST(Run, WithoutTruthThereAreNoErrorsOfTheTrajectory) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(2));
+  fs::remove(folder.path() / "data/groundtruth.txt");
+  expect_done(run_recording(folder));
+  const Keys keys = keys_of(json_file(folder.path() / "out/metrics.json"));
+  EXPECT_FALSE(keys.contains("trajectory"));
+  EXPECT_FALSE(keys.contains("drift"));
+}
+
+TEST(Run, ObjectsHaveIdClassBoxAndVelocity) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(kFrames));
+  expect_done(run_recording(folder));
+  const auto objects = json_file(folder.path() / "out/objects.json");
+  ASSERT_FALSE(objects["tracks"].empty());
+  std::set<int> ids;
+  for (const auto& track : objects["tracks"]) {
+    EXPECT_EQ(keys_of(track), (Keys{"id", "class", "state", "velocity", "history"}));
+    EXPECT_TRUE(ids.insert(track["id"].get<int>()).second);
+    EXPECT_TRUE(track["class"] == "person" || track["class"] == "agv") << track["class"];
+    for (const auto& seen : track["history"]) {
+      EXPECT_EQ(keys_of(seen), (Keys{"stamp", "centroid", "box_min", "box_max", "velocity"}));
+      EXPECT_LE(seen["box_min"][0], seen["box_max"][0]);
+    }
+  }
+}
+
+TEST(Run, TimingHasARowAFrameAndAColumnAStage) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(kFrames));
+  expect_done(run_recording(folder));
+  const std::string timing = read_file(folder.path() / "out/timing.csv");
+  EXPECT_EQ(count_lines(timing), kFrames + 1);
+  expect_in("stamp,read,segmentation,fusion,features,odometry,mapping,total\n100.000000000,",
+            timing);
+}
+
+TEST(Run, TheReportStandsAlone) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(kFrames));
+  expect_done(run_recording(folder));
+  const std::string report = read_file(folder.path() / "out/report.html");
+  for (const char* part : {"<!DOCTYPE html>", "<svg", "data:image/", "</html>"}) {
+    expect_in(part, report);
+  }
+  for (const char* outside : {"src=\"http", "href=\"http", "@import", "<script src"}) {
+    EXPECT_EQ(report.find(outside), std::string::npos) << outside;
+  }
+}
+
+TEST(Run, StartAndFramesChooseAPart) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(kFrames));
+  expect_done(run_recording(folder, {"--start", "2", "--frames", "3"}));
+  const Trajectory poses = read_trajectory_tum(folder.path() / "out/trajectory.tum");
+  ASSERT_EQ(poses.size(), 3U);
+  EXPECT_EQ(poses[0].stamp.to_string(), "100.133333333");
+  expect_fault(run_recording(folder, {"--start", "6"}), "--start: is 6, but data has 6 frames");
+}
+
+TEST(Run, WithoutDataItPlaysTheRoomIntoResults) {
+  const TempFolder folder;
+  const Outcome outcome = run_mms(folder.path(), {"run", "--frames", "5"});
+  expect_done(outcome);
+  const fs::path latest = folder.path() / "results/latest";
+  EXPECT_TRUE(fs::is_symlink(latest));
+  EXPECT_TRUE(fs::is_regular_file(latest / "report.html"));
+  EXPECT_EQ(json_file(latest / "metrics.json")["frames"], 5);
+  expect_in("report: results/", outcome.out);
+}
+
+TEST(Run, LatestPointsToTheLastRun) {
+  const TempFolder folder;
+  const std::string small = "sim:room?width=160&height=120&frames=2";
+  expect_done(run_mms(folder.path(), {"run", small}));
+  const fs::path first = fs::canonical(folder.path() / "results/latest");
+  expect_done(run_mms(folder.path(), {"run", small}));
+  const fs::path second = fs::canonical(folder.path() / "results/latest");
+  EXPECT_NE(first, second);
+  EXPECT_TRUE(fs::exists(first / "metrics.json"));
+}
+
+TEST(Run, WithoutMasksNothingIsDynamic) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(2));
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--segmenter", "none"}, {"--fusion", "none"}}) {
+    expect_done(run_recording(folder, more));
+    EXPECT_EQ(json_file(folder.path() / "out/metrics.json")["dynamic_share"], 0.0) << more[0];
+  }
+}
+
+TEST(Run, TheFusionOfTheCommandLineIsTheEffectiveOne) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(2));
+  folder.write("settings.yaml", "fusion:\n  mode: none\nstatic_map:\n  voxel_size: 0.05\n");
+  expect_done(run_recording(folder, {"-c", "settings.yaml", "--fusion", "vision"}));
+  const std::string effective = read_file(folder.path() / "out/config.yaml");
+  expect_in("mode: vision", effective);
+  expect_in("voxel_size: 0.05", effective);
+}
+
+TEST(Run, MasksMayLieElsewhere) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(2));
+  fs::rename(folder.path() / "data/masks", folder.path() / "people");
+  expect_fault(run_recording(folder, {"--segmenter", "masks"}), "data: has no masks (put label");
+  expect_done(run_recording(folder, {"--segmenter", "masks", "--masks", "people"}));
+  EXPECT_GT(json_file(folder.path() / "out/metrics.json")["dynamic_share"], 0.0);
+}
+
+TEST(Run, InRealTimeEveryFrameIsProcessedOrCounted) {
+  const TempFolder folder;
+  expect_done(run_mms(folder.path(), {"run", "sim:room?width=160&height=120&frames=8&hz=40",
+                                      "--realtime", "-o", "out"}));
+  const auto metrics = json_file(folder.path() / "out/metrics.json");
+  EXPECT_EQ(metrics["frames"].get<int>() + metrics["frames_skipped"].get<int>(), 8);
+}
+
+TEST(Run, PipedProgressIsPlainLines) {
+  const TempFolder folder;
+  write_room(folder.path() / "data", small_room(2));
+  const Outcome outcome = run_recording(folder);
+  EXPECT_EQ(lines_with(outcome, "frame 2/2  "), 1) << outcome.err;
+  EXPECT_EQ(outcome.err.find('\r'), std::string::npos);
+}
+
+TEST(Run, LocalisesALidar) {
+  const TempFolder folder;
+  write_hall(folder.path() / "data", 4);
+  expect_done(run_recording(folder));
+  const Trajectory poses = read_trajectory_tum(folder.path() / "out/trajectory.tum");
+  ASSERT_EQ(poses.size(), 4U);
+  EXPECT_EQ(poses[3].stamp.to_string(), "0.300000000");
+  EXPECT_NEAR(poses[3].T_world_sensor.translation().x(), 0.15, 0.03);
+}
+
+}  // namespace
+}  // namespace mms
