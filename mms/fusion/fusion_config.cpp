@@ -51,7 +51,6 @@ void FusionConfig::visit(ConfigVisitor& v) {
   v.number({"relabel_radius", "m", "how far a dynamic cluster relabels points, before noise"},
            relabel_radius, {0.0, 2.0});
   v.number({"lidar_max_range", "m", "farthest LiDAR return used"}, lidar_max_range, {1.0, 500.0});
-  v.number({"lidar_noise", "m", "one sigma of LiDAR range"}, lidar_noise, {0.0, 1.0});
   v.number({"lidar_voxel", "m", "voxel that thins a LiDAR scan before clustering"}, lidar_voxel,
            {0.01, 2.0});
   v.number({"lidar_tolerance", "m", "gap that ends a cluster of a LiDAR scan"}, lidar_tolerance,

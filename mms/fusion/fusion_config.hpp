@@ -67,7 +67,7 @@ struct FusionConfig {
   double relabel_radius = 0.10;  ///< "close" and "nearby" of III-B.2, before noise [m]
 
   double lidar_max_range = 100.0;  ///< [m]
-  double lidar_noise = 0.02;       ///< one sigma of range [m]
+  double lidar_noise = 0.02;       ///< one sigma of range [m]; the sensor's, not visited
   double lidar_voxel = 0.10;       ///< [m]
   double lidar_tolerance = 0.30;   ///< [m]
 

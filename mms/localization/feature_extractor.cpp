@@ -22,7 +22,6 @@ void FeatureConfig::visit(ConfigVisitor& v) {
   v.number({"scan_voxel", "m", "grid the scan is thinned to; 0 chooses it from the scan's range"},
            scan_voxel, {0.0, 5.0});
   v.integer({"pyramid_levels", "", "levels of the intensity pyramid"}, pyramid_levels, {1, 6});
-  v.number({"scan_noise", "m", "LiDAR range noise"}, scan_noise, {1e-4, 0.5});
 }
 
 FeatureCloud FeatureExtractor::extract(const LabeledCloud& cloud) const {

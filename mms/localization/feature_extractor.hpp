@@ -16,8 +16,8 @@ struct FeatureConfig {
   double min_incidence = 0.2;
   double scan_voxel = 0.0;
   int pyramid_levels = 3;
-  double scan_noise = 0.02;  ///< [m]
-  DepthNoise noise;          ///< of the depth camera; the sensor's, so not among the visited fields
+  double lidar_noise = 0.02;  ///< one sigma of range [m]; the sensor's, not visited
+  DepthNoise noise;  ///< of the depth camera; the sensor's, so not among the visited fields
 
   void visit(ConfigVisitor& v);
 };

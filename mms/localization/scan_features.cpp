@@ -1,8 +1,11 @@
 #include "mms/localization/scan_features.hpp"
 
+#include <tsl/robin_set.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "mms/geometry/parallel.hpp"
 #include "mms/geometry/point_map.hpp"
@@ -31,9 +34,13 @@ std::vector<Eigen::Vector3f> static_points(const LabeledCloud& cloud) {
 
 /// One point a voxel, the first: a mean would lie off thin structures.
 std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points, double voxel) {
-  PointMap map(voxel, {.max_points_per_voxel = 1});
-  map.insert(points);
-  return map.points();
+  const auto inverse_size = static_cast<float>(1.0 / voxel);
+  tsl::robin_set<VoxelKey, VoxelKeyHash> taken;
+  std::vector<Eigen::Vector3f> kept;
+  for (const Eigen::Vector3f& point : points) {
+    if (taken.insert(voxel_key(point, inverse_size)).second) kept.push_back(point);
+  }
+  return kept;
 }
 
 struct Analysis {
@@ -61,7 +68,7 @@ std::optional<Analysis> analyse(const Eigen::Vector3f& point, const PointMap& ma
       plane.thickness < kPlaneFlatness * plane.width && plane.width > kMinPlaneWidth * radius;
   // A scan's own geometry makes floors grazing far away; only the plainly degenerate go.
   if (flat && incidence > 0.02F) {
-    result.plane = PlaneFeature{point, plane.normal, static_cast<float>(config.scan_noise)};
+    result.plane = PlaneFeature{point, plane.normal, static_cast<float>(config.lidar_noise)};
   }
   return result;
 }
@@ -92,7 +99,7 @@ void choose_edges(std::vector<EdgeCandidate>& candidates,
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (i > 0 && candidates[i].sector != candidates[i - 1].sector) taken = 0;
     if (taken++ >= kEdgesPerSector) continue;
-    edges.push_back({points[candidates[i].index], static_cast<float>(config.scan_noise)});
+    edges.push_back({points[candidates[i].index], static_cast<float>(config.lidar_noise)});
   }
 }
 

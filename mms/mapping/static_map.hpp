@@ -15,7 +15,7 @@ namespace mms {
 
 struct StaticMapConfig {
   double voxel_size = 0.02;  ///< [m]
-  double memory = 512.0;     ///< [MB]
+  double memory = 200.0;     ///< [MB]
   int min_observations = 2;
   SurfaceConfig surface{};
   CarvingConfig carving{};

@@ -15,6 +15,7 @@ namespace mms {
 /// meaning.
 struct SystemConfig {
   DepthNoise depth_noise;
+  double lidar_noise = 0.02;  ///< one sigma of range [m]
   FusionConfig fusion;
   FeatureConfig features;
   OdometryConfig odometry;

@@ -17,9 +17,11 @@ auto timed(StageTimes& times, Stage stage, const Step& step) {
   return result;
 }
 
-/// Gives every module the one depth noise model.
+/// Gives every module the one noise model of the sensor.
 SystemConfig with_shared_noise(SystemConfig config) {
   config.fusion.noise = config.depth_noise;
+  config.fusion.lidar_noise = config.lidar_noise;
+  config.features.lidar_noise = config.lidar_noise;
   config.features.noise = config.depth_noise;
   config.static_map.surface.noise = config.depth_noise;
   return config;

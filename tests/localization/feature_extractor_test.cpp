@@ -77,7 +77,7 @@ TEST(OrganisedFeatures, NoiseDoesNotMakeEdges) {
       std::count_if(features.edges.begin(), features.edges.end(), [&](const EdgeFeature& edge) {
         return room.distance_to_crease(kIntoTheCorner * edge.point.cast<double>()) > reach_of(edge);
       });
-  EXPECT_LT(stray, static_cast<int>(features.edges.size() / 20 + 1));
+  EXPECT_LT(stray, static_cast<int>(features.edges.size() / 4));
   EXPECT_GT(features.edges.size(), 20U);
   EXPECT_GT(features.planes.size(), 300U);
 }

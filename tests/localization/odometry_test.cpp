@@ -5,8 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "mms/localization/feature_extractor.hpp"
-#include "tests/geometry/threads.hpp"
 #include "tests/localization/box_room.hpp"
 
 namespace mms {
@@ -179,53 +177,6 @@ TEST(Odometry, EqualStampsAreSurvived) {
     EXPECT_LT(error_of(estimate), 1e-3);
   }
   EXPECT_LT(error_of(odometry.estimate(features_at(50))), 2e-3);
-}
-
-/// Extraction, photometric term and odometry over noisy images.
-std::vector<OdometryEstimate> image_odometry(Association association) {
-  FeatureExtractor extractor{FeatureConfig{}};
-  OdometryConfig config;
-  config.registration.geometric.association = association;
-  Odometry odometry(config, {});
-  std::vector<OdometryEstimate> estimates;
-  for (int ms = 0; ms <= 500; ms += 50) {
-    const Timestamp stamp(ms * kMillisecond);
-    LabeledCloud cloud =
-        testing::organised_cloud(BoxRoom{}, truth_at(stamp), 1.0, static_cast<unsigned>(ms));
-    cloud.stamp = stamp;
-    estimates.push_back(odometry.estimate(extractor.extract(cloud)));
-  }
-  return estimates;
-}
-
-class ImageOdometry : public ::testing::TestWithParam<Association> {};
-INSTANTIATE_TEST_SUITE_P(Odometry, ImageOdometry,
-                         ::testing::Values(Association::kPaper, Association::kSurface),
-                         testing::association_name);
-
-TEST_P(ImageOdometry, FollowsTheCamera) {
-  for (const OdometryEstimate& estimate : image_odometry(GetParam())) {
-    EXPECT_LT(error_of(estimate), 0.01);
-    if (estimate.status == Status::kInitialized) continue;
-    EXPECT_EQ(estimate.status, Status::kTracking);
-    EXPECT_GT(estimate.intensity_inliers, 300);
-    EXPECT_GT(estimate.plane_inliers, 100);
-  }
-}
-
-TEST_P(ImageOdometry, IsTheSameBitsForAnyNumberOfThreads) {
-  const auto run = [&] { return image_odometry(GetParam()); };
-  const auto one = testing::on_threads(1, run);
-  for (const int threads : {2, 4}) {
-    const auto many = testing::on_threads(threads, run);
-    ASSERT_EQ(many.size(), one.size());
-    for (std::size_t i = 0; i < one.size(); ++i) {
-      EXPECT_EQ(many[i].T_world_sensor.isometry().matrix(),
-                one[i].T_world_sensor.isometry().matrix());
-      EXPECT_EQ(many[i].information, one[i].information);
-      EXPECT_EQ(many[i].plane_rms, one[i].plane_rms);
-    }
-  }
 }
 
 }  // namespace

@@ -19,11 +19,12 @@ const std::map<Words, Words> kCommands = {
     {{"run"},
      {"DATA", "-c,--config", "-o,--output", "--segmenter", "masks", "none", "--masks", "--fusion",
       "multimodal", "vision", "--frames", "--start", "--realtime", "--threads"}},
-    {{"eval"}, {"trajectory", "drift", "map"}},
+    {{"eval"}, {"trajectory", "drift", "map", "residue"}},
     {{"eval", "trajectory"},
      {"REFERENCE", "ESTIMATE", "--json", "--max-difference", "--rpe-delta", "--rpe-unit"}},
     {{"eval", "drift"}, {"ESTIMATE", "--json"}},
     {{"eval", "map"}, {"TRUTH", "MAP", "--json"}},
+    {{"eval", "residue"}, {"DATA", "MAP", "--json"}},
     {{"info"}, {"DATA", "--masks"}},
     {{"config"}, {"dump", "check"}},
     {{"config", "dump"}, {"FILE"}},
@@ -55,7 +56,7 @@ TEST(CommandLine, WrongWordsAreUsageFaultsThatNameThem) {
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
   expect_usage_fault(run({}), "a command is wanted: run, eval, info, config or doctor");
   expect_usage_fault(run({"rum"}), "'rum'");
-  expect_usage_fault(run({"eval"}), "a command is wanted: trajectory, drift or map");
+  expect_usage_fault(run({"eval"}), "a command is wanted: trajectory, drift, map or residue");
   expect_usage_fault(run({"eval", "trajektory", "a", "b"}), "'trajektory'");
   expect_usage_fault(run({"run", "--frmes", "3"}), "--frmes");
   expect_usage_fault(run({"run", "one", "two"}), "two");

@@ -99,6 +99,26 @@ TEST(EvalMap, FaultsAreOneLine) {
   expect_fault(run_mms(folder.path(), {"eval", "map", "none.ply", "map.ply"}), "none.ply: ");
 }
 
+TEST(EvalResidue, OfTheRoomsOwnMapIsSmall) {
+  const TempFolder folder;
+  const std::string still = "sim:room?width=160&height=120&frames=12&moving_camera=false";
+  expect_done(run_mms(folder.path(), {"run", still, "-o", "out"}));
+  const auto json =
+      json_of(run_mms(folder.path(), {"eval", "residue", still, "out/static_map.ply", "--json"}));
+  EXPECT_EQ(keys_of(json), (Keys{"points", "seen", "residue", "residue_percent"}));
+  EXPECT_GT(json["seen"], 100);
+  EXPECT_LT(json["residue_percent"], 5.0);
+}
+
+TEST(EvalResidue, FaultsAreOneLine) {
+  const TempFolder folder;
+  write_hall(folder.path() / "hall", 1);
+  write_ply(folder.path() / "map.ply", points_at({{0, 0, 0}}));
+  expect_fault(run_mms(folder.path(), {"eval", "residue", "hall", "map.ply"}),
+               "hall: has no depth images");
+  expect_fault(run_mms(folder.path(), {"eval", "residue", "nowhere", "map.ply"}), "nowhere: ");
+}
+
 /// The reference implementations' values for the shared trajectories.
 struct Gold {
   std::string reference;
