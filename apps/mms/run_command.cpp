@@ -63,6 +63,11 @@ void check_range(const RunOptions& options, const FrameSource& source) {
                                          source.size()));
 }
 
+AsyncOptions threads_of(const RunOptions& options) {
+  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return {.threads = options.threads > 0 ? options.threads : cores, .realtime = options.realtime};
+}
+
 void run(const RunOptions& options) {
   const SystemConfig config = load_settings(options);
   const std::unique_ptr<FrameSource> source = open_dataset(
@@ -74,9 +79,7 @@ void run(const RunOptions& options) {
   Progress progress(std::min(options.frames, source->size() - options.start));
   source->on_warning([&](const std::string& message) { progress.warn(message); });
   RunLog log(source->ground_truth());
-  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  AsyncPipeline pipeline(
-      {.threads = options.threads > 0 ? options.threads : cores, .realtime = options.realtime});
+  AsyncPipeline pipeline(threads_of(options));
   pipeline.run(system, limited(*source, options), [&](const Processed& processed) {
     log.add(processed);
     progress.show(log, system.dynamic_map());

@@ -39,11 +39,13 @@ std::optional<Timestamp> Timestamp::parse(std::string_view text) {
 }
 
 std::string Timestamp::to_string() const {
-  const std::int64_t magnitude = nanoseconds_ < 0 ? -nanoseconds_ : nanoseconds_;
+  // Unsigned, since INT64_MIN has no positive counterpart.
+  const auto bits = static_cast<std::uint64_t>(nanoseconds_);
+  const std::uint64_t magnitude = nanoseconds_ < 0 ? 0 - bits : bits;
   char text[32];
-  std::snprintf(text, sizeof text, "%s%lld.%09lld", nanoseconds_ < 0 ? "-" : "",
-                static_cast<long long>(magnitude / kNanosecondsPerSecond),
-                static_cast<long long>(magnitude % kNanosecondsPerSecond));
+  std::snprintf(text, sizeof text, "%s%llu.%09llu", nanoseconds_ < 0 ? "-" : "",
+                static_cast<unsigned long long>(magnitude / kNanosecondsPerSecond),
+                static_cast<unsigned long long>(magnitude % kNanosecondsPerSecond));
   return text;
 }
 

@@ -11,8 +11,8 @@ namespace mms {
 
 /// Files of one colour image with depth.
 struct RgbdFiles {
-  Timestamp stamp;            ///< of the colour image
-  Duration depth_offset{0};   ///< of the depth image, relative to `stamp`
+  Timestamp stamp;           ///< of the colour image
+  Duration depth_offset{0};  ///< of the depth image, relative to `stamp`
   std::filesystem::path color;
   std::filesystem::path depth;
   std::filesystem::path mask;  ///< empty where there is none

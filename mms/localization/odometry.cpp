@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mms/geometry/se3.hpp"
 
@@ -19,16 +20,15 @@ constexpr double kRadiusPerVoxel = 200.0;
 
 /// The features as they would have been measured at the frame's stamp by a sensor that moves with
 /// `velocity`: cameras take depth and colour a few milliseconds apart.
-FeatureCloud at_frame_stamp(const FeatureCloud& features, const Vector6d& velocity) {
-  FeatureCloud moved = features;
-  if (features.points_offset == Duration::zero()) return moved;
+FeatureCloud at_frame_stamp(FeatureCloud features, const Vector6d& velocity) {
+  if (features.points_offset == Duration::zero()) return features;
   const Eigen::Isometry3f T = se3::exp(velocity * to_seconds(features.points_offset)).cast<float>();
-  for (EdgeFeature& edge : moved.edges) edge.point = T * edge.point;
-  for (PlaneFeature& plane : moved.planes) {
+  for (EdgeFeature& edge : features.edges) edge.point = T * edge.point;
+  for (PlaneFeature& plane : features.planes) {
     plane.point = T * plane.point;
     plane.normal = T.linear() * plane.normal;
   }
-  return moved;
+  return features;
 }
 
 }  // namespace
@@ -54,9 +54,9 @@ void OdometryConfig::visit(ConfigVisitor& v) {
 Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
     : config_(config), keyframes_(config.registration.photometric, noise), noise_(noise) {}
 
-OdometryEstimate Odometry::estimate(const FeatureCloud& measured) {
+OdometryEstimate Odometry::estimate(FeatureCloud measured) {
   if (!maps_) return initialize(measured);
-  const FeatureCloud features = at_frame_stamp(measured, velocity_);
+  const FeatureCloud features = at_frame_stamp(std::move(measured), velocity_);
   const double elapsed = to_seconds(features.stamp - stamp_);
   const Isometry prediction = predict(features.stamp);
   const RegistrationResult result = register_frame(

@@ -29,7 +29,7 @@ class Odometry {
   Odometry(const OdometryConfig& config, const DepthNoise& noise);
 
   /// The frames must come in the order of their stamps. Never throws for bad frames: see Status.
-  OdometryEstimate estimate(const FeatureCloud& features);
+  OdometryEstimate estimate(FeatureCloud features);
 
  private:
   using Isometry = Eigen::Isometry3d;

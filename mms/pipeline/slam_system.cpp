@@ -62,7 +62,7 @@ FrameResult SlamSystem::localize(Perception perception) {
   result.cloud = std::move(perception.labeled);
   result.dynamic_share = dynamic_share(result.cloud);
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
-    return odometry_.estimate(perception.features);  // III-C.2, III-C.3, eqs. (3)-(5)
+    return odometry_.estimate(std::move(perception.features));  // III-C.2, III-C.3, eqs. (3)-(5)
   });
   result.keyframe = timed(result.stage_ms, Stage::kMapping, [&] {
     const bool keyframe = keyframes_.is_keyframe(result.odometry);                      // III-C.4

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
-#include <vector>
+#include <mutex>
 
 #include "mms/core/frame.hpp"
 #include "mms/pipeline/slam_system.hpp"
@@ -21,14 +22,14 @@ inline const SimulatedRoom& room() {
   return the_room;
 }
 
-/// Its first 40 frames, rendered once.
-inline const std::vector<Frame>& room_frames() {
-  static const std::vector<Frame> frames = [] {
-    std::vector<Frame> rendered;
-    for (int i = 0; i < 40; ++i) rendered.push_back(room().render(i));
-    return rendered;
-  }();
-  return frames;
+/// One of its frames, rendered when first asked for; from any thread.
+inline const Frame& room_frame(std::size_t index) {
+  static std::mutex mutex;
+  static std::map<std::size_t, Frame> frames;
+  const std::scoped_lock lock(mutex);
+  const auto found = frames.find(index);
+  if (found != frames.end()) return found->second;
+  return frames.emplace(index, room().render(static_cast<int>(index))).first->second;
 }
 
 inline SlamSystem mask_system(FusionMode mode = FusionMode::kMultimodal) {
