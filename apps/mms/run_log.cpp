@@ -32,7 +32,7 @@ std::vector<double> column(const std::vector<LoggedFrame>& frames, const Value& 
 
 }  // namespace
 
-double LoggedFrame::total_ms() const {
+double LoggedFrame::stages_ms() const {
   return std::accumulate(stage_ms.begin(), stage_ms.end(), read_ms);
 }
 
@@ -40,9 +40,12 @@ RunLog::RunLog(Trajectory truth) : truth_(std::move(truth)) {}
 
 void RunLog::add(const Processed& processed) {
   const FrameResult& result = processed.result;
+  const Clock::time_point now = Clock::now();
+  const std::chrono::duration<double, std::milli> interval = now - last_;
+  last_ = now;
   frames_.push_back({processed.frame.name, processed.frame.stamp, result.odometry.T_world_sensor,
                      result.odometry.status, result.keyframe, result.dynamic_share,
-                     processed.read_ms, result.stage_ms});
+                     processed.read_ms, interval.count(), result.stage_ms});
   has_image_ = has_image_ || result.cloud.organised();
   keep_picture(processed);
 }
@@ -61,12 +64,12 @@ void RunLog::keep_picture(const Processed& processed) {
 }
 
 void RunLog::finish(std::size_t skipped, const SlamSystem& system) {
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  const std::chrono::duration<double> elapsed = last_ - start_;
   metrics_.frames = static_cast<std::int64_t>(frames_.size());
   metrics_.frames_skipped = static_cast<std::int64_t>(skipped);
   metrics_.hz = static_cast<double>(frames_.size()) / elapsed.count();
   metrics_.ms_per_frame =
-      time_statistics(column(frames_, [](const LoggedFrame& f) { return f.total_ms(); }));
+      time_statistics(column(frames_, [](const LoggedFrame& f) { return f.interval_ms; }));
   metrics_.stages.emplace_back(
       "read", time_statistics(column(frames_, [](const LoggedFrame& f) { return f.read_ms; })));
   for (std::size_t i = 0; i < kStageCount; ++i) {

@@ -22,9 +22,10 @@ struct LoggedFrame {
   bool keyframe = false;
   double dynamic_share = 0.0;
   double read_ms = 0.0;
+  double interval_ms = 0.0;  ///< wall time since the frame before was done
   StageTimes stage_ms{};
 
-  double total_ms() const;
+  double stages_ms() const;  ///< sum of reading and all stages
 };
 
 /// Collects what a run's files are written from.
@@ -56,7 +57,9 @@ class RunLog {
   std::size_t picture_stride_ = 1;
   bool has_image_ = false;
   RunMetrics metrics_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
 };
 
 }  // namespace mms

@@ -25,11 +25,12 @@ std::string timing_csv(const RunLog& log) {
   for (std::size_t i = 0; i < kStageCount; ++i) {
     text += fmt::format(",{}", to_string(static_cast<Stage>(i)));
   }
-  text += ",total\n";
+  text += ",stages,interval\n";
   for (const LoggedFrame& frame : log.frames()) {
     fmt::format_to(std::back_inserter(text), "{},{:.3f}", frame.stamp.to_string(), frame.read_ms);
     for (const double ms : frame.stage_ms) fmt::format_to(std::back_inserter(text), ",{:.3f}", ms);
-    fmt::format_to(std::back_inserter(text), ",{:.3f}\n", frame.total_ms());
+    fmt::format_to(std::back_inserter(text), ",{:.3f},{:.3f}\n", frame.stages_ms(),
+                   frame.interval_ms);
   }
   return text;
 }
