@@ -87,6 +87,11 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
 
 void print_summary(const std::filesystem::path& folder, const RunLog& log) {
   fmt::print("{}", to_table(metric_values(log.metrics())));
+  const std::int64_t lost = log.metrics().status[static_cast<std::size_t>(Status::kLost)];
+  if (lost > 0) {
+    fmt::print("lost in {} of {} frames, whose poses are predictions; the report shows when\n",
+               lost, log.frames().size());
+  }
   fmt::print("report: {}\nmap:    {}\n", (folder / "report.html").string(),
              (folder / "static_map.ply").string());
 }

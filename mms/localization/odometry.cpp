@@ -18,11 +18,19 @@ constexpr double kMinVoxel = 0.05;  ///< [m]
 constexpr double kMaxVoxel = 1.0;   ///< [m]
 constexpr double kRadiusPerVoxel = 200.0;
 
+/// Largest offset of the points that is made good, as a share of the time between frames. The
+/// velocity comes from poses that were corrected with the velocity before; from one half on its
+/// error would grow from frame to frame.
+constexpr double kMaxOffset = 0.45;
+
 /// The features as they would have been measured at the frame's stamp by a sensor that moves with
 /// `velocity`: cameras take depth and colour a few milliseconds apart.
-FeatureCloud at_frame_stamp(FeatureCloud features, const Vector6d& velocity) {
-  if (features.points_offset == Duration::zero()) return features;
-  const Eigen::Isometry3f T = se3::exp(velocity * to_seconds(features.points_offset)).cast<float>();
+/// @param elapsed  since the frame before [s]
+FeatureCloud at_frame_stamp(FeatureCloud features, const Vector6d& velocity, double elapsed) {
+  if (features.points_offset == Duration::zero() || elapsed <= 0.0) return features;
+  const double limit = kMaxOffset * elapsed;
+  const double offset = std::clamp(to_seconds(features.points_offset), -limit, limit);
+  const Eigen::Isometry3f T = se3::exp(velocity * offset).cast<float>();
   for (EdgeFeature& edge : features.edges) edge.point = T * edge.point;
   for (PlaneFeature& plane : features.planes) {
     plane.point = T * plane.point;
@@ -56,8 +64,8 @@ Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
 
 OdometryEstimate Odometry::estimate(FeatureCloud measured) {
   if (!maps_) return initialize(measured);
-  const FeatureCloud features = at_frame_stamp(std::move(measured), velocity_);
-  const double elapsed = to_seconds(features.stamp - stamp_);
+  const double elapsed = to_seconds(measured.stamp - stamp_);
+  const FeatureCloud features = at_frame_stamp(std::move(measured), velocity_, elapsed);
   const Isometry prediction = predict(features.stamp);
   const RegistrationResult result = register_frame(
       features, {*maps_, keyframes_.nearest(prediction)}, prediction, config_.registration, noise_);

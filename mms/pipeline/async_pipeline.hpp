@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -45,7 +46,7 @@ class AsyncPipeline {
   void run_threaded(SlamSystem& system, const Source& source, const Sink& sink);
 
   AsyncOptions options_;
-  std::size_t dropped_ = 0;
+  std::atomic<std::size_t> dropped_ = 0;  // counted by the reading thread
 };
 
 }  // namespace mms

@@ -111,8 +111,9 @@ TEST(Run, TimingHasARowAFrameAndAColumnAStage) {
   expect_done(run_recording(folder));
   const std::string timing = read_file(folder.path() / "out/timing.csv");
   EXPECT_EQ(count_lines(timing), kFrames + 1);
-  expect_in("stamp,read,segmentation,fusion,features,odometry,mapping,stages,interval\n100.000000000,",
-            timing);
+  expect_in(
+      "stamp,read,segmentation,fusion,features,odometry,mapping,stages,interval\n100.000000000,",
+      timing);
 }
 
 TEST(Run, TheReportStandsAlone) {
