@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxPictures = 8;
 constexpr std::size_t kMinPosesForError = 3;
+constexpr double kStandsStill = 1.0;  ///< largest movement of a sensor that stands still [cm]
 
 /// Largest memory the process has held so far [MiB].
 double peak_memory_mb() {
@@ -64,9 +65,22 @@ void RunLog::keep_picture(const Processed& processed) {
 }
 
 void RunLog::finish(std::size_t skipped, const SlamSystem& system) {
+  sum_up_times();
+  sum_up_accuracy();
+  metrics_.frames_skipped = static_cast<std::int64_t>(skipped);
+  metrics_.peak_rss_mb = peak_memory_mb();
+  for (const LoggedFrame& frame : frames_) {
+    ++metrics_.status[static_cast<std::size_t>(frame.status)];
+    metrics_.dynamic_share += frame.dynamic_share / static_cast<double>(frames_.size());
+  }
+  metrics_.tracks =
+      std::count_if(system.dynamic_map().tracks().begin(), system.dynamic_map().tracks().end(),
+                    [](const Track& track) { return track.state != TrackState::kTentative; });
+}
+
+void RunLog::sum_up_times() {
   const std::chrono::duration<double> elapsed = last_ - start_;
   metrics_.frames = static_cast<std::int64_t>(frames_.size());
-  metrics_.frames_skipped = static_cast<std::int64_t>(skipped);
   metrics_.hz = static_cast<double>(frames_.size()) / elapsed.count();
   metrics_.ms_per_frame =
       time_statistics(column(frames_, [](const LoggedFrame& f) { return f.interval_ms; }));
@@ -77,20 +91,15 @@ void RunLog::finish(std::size_t skipped, const SlamSystem& system) {
         to_string(static_cast<Stage>(i)),
         time_statistics(column(frames_, [i](const LoggedFrame& f) { return f.stage_ms[i]; })));
   }
-  metrics_.peak_rss_mb = peak_memory_mb();
-  for (const LoggedFrame& frame : frames_) {
-    ++metrics_.status[static_cast<std::size_t>(frame.status)];
-    metrics_.dynamic_share += frame.dynamic_share / static_cast<double>(frames_.size());
-  }
-  metrics_.tracks =
-      std::count_if(system.dynamic_map().tracks().begin(), system.dynamic_map().tracks().end(),
-                    [](const Track& track) { return track.state != TrackState::kTentative; });
+}
+
+void RunLog::sum_up_accuracy() {
   const Trajectory estimate = trajectory();
   const auto matched = match_by_stamp(truth_, estimate, TrajectoryErrorOptions{}.max_difference);
-  if (matched.size() >= kMinPosesForError) {
-    metrics_.trajectory = evaluate_trajectory(truth_, estimate);
-    metrics_.drift = evaluate_drift(estimate);
-  }
+  if (matched.size() < kMinPosesForError) return;
+  metrics_.trajectory = evaluate_trajectory(truth_, estimate);
+  metrics_.drift = evaluate_drift(estimate);
+  metrics_.stood_still = evaluate_drift(truth_).mtde_cm < kStandsStill;
 }
 
 Trajectory RunLog::trajectory() const {

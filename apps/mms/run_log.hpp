@@ -50,6 +50,8 @@ class RunLog {
 
  private:
   void keep_picture(const Processed& processed);
+  void sum_up_times();
+  void sum_up_accuracy();
 
   Trajectory truth_;
   std::vector<LoggedFrame> frames_;

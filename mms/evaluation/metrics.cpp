@@ -71,7 +71,7 @@ std::vector<MetricValue> metric_values(const RunMetrics& metrics) {
       {"dynamic_share", "dynamic share of the points", 100.0 * metrics.dynamic_share, "%", 1},
       {"tracks", "tracked objects", static_cast<double>(metrics.tracks), "", 0}};
   if (metrics.trajectory) append(values, metric_values(*metrics.trajectory));
-  if (metrics.drift) {
+  if (metrics.drift && metrics.stood_still) {
     std::vector<MetricValue> drift = metric_values(*metrics.drift);
     std::erase_if(drift, [](const MetricValue& item) { return item.key == "poses"; });
     append(values, drift);

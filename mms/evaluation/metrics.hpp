@@ -39,6 +39,7 @@ struct RunMetrics {
   std::int64_t tracks = 0;                                     ///< dynamic objects confirmed
   std::optional<TrajectoryError> trajectory;                   ///< where truth is there
   std::optional<Drift> drift;                                  ///< where truth is there
+  bool stood_still = true;  ///< by the truth; for a moving sensor drift is left out of tables
 };
 
 /// The JSON object with the contract's keys, indented, ended by a newline; `trajectory` and `drift`

@@ -68,6 +68,8 @@ TEST(Metrics, TruthAddsTrajectoryAndDrift) {
   EXPECT_NE(json.find("\"trajectory\": {\n    \"matched\": 5"), std::string::npos) << json;
   EXPECT_NE(json.find("\"drift\": {\n    \"poses\": 6"), std::string::npos) << json;
   EXPECT_EQ(metric_values(metrics).size(), metric_values(sample()).size() + 10);
+  metrics.stood_still = false;  // the distance from the start is no error then
+  EXPECT_EQ(metric_values(metrics).size(), metric_values(sample()).size() + 8);
 }
 
 TEST(Metrics, QuoteStageNames) {
