@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "interrupt.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/io/config_yaml.hpp"
@@ -47,11 +48,11 @@ std::unique_ptr<Segmenter> make_segmenter(const RunOptions& options, const Frame
   return std::make_unique<MaskSegmenter>();
 }
 
-/// The frames asked for, and no more.
+/// The frames asked for, and no more; none after Ctrl-C.
 AsyncPipeline::Source limited(FrameSource& source, const RunOptions& options) {
   source.skip(options.start);
   return [&source, left = options.frames]() mutable -> std::optional<Frame> {
-    if (left == 0) return std::nullopt;
+    if (left == 0 || InterruptGuard::requested()) return std::nullopt;
     --left;
     return source.next();
   };
@@ -79,12 +80,14 @@ void run(const RunOptions& options) {
   Progress progress(std::min(options.frames, source->size() - options.start));
   source->on_warning([&](const std::string& message) { progress.warn(message); });
   RunLog log(source->ground_truth());
+  const InterruptGuard interrupt;
   AsyncPipeline pipeline(threads_of(options));
   pipeline.run(system, limited(*source, options), [&](const Processed& processed) {
     log.add(processed);
     progress.show(log, system.dynamic_map());
   });
   progress.finish();
+  if (InterruptGuard::requested()) progress.warn("interrupted, writing what is done so far");
   log.finish(source->skipped() + pipeline.dropped(), system);
   if (log.frames().empty()) {
     throw DataError(options.data,
