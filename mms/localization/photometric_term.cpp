@@ -11,66 +11,9 @@ namespace {
 
 constexpr std::size_t kChunk = 512;
 constexpr int kBorder = 2;        ///< pixels left out at the image border
-constexpr int kSmoothing = 2;     ///< half width of the depth average [px]
 constexpr double kFreedom = 5.0;  ///< degrees of freedom of the t-distribution
 constexpr double kMadToSigma = 1.4826;
 constexpr double kMaxGainChange = 0.5;
-
-/// Mean depth of the pixels around (x, y) on the same surface; 0 at depth discontinuities, where
-/// the depth at the pixel may be another surface's.
-float surface_depth(const Image<float>& depth, int x, int y, const DepthNoise& noise,
-                    double focal) {
-  const float centre = depth(x, y);
-  if (centre <= 0.0F) return 0.0F;
-  const float slope = 3.0F * centre / static_cast<float>(focal) * kSmoothing;
-  const float gate = 4.0F * noise.sigma(centre) + slope;
-  float sum = 0.0F;
-  int count = 0;
-  for (int dy = -kSmoothing; dy <= kSmoothing; ++dy) {
-    for (int dx = -kSmoothing; dx <= kSmoothing; ++dx) {
-      if (!depth.contains(x + dx, y + dy)) continue;
-      const float d = depth(x + dx, y + dy);
-      if (d <= 0.0F) continue;
-      if (std::abs(d - centre) > gate) return 0.0F;
-      sum += 1.0F / d;
-      ++count;
-    }
-  }
-  constexpr int kMinSupport = 8;
-  return count >= kMinSupport ? static_cast<float>(count) / sum : 0.0F;
-}
-
-std::vector<TexturedPoint> textured_points(const IntensityLevel& level,
-                                           const PhotometricConfig& config,
-                                           const DepthNoise& noise) {
-  const CameraModel camera(level.camera);
-  const auto min_square = static_cast<float>(config.min_gradient * config.min_gradient);
-  const int side = config.cell_px;
-  std::vector<TexturedPoint> points;
-  for (int top = kBorder; top < level.camera.height - kBorder; top += side) {
-    for (int left = kBorder; left < level.camera.width - kBorder; left += side) {
-      float strongest = min_square;
-      int best_x = -1;
-      int best_y = -1;
-      for (int y = top; y < std::min(top + side, level.camera.height - kBorder); ++y) {
-        for (int x = left; x < std::min(left + side, level.camera.width - kBorder); ++x) {
-          const IntensitySample& s = level.intensity(x, y);
-          const float square = s.dx * s.dx + s.dy * s.dy;
-          if (square <= strongest || level.depth(x, y) <= 0.0F) continue;
-          strongest = square;
-          best_x = x;
-          best_y = y;
-        }
-      }
-      if (best_x < 0) continue;
-      const float z = surface_depth(level.depth, best_x, best_y, noise, level.camera.fx);
-      if (z <= 0.0F) continue;
-      const Eigen::Vector3f ray = camera.ray({best_x, best_y}).cast<float>();
-      points.push_back({z * ray, level.intensity(best_x, best_y).value});
-    }
-  }
-  return points;
-}
 
 /// Bilinear interpolation of value and derivatives; the pixel must be inside the border.
 IntensitySample interpolate(const Image<IntensitySample>& image, double u, double v) {
@@ -177,39 +120,6 @@ double median(const std::array<std::uint32_t, 128>& histogram, int total) {
 }
 
 }  // namespace
-
-void PhotometricConfig::visit(ConfigVisitor& v) {
-  v.boolean({"enabled", "", "add photometric residuals to the geometric ones (images with depth)"},
-            enabled);
-  v.number({"min_gradient", "1/px", "least intensity gradient of a textured pixel"}, min_gradient,
-           {0.5, 100.0});
-  v.integer({"cell_px", "px", "one textured pixel is taken from a cell of this side"}, cell_px,
-            {1, 32});
-  v.number({"min_sigma", "", "least standard deviation of the residuals, in grey levels"},
-           min_sigma, {0.1, 100.0});
-  v.number({"weight", "", "weight of the photometric residuals against the geometric"}, weight,
-           {0.0, 1000.0});
-  v.number({"depth_gate", "m", "largest difference of predicted and measured depth, noise apart"},
-           depth_gate, {0.0, 1.0});
-  v.integer({"references", "", "keyframes a frame is compared with"}, references, {1, 8});
-  v.number({"keyframe_translation", "m", "distance to all keyframes that makes a new one"},
-           keyframe_translation, {0.001, 10.0});
-  v.number({"keyframe_rotation", "deg", "angle to all keyframes that makes a new one"},
-           keyframe_rotation, {0.1, 90.0});
-  v.integer({"max_keyframes", "", "keyframes kept; the farthest goes first"}, max_keyframes,
-            {1, 10000});
-}
-
-IntensityKeyframe make_intensity_keyframe(const std::vector<IntensityLevel>& levels,
-                                          const Eigen::Isometry3d& T_world_sensor,
-                                          const PhotometricConfig& config,
-                                          const DepthNoise& noise) {
-  IntensityKeyframe keyframe{T_world_sensor, {}};
-  for (const IntensityLevel& level : levels) {
-    keyframe.levels.push_back(textured_points(level, config, noise));
-  }
-  return keyframe;
-}
 
 PhotometricEquations& PhotometricEquations::operator+=(const PhotometricEquations& other) {
   equations += other.equations;

@@ -2,48 +2,14 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
-#include "mms/core/config.hpp"
 #include "mms/core/feature_cloud.hpp"
-#include "mms/core/transform.hpp"
 #include "mms/geometry/depth_noise.hpp"
+#include "mms/localization/intensity_keyframe.hpp"
 #include "mms/localization/normal_equations.hpp"
+#include "mms/localization/photometric_config.hpp"
 
 namespace mms {
-
-struct PhotometricConfig {
-  bool enabled = true;
-  double min_gradient = 6.0;
-  int cell_px = 3;
-  double min_sigma = 3.0;
-  double weight = 1.0;
-  double depth_gate = 0.05;
-  int references = 2;
-  double keyframe_translation = 0.08;
-  double keyframe_rotation = 5.0;
-  int max_keyframes = 100;
-
-  void visit(ConfigVisitor& v);
-};
-
-/// Static pixel with texture: where it is and how bright.
-struct TexturedPoint {
-  Eigen::Vector3f point;  ///< in the keyframe's sensor frame [m]
-  float intensity;        ///< [0, 255]
-};
-
-/// What later frames are compared with photometrically.
-struct IntensityKeyframe {
-  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
-  std::vector<std::vector<TexturedPoint>> levels;  ///< finest first
-};
-
-/// Takes the strongest gradient of every cell of `cell_px` pixels, where the surface is static and
-/// continuous; its depth is averaged over the pixels around it on the same surface.
-IntensityKeyframe make_intensity_keyframe(const std::vector<IntensityLevel>& levels,
-                                          const Eigen::Isometry3d& T_world_sensor,
-                                          const PhotometricConfig& config, const DepthNoise& noise);
 
 /// Exposure change between two images, current = gain * keyframe + bias, and the spread of the
 /// residuals left [grey levels]; both re-estimated in every iteration.

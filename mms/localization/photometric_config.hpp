@@ -1,0 +1,23 @@
+#pragma once
+
+#include "mms/core/config.hpp"
+
+namespace mms {
+
+/// The photometric term and its keyframes.
+struct PhotometricConfig {
+  bool enabled = true;
+  double min_gradient = 6.0;
+  int cell_px = 3;
+  double min_sigma = 3.0;
+  double weight = 1.0;
+  double depth_gate = 0.05;
+  int references = 2;
+  double keyframe_translation = 0.08;
+  double keyframe_rotation = 5.0;
+  int max_keyframes = 100;
+
+  void visit(ConfigVisitor& v);
+};
+
+}  // namespace mms
