@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
+
+#include "mms/core/frame.hpp"
+#include "mms/simulation/lidar_sensor.hpp"
+#include "mms/simulation/stage.hpp"
+
+namespace mms {
+
+/// Scan number `index` of a LiDAR that moves: `T_building_lidar(t)` is its pose `t` seconds after
+/// the scan's start, which is at `start` [s]. Every point is in the LiDAR's frame at its own time.
+/// Leaves the stage as it is at the scan's end.
+LidarScan scan(Stage& stage, const LidarSensor& sensor, int index, double period,
+               const std::function<Eigen::Isometry3d(double)>& T_building_lidar, double start,
+               bool noise, std::uint64_t key);
+
+}  // namespace mms

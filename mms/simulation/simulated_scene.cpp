@@ -1,0 +1,198 @@
+#include "mms/simulation/simulated_scene.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "mms/core/error.hpp"
+#include "mms/simulation/camera_ride.hpp"
+#include "mms/simulation/hash_noise.hpp"
+#include "mms/simulation/lidar_scan.hpp"
+#include "mms/simulation/mesh_sampling.hpp"
+#include "mms/simulation/object_visibility.hpp"
+#include "mms/simulation/stage.hpp"
+
+namespace mms {
+namespace {
+
+constexpr double kMovingSpeed = 0.05;  // [m/s]
+constexpr float kExposure = 0.78F;  // what white surfaces under good light come to
+
+SensorPreset sensor_of(const SceneConfig& config) {
+  SensorPreset preset = sensor_preset(sensor_names()[static_cast<std::size_t>(config.sensor)]);
+  if (config.hz > 0.0) preset.hz = config.hz;
+  if (config.exposure > 0.0) preset.color.exposure = config.exposure;
+  if (config.width > 0) {
+    CameraIntrinsics& camera = preset.color.intrinsics;
+    const double scale = static_cast<double>(config.width) / camera.width;
+    camera.cx = (camera.cx + 0.5) * scale - 0.5;
+    camera.cy = (camera.cy + 0.5) * scale - 0.5;
+    camera.fx *= scale;
+    camera.fy *= scale;
+    camera.width = config.width;
+    camera.height = static_cast<int>(std::lround(camera.height * scale));
+  }
+  return preset;
+}
+
+std::shared_ptr<const Calibration> calibration_of(const SensorPreset& sensor) {
+  auto calibration = std::make_shared<Calibration>();
+  calibration->camera = sensor.color.intrinsics;
+  calibration->T_camera_lidar = Transform<Camera, Lidar>(sensor.T_camera_lidar);
+  calibration->depth_scale = sensor.depth_scale;
+  return calibration;
+}
+
+/// Exact depth within the camera's range, 0 elsewhere.
+Image<float> ideal_depth(const ExactView& view, const DepthSensor& sensor) {
+  Image<float> depth = view.depth;
+  for (float& z : depth.pixels()) {
+    if (!(z >= sensor.min_range && z <= sensor.max_range)) z = 0.0F;
+  }
+  return depth;
+}
+
+}  // namespace
+
+struct SimulatedScene::Impl {
+  SceneConfig config;
+  SensorPreset sensor;
+  double seconds;  ///< length
+  Stage stage;
+  CameraMotion ride;
+  RayTable table;
+  std::shared_ptr<const Calibration> calibration;
+  Eigen::Isometry3d T_world_building;
+
+  explicit Impl(const SceneConfig& wanted)
+      : config(wanted),
+        sensor(sensor_of(wanted)),
+        seconds(config.frames / sensor.hz + 1.0),
+        stage(make_stage()),
+        ride(config, stage.building(), seconds),
+        table(ray_table(sensor.color.intrinsics)),
+        calibration(calibration_of(sensor)),
+        T_world_building(T_building_sensor(0.0).inverse()) {}
+
+  Stage make_stage() const {
+    Building building = build(config);
+    const CameraMotion way(config, building, seconds);
+    std::vector<Actor> actors = cast_actors(config, building, way.robot(), seconds);
+    return Stage(std::move(building), std::move(actors));
+  }
+
+  double seconds_at(int index) const { return index / sensor.hz; }
+
+  Eigen::Isometry3d T_building_sensor(double at) const {
+    const Eigen::Isometry3d T = ride.T_building_camera(at);
+    return sensor.lidar ? T * sensor.T_camera_lidar : T;
+  }
+
+  /// Sharp view at `at`, and the light of the whole exposure around it.
+  ExactView expose(double at, Image<Eigen::Vector3f>& radiance) {
+    const int samples = config.blur_samples;
+    ExactView view;
+    for (int i = 0; samples > 1 && i < samples; ++i) {
+      const double share = (i + 0.5) / samples - 0.5;
+      const double instant = at + share * sensor.color.exposure;
+      stage.set(instant);
+      stage.look(table, ride.T_building_camera(instant),
+                 {.radiance = &radiance, .weight = kExposure / static_cast<float>(samples)});
+    }
+    stage.set(at);
+    Image<Eigen::Vector3f>* sharp = samples > 1 ? nullptr : &radiance;
+    stage.look(table, ride.T_building_camera(at),
+               {.view = &view, .radiance = sharp, .weight = kExposure});
+    return view;
+  }
+
+  std::vector<ObjectTruth> objects(double at, const ExactView& view) const {
+    std::vector<ObjectTruth> found =
+        visible_objects(stage, view, sensor.color.intrinsics, ride.T_building_camera(at));
+    for (ObjectTruth& object : found) {
+      const auto& motion = stage.actors()[static_cast<std::size_t>(object.id)].motion;
+      Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+      velocity.head<2>() = motion.velocity(at);
+      object.moving = velocity.norm() > kMovingSpeed;
+      object.velocity = T_world_building.linear() * velocity;
+      object.T_world_box = T_world_building * object.T_world_box;
+    }
+    return found;
+  }
+
+  ColorSensor color_sensor() const {
+    ColorSensor color = sensor.color;
+    if (!config.noise) color.read_noise = color.shot_noise = 0.0;
+    return color;
+  }
+};
+
+SimulatedScene::SimulatedScene(const SceneConfig& config) {
+  if (config.frames < 1) {
+    throw ConfigError(config.name, "has frames: 0", "a recording has at least one");
+  }
+  impl_ = std::make_unique<Impl>(config);
+}
+
+SimulatedScene::~SimulatedScene() = default;
+
+const SceneConfig& SimulatedScene::config() const {
+  return impl_->config;
+}
+
+const SensorPreset& SimulatedScene::sensor() const {
+  return impl_->sensor;
+}
+
+int SimulatedScene::size() const {
+  return impl_->config.frames;
+}
+
+Timestamp SimulatedScene::stamp(int index) const {
+  return Timestamp::from_seconds(impl_->seconds_at(index));
+}
+
+SimulatedFrame SimulatedScene::render(int index) {
+  Impl& scene = *impl_;
+  const double at = scene.seconds_at(index);
+  const std::uint64_t key =
+      hash_of(static_cast<std::uint64_t>(scene.config.seed), static_cast<std::uint64_t>(index));
+  SimulatedFrame result;
+  Frame& frame = result.frame;
+  frame.index = index;
+  frame.stamp = stamp(index);
+  frame.name = frame.stamp.to_string();
+  frame.calibration = scene.calibration;
+  if (scene.sensor.lidar) {
+    frame.scan = scan(
+        scene.stage, *scene.sensor.lidar, index, 1.0 / scene.sensor.hz,
+        [&](double t) { return scene.T_building_sensor(at + t); }, at, scene.config.noise,
+        hash_of(key, 3));
+  }
+  Image<Eigen::Vector3f> radiance(scene.table.width, scene.table.height, Eigen::Vector3f::Zero());
+  result.exact = scene.expose(at, radiance);
+  result.objects = scene.objects(at, result.exact);
+  frame.mask = label_image(scene.stage, result.exact);
+  frame.color = develop(radiance, scene.color_sensor(), hash_of(key, 1));
+  if (scene.sensor.depth) {
+    frame.depth = scene.config.noise
+                      ? measured_depth(result.exact, *scene.sensor.depth, hash_of(key, 2))
+                      : ideal_depth(result.exact, *scene.sensor.depth);
+  }
+  return result;
+}
+
+StampedPose SimulatedScene::pose_at(Timestamp stamp) const {
+  return {stamp, Transform<World, Sensor>(impl_->T_world_building *
+                                          impl_->T_building_sensor(stamp.seconds()))};
+}
+
+StampedPose SimulatedScene::truth(int index) const {
+  return pose_at(stamp(index));
+}
+
+TruthCloud SimulatedScene::static_cloud(double spacing) const {
+  return sample(impl_->stage.building().mesh, impl_->T_world_building, spacing);
+}
+
+}  // namespace mms

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mms/core/frame.hpp"
+#include "mms/core/trajectory.hpp"
+#include "mms/simulation/exact_view.hpp"
+#include "mms/simulation/object_truth.hpp"
+#include "mms/simulation/scene_config.hpp"
+#include "mms/simulation/sensor_preset.hpp"
+#include "mms/simulation/truth_cloud.hpp"
+
+namespace mms {
+
+/// One frame as the sensor gives it, and the truth behind it.
+struct SimulatedFrame {
+  Frame frame;  ///< its mask has the exact labels: 0 static, else 1 + class id
+  ExactView exact;
+  std::vector<ObjectTruth> objects;  ///< all of the scene, in view or not
+};
+
+/// A warehouse with persons and AGVs, and a sensor on a robot that drives through it. Any frame can
+/// be rendered at any time; the same config gives the same bits for any number of threads. Not
+/// thread-safe: frames are rendered one after the other, each by all threads of the surrounding
+/// arena. The world frame is the sensor's at time 0.
+class SimulatedScene {
+ public:
+  /// @throws ConfigError when the config asks for what cannot be.
+  explicit SimulatedScene(const SceneConfig& config);
+  ~SimulatedScene();
+
+  const SceneConfig& config() const;
+  const SensorPreset& sensor() const;
+  int size() const;  ///< number of frames
+
+  SimulatedFrame render(int index);
+
+  /// The sensor's pose at any time, between frames too.
+  StampedPose pose_at(Timestamp stamp) const;
+  StampedPose truth(int index) const;
+  Timestamp stamp(int index) const;
+
+  /// Everything that stands still, points at most `spacing` [m] apart on all surfaces.
+  TruthCloud static_cloud(double spacing = 0.04) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mms
