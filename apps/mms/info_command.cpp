@@ -49,7 +49,7 @@ void print_info(const InfoOptions& options) {
 void add_info_command(CLI::App& app) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* command = app.add_subcommand("info", "Show what a recording holds");
-  command->add_option("DATA", options->data, "folder of the recording, or sim:room")->required();
+  command->add_option("DATA", options->data, "folder of the recording, or sim:SCENE")->required();
   command->add_option("--masks", options->masks, "folder of label images named like the frames");
   command->callback([options] { print_info(*options); });
 }

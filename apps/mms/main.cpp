@@ -11,6 +11,7 @@
 #include "info_command.hpp"
 #include "mms/core/error.hpp"
 #include "run_command.hpp"
+#include "simulate_command.hpp"
 #include "usage.hpp"
 
 namespace {
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   mms::add_run_command(app);
   mms::add_eval_command(app);
+  mms::add_simulate_command(app);
   mms::add_info_command(app);
   mms::add_config_command(app);
   mms::add_doctor_command(app);

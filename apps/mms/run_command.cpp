@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -69,6 +70,17 @@ AsyncOptions threads_of(const RunOptions& options) {
   return {.threads = options.threads > 0 ? options.threads : cores, .realtime = options.realtime};
 }
 
+/// A truth map that cannot be read costs the comparison, not the run.
+void compare_map(const FrameSource& source, const SlamSystem& system, RunLog& log,
+                 Progress& progress) {
+  try {
+    const std::optional<TruthCloud> truth = source.map_truth();
+    if (truth) log.compare_map(*truth, system.static_map().cloud().points);
+  } catch (const Error& error) {
+    progress.warn(std::string("the map is not evaluated: ") + error.what());
+  }
+}
+
 void run(const RunOptions& options) {
   const SystemConfig config = load_settings(options);
   const std::unique_ptr<FrameSource> source = open_dataset(
@@ -94,6 +106,7 @@ void run(const RunOptions& options) {
                     fmt::format("none of its {} frames could be processed", source->size()),
                     "the warnings above say why; mms info DATA explains what was found");
   }
+  compare_map(*source, system, log, progress);
   write_outputs(folder.path(), options.data, config, system, log);
   folder.make_latest();
   print_summary(folder.path(), log);
@@ -104,7 +117,9 @@ void run(const RunOptions& options) {
 void add_run_command(CLI::App& app) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Localise a recording and map its surroundings");
-  command->add_option("DATA", options->data, "recording, or sim:room[?seed=N&frames=N]")
+  command
+      ->add_option("DATA", options->data,
+                   "recording, or a simulation: sim:warehouse_loop[?seed=N&frames=N]")
       ->capture_default_str();
   command->add_option("-c,--config", options->config, "settings (mms config dump prints them all)");
   command->add_option("-o,--output", options->output,

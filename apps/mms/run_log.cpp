@@ -102,6 +102,23 @@ void RunLog::sum_up_accuracy() {
   metrics_.stood_still = evaluate_drift(truth_).mtde_cm < kStandsStill;
 }
 
+void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map) {
+  const Trajectory estimate = trajectory();
+  const auto matched = match_by_stamp(truth_, estimate, TrajectoryErrorOptions{}.max_difference);
+  if (matched.empty()) return;
+  const Eigen::Isometry3d& T_map_sensor =
+      estimate[matched.front().estimate].T_world_sensor.isometry();
+  const Eigen::Isometry3d& T_truth_sensor =
+      truth_[matched.front().reference].T_world_sensor.isometry();
+  const Eigen::Isometry3f T_map_truth = (T_map_sensor * T_truth_sensor.inverse()).cast<float>();
+  std::vector<Eigen::Vector3f> fixed;
+  std::vector<Eigen::Vector3f> dynamic;
+  for (std::size_t i = 0; i < truth.points.size(); ++i) {
+    (truth.labels[i] == 0 ? fixed : dynamic).push_back(T_map_truth * truth.points[i]);
+  }
+  metrics_.map = evaluate_map(fixed, dynamic, map);
+}
+
 Trajectory RunLog::trajectory() const {
   Trajectory poses;
   for (const LoggedFrame& frame : frames_) poses.push_back({frame.stamp, frame.T_world_sensor});

@@ -10,6 +10,7 @@
 #include "mms/evaluation/report.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/pipeline/slam_system.hpp"
+#include "mms/simulation/truth_cloud.hpp"
 
 namespace mms {
 
@@ -38,6 +39,12 @@ class RunLog {
   /// Sums the run up once all frames are in.
   /// @param skipped  frames that could not be read or were dropped
   void finish(std::size_t skipped, const SlamSystem& system);
+
+  /// Compares the static map with the true one, which is taken to the map's frame by the truth pose
+  /// of the first frame that has one. Without such a frame there is no comparison.
+  /// @param truth  in the world frame of the truth poses
+  /// @throws DataError when the truth has no usable points.
+  void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
 
   const std::vector<LoggedFrame>& frames() const { return frames_; }
   const std::vector<ReportPicture>& pictures() const { return pictures_; }

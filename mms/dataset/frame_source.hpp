@@ -9,6 +9,7 @@
 
 #include "mms/core/frame.hpp"
 #include "mms/core/trajectory.hpp"
+#include "mms/simulation/truth_cloud.hpp"
 
 namespace mms {
 
@@ -38,6 +39,12 @@ class FrameSource {
 
   /// Truth poses, in the recording's own world frame; empty where there are none.
   virtual const Trajectory& ground_truth() const = 0;
+
+  /// The true map of what the frames given so far show, static and dynamic, in the world frame of
+  /// the truth poses; nothing where it is not known. A recording knows only that of all its frames
+  /// together, so nothing comes once some were passed over or as long as some are to come.
+  /// @throws Error when it is there but cannot be read.
+  virtual std::optional<TruthCloud> map_truth() const { return std::nullopt; }
 
   /// What was found, one line a fact, for `mms info`.
   virtual std::vector<std::string> describe() const = 0;

@@ -4,9 +4,9 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/recorded_source.hpp"
+#include "mms/dataset/scan_files.hpp"
 #include "mms/io/calibration_io.hpp"
 #include "mms/io/files.hpp"
-#include "mms/io/kitti_io.hpp"
 #include "mms/io/numbers.hpp"
 #include "mms/io/text_table.hpp"
 #include "mms/io/trajectory_io.hpp"
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct LidarRecording {
-  std::vector<fs::path> scans;
+  std::vector<ScanFiles> scans;
   std::vector<Timestamp> stamps;
   std::shared_ptr<const Calibration> calibration;
   Trajectory ground_truth;
@@ -25,44 +25,30 @@ struct LidarRecording {
 
 class LidarSource final : public RecordedSource {
  public:
-  explicit LidarSource(LidarRecording recording) : recording_(std::move(recording)) {
+  LidarSource(LidarRecording recording, const fs::path& folder) : recording_(std::move(recording)) {
     set_ground_truth(std::move(recording_.ground_truth));
+    set_map_truth(folder / "map_truth.ply");
   }
 
   std::size_t size() const override { return recording_.scans.size(); }
+  bool has_masks() const override {
+    return std::any_of(recording_.scans.begin(), recording_.scans.end(),
+                       [](const ScanFiles& files) { return !files.mask.empty(); });
+  }
 
  protected:
   Timestamp stamp_at(std::size_t index) const override { return recording_.stamps[index]; }
   std::string name_at(std::size_t index) const override {
-    return recording_.scans[index].stem().string();
+    return recording_.scans[index].scan.stem().string();
   }
   Frame read(std::size_t index) const override {
-    Frame frame;
-    frame.scan = read_kitti_scan(recording_.scans[index]);
-    frame.calibration = recording_.calibration;
-    return frame;
+    return read_scan_frame(recording_.scans[index], recording_.calibration);
   }
   std::vector<std::string> facts() const override { return recording_.facts; }
 
  private:
   LidarRecording recording_;
 };
-
-bool is_scan(const std::string& name) {
-  return name.ends_with(".bin");
-}
-
-std::vector<fs::path> find_scans(const fs::path& folder) {
-  std::vector<fs::path> scans;
-  for (const fs::path& candidate : {folder, folder / "velodyne"}) {
-    if (!scans.empty() || !fs::is_directory(candidate)) continue;
-    for (const std::string& name : list_folder(candidate)) {
-      if (is_scan(name)) scans.push_back(candidate / name);
-    }
-  }
-  if (scans.empty()) throw DataError(folder.string(), "has no *.bin scans, nor has velodyne/");
-  return scans;
-}
 
 void read_times(LidarRecording& recording, const fs::path& folder) {
   const std::size_t count = recording.scans.size();
@@ -105,11 +91,13 @@ void read_poses(LidarRecording& recording, const fs::path& folder) {
 }  // namespace
 
 bool looks_like_kitti_lidar(const std::vector<std::string>& names) {
-  return std::any_of(names.begin(), names.end(),
-                     [](const std::string& name) { return is_scan(name) || name == "velodyne"; });
+  return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return name.ends_with(".bin") || name == "velodyne";
+  });
 }
 
-std::unique_ptr<FrameSource> open_kitti_lidar(const fs::path& folder, const SourceOptions&) {
+std::unique_ptr<FrameSource> open_kitti_lidar(const fs::path& folder,
+                                              const SourceOptions& options) {
   LidarRecording recording;
   recording.scans = find_scans(folder);
   recording.facts.emplace_back("layout: KITTI LiDAR scans");
@@ -120,7 +108,8 @@ std::unique_ptr<FrameSource> open_kitti_lidar(const fs::path& folder, const Sour
                                                        : "calibration: none");
   read_times(recording, folder);
   read_poses(recording, folder);
-  return std::make_unique<LidarSource>(std::move(recording));
+  find_companions(recording.scans, folder, *recording.calibration, options, recording.facts);
+  return std::make_unique<LidarSource>(std::move(recording), folder);
 }
 
 }  // namespace mms

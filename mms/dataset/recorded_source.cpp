@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "mms/core/error.hpp"
+#include "mms/io/ply_io.hpp"
 
 namespace mms {
 namespace {
@@ -47,7 +48,20 @@ std::optional<Frame> RecordedSource::try_read(std::size_t index) {
 }
 
 void RecordedSource::skip(std::size_t count) {
+  passed_over_ = passed_over_ || count > 0;
   position_ += std::min(count, size() - std::min(position_, size()));
+}
+
+std::optional<TruthCloud> RecordedSource::map_truth() const {
+  const bool all = position_ >= size() && !passed_over_;
+  if (!all || map_truth_.empty() || !std::filesystem::exists(map_truth_)) return std::nullopt;
+  PointCloudFile file = read_ply(map_truth_);
+  if (file.labels.empty() && !file.points.empty()) {
+    throw DataError(map_truth_.string(), "has no property 'label'",
+                    "a truth map labels its points: 0 static, else 1 + id of the object");
+  }
+  return TruthCloud{std::move(file.points), std::move(file.normals), std::move(file.colors),
+                    std::move(file.labels)};
 }
 
 std::vector<std::string> RecordedSource::describe() const {
@@ -67,6 +81,9 @@ std::vector<std::string> RecordedSource::describe() const {
   lines.push_back("ground truth: " + (ground_truth_.empty()
                                           ? std::string("none")
                                           : std::to_string(ground_truth_.size()) + " poses"));
+  if (std::filesystem::exists(map_truth_)) {
+    lines.push_back("map truth: " + map_truth_.filename().string());
+  }
   return lines;
 }
 

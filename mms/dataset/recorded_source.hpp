@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "mms/dataset/frame_source.hpp"
 
 namespace mms {
@@ -13,6 +15,7 @@ class RecordedSource : public FrameSource {
   void skip(std::size_t count) final;
   bool has_masks() const override { return false; }
   const Trajectory& ground_truth() const final { return ground_truth_; }
+  std::optional<TruthCloud> map_truth() const final;
   std::vector<std::string> describe() const final;
 
   /// The handler also receives what was found wrong before it was set.
@@ -33,13 +36,18 @@ class RecordedSource : public FrameSource {
   void warn(const std::string& message);
   void set_ground_truth(Trajectory trajectory) { ground_truth_ = std::move(trajectory); }
 
+  /// The truth of all frames, read when it is asked for; may not be there.
+  void set_map_truth(std::filesystem::path file) { map_truth_ = std::move(file); }
+
  private:
   std::optional<Frame> try_read(std::size_t index);
 
   std::size_t position_ = 0;
   std::size_t skipped_ = 0;
+  bool passed_over_ = false;  ///< frames, by `skip`
   std::optional<Timestamp> last_stamp_;
   Trajectory ground_truth_;
+  std::filesystem::path map_truth_;
   WarningHandler handler_;
   std::vector<std::string> pending_warnings_;
 };

@@ -52,6 +52,7 @@ std::string to_json(const RunMetrics& metrics) {
                  {"tracks", metrics.tracks}};
   if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
   if (metrics.drift) object["drift"] = json_object(metric_values(*metrics.drift));
+  if (metrics.map) object["map"] = json_object(metric_values(*metrics.map));
   return object.dump(2) + "\n";
 }
 
@@ -75,6 +76,11 @@ std::vector<MetricValue> metric_values(const RunMetrics& metrics) {
     std::vector<MetricValue> drift = metric_values(*metrics.drift);
     std::erase_if(drift, [](const MetricValue& item) { return item.key == "poses"; });
     append(values, drift);
+  }
+  if (metrics.map) {
+    std::vector<MetricValue> map = metric_values(*metrics.map);
+    std::erase_if(map, [](const MetricValue& item) { return item.key == "HA"; });
+    append(values, map);
   }
   return values;
 }

@@ -11,6 +11,7 @@
 
 #include "mms/core/odometry_estimate.hpp"
 #include "mms/evaluation/drift.hpp"
+#include "mms/evaluation/map_error.hpp"
 #include "mms/evaluation/metric_value.hpp"
 #include "mms/evaluation/trajectory_error.hpp"
 
@@ -39,11 +40,12 @@ struct RunMetrics {
   std::int64_t tracks = 0;                                     ///< dynamic objects confirmed
   std::optional<TrajectoryError> trajectory;                   ///< where truth is there
   std::optional<Drift> drift;                                  ///< where truth is there
+  std::optional<MapError> map;                                 ///< where the true map is known
   bool stood_still = true;  ///< by the truth; for a moving sensor drift is left out of tables
 };
 
-/// The JSON object with the contract's keys, indented, ended by a newline; `trajectory` and `drift`
-/// only where they are there, every status name always.
+/// The JSON object with the contract's keys, indented, ended by a newline; `trajectory`, `drift`
+/// and `map` only where they are there, every status name always.
 std::string to_json(const RunMetrics& metrics);
 
 /// Writes `to_json` to a file, at once or not at all. @throws FileError

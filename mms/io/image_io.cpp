@@ -24,18 +24,27 @@ void silence_opencv() {
   static_cast<void>(previous);
 }
 
-cv::Mat decode(const fs::path& path, int flags) {
+cv::Mat decode(std::string_view bytes, int flags, const std::string& where) {
   silence_opencv();
-  std::string bytes = read_file(path);
-  check_whole_image(bytes, path.string());
+  check_whole_image(bytes, where);
   cv::Mat decoded;
-  try {
-    decoded = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, bytes.data()), flags);
+  try {  // the matrix only views the bytes, and the decoder only reads them
+    const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
+                          const_cast<char*>(bytes.data()));
+    decoded = cv::imdecode(encoded, flags);
   } catch (const cv::Exception&) {
     decoded.release();
   }
-  if (decoded.empty()) throw DataError(path.string(), "is a damaged image that cannot be decoded");
+  if (decoded.empty()) throw DataError(where, "is a damaged image that cannot be decoded");
   return decoded;
+}
+
+Image<Rgb> decode_rgb(std::string_view bytes, const std::string& where) {
+  const cv::Mat bgr = decode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION, where);
+  Image<Rgb> image(bgr.cols, bgr.rows);
+  cv::Mat rgb(image.height(), image.width(), CV_8UC3, image.pixels().data());
+  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+  return image;
 }
 
 /// View of an image's own pixels; OpenCV has no const matrix, so callers only read through it.
@@ -47,7 +56,7 @@ cv::Mat view(const Image<T>& image, int type) {
 /// Decodes an image that must be of one channel and `type`.
 template <class T>
 Image<T> read_plain(const fs::path& path, int type, const std::string& wanted) {
-  const cv::Mat decoded = decode(path, cv::IMREAD_UNCHANGED);
+  const cv::Mat decoded = decode(read_file(path), cv::IMREAD_UNCHANGED, path.string());
   if (decoded.type() != type) {
     throw DataError(path.string(), "has pixels of " + std::to_string(8 * decoded.elemSize1()) +
                                        " bits and " + std::to_string(decoded.channels()) +
@@ -78,11 +87,11 @@ cv::Mat to_bgr(const Image<Rgb>& image) {
 }  // namespace
 
 Image<Rgb> read_color(const fs::path& path) {
-  const cv::Mat bgr = decode(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  Image<Rgb> image(bgr.cols, bgr.rows);
-  cv::Mat rgb = view(image, CV_8UC3);
-  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
-  return image;
+  return decode_rgb(read_file(path), path.string());
+}
+
+Image<Rgb> decode_color(std::span<const std::uint8_t> bytes, const std::string& where) {
+  return decode_rgb({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, where);
 }
 
 Image<std::uint16_t> read_depth16(const fs::path& path) {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "mms/core/image.hpp"
@@ -12,6 +14,9 @@ namespace mms {
 /// the sensor gave.
 /// @throws FileError when the file cannot be read, DataError when it is truncated or no image.
 Image<Rgb> read_color(const std::filesystem::path& path);
+
+/// The picture in the bytes of a PNG or JPEG file. @throws DataError at `where` as above.
+Image<Rgb> decode_color(std::span<const std::uint8_t> bytes, const std::string& where);
 
 /// Reads a 16-bit depth PNG with one channel, in the file's own units.
 /// @throws FileError, DataError as above, and for 8-bit or coloured images.

@@ -59,6 +59,69 @@ TEST(KittiLidar, EmptyAndTruncatedScansAreSkipped) {
   EXPECT_TRUE(any_has(played.warnings, "frame 0 skipped: "));
 }
 
+/// A folder with two scans of one point and a camera.
+void write_scans_with_camera(const TempFolder& folder) {
+  folder.write("velodyne/0.bin", kPoint);
+  folder.write("velodyne/1.bin", kPoint);
+  folder.write("calibration.yaml", kCalibration);
+}
+
+TEST(KittiLidar, ReadsWhatLiesBesideTheScans) {
+  const TempFolder folder;
+  write_scans_with_camera(folder);
+  write_color(folder.path() / "image_2/0.png", 77);
+  std::filesystem::create_directories(folder.path() / "masks");
+  write_png(folder.path() / "masks/1.png", Image<std::uint8_t>(kWidth, kHeight, 2));
+  folder.write("point_times/1.bin", std::string("\0\0\0\x3f", 4));  // 0.5 s
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.names(), "0 1");
+  EXPECT_TRUE(played.source->has_masks());
+  EXPECT_EQ(played.frames[0].color(3, 3).r, 77);
+  EXPECT_TRUE(played.frames[0].mask.empty());
+  EXPECT_TRUE(played.frames[0].scan.time_offset.empty());
+  EXPECT_TRUE(played.frames[1].color.empty());
+  EXPECT_EQ(played.frames[1].mask(0, 0), 2);
+  EXPECT_EQ(played.frames[1].scan.time_offset, std::vector{0.5F});
+  const auto facts = played.source->describe();
+  EXPECT_TRUE(any_has(facts, "images: 1 of 2 scans"));
+  EXPECT_TRUE(any_has(facts, "masks: 1 of 2 scans"));
+  EXPECT_TRUE(any_has(facts, "times of the points: 1 of 2 scans"));
+}
+
+TEST(KittiLidar, MasksAreReadWhenWanted) {
+  const TempFolder folder;
+  write_scans_with_camera(folder);
+  std::filesystem::create_directories(folder.path() / "masks");
+  std::filesystem::create_directories(folder.path() / "other");
+  write_png(folder.path() / "masks/0.png", Image<std::uint8_t>(kWidth, kHeight, 1));
+  EXPECT_FALSE(open_dataset(folder.path(), {.masks = {}, .load_masks = false})->has_masks());
+  expect_in("has a mask for none of the scans (masks are named as the scans, the first one 0.png)",
+            message_of<DataError>([&] {
+              open_dataset(folder.path(), {.masks = folder.path() / "other", .load_masks = true});
+            }));
+}
+
+TEST(KittiLidar, WithoutACameraImagesAreNotUsed) {
+  const TempFolder folder;
+  folder.write("velodyne/0.bin", kPoint);
+  write_color(folder.path() / "image_2/0.png");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_TRUE(played.frames.at(0).color.empty());
+  EXPECT_TRUE(any_has(played.source->describe(), "images: not used"));
+}
+
+TEST(KittiLidar, CompanionsThatDoNotFitDamageTheFrame) {
+  const TempFolder folder;
+  write_scans_with_camera(folder);
+  folder.write("point_times/0.bin", std::string(8, '\0'));
+  std::filesystem::create_directories(folder.path() / "image_2");
+  write_png(folder.path() / "image_2/1.png", Image<Rgb>(3, 3));
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.source->skipped(), 2U);
+  EXPECT_TRUE(any_has(played.warnings, "has 2 times for 1 points"));
+  EXPECT_TRUE(any_has(played.warnings, "is 3x3 pixels, the calibration says 8x6"));
+}
+
 TEST(KittiLidar, ReadsTheSharedScans) {
   const std::filesystem::path shared =
       std::filesystem::path(MMS_SOURCE_DIR) / "../shared/data/lidar/kitti00_6scans";

@@ -58,7 +58,8 @@ TEST(SimulatedSource, DefaultsNeedNoQuery) {
 
 TEST(SimulatedSource, SaysWhatIsWrong) {
   EXPECT_NE(message_of("sim:moon").find("sim:room"), std::string::npos);
-  EXPECT_NE(message_of("sim:room?sed=1").find("keys are frames, hz, seed"), std::string::npos);
+  EXPECT_NE(message_of("sim:room?sed=1").find("did you mean 'seed'?"), std::string::npos);
+  EXPECT_NE(message_of("sim:room?colour=1").find("known are frames, hz, seed"), std::string::npos);
   EXPECT_NE(message_of("sim:room?frames=0").find("allowed is 1 to"), std::string::npos);
   EXPECT_NE(message_of("sim:room?frames=ten").find("frames is 'ten'"), std::string::npos);
   EXPECT_NE(message_of("sim:room?noise=maybe").find("true and false"), std::string::npos);

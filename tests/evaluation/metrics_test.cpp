@@ -72,6 +72,15 @@ TEST(Metrics, TruthAddsTrajectoryAndDrift) {
   EXPECT_EQ(metric_values(metrics).size(), metric_values(sample()).size() + 8);
 }
 
+TEST(Metrics, TheTrueMapAddsItsCleanness) {
+  RunMetrics metrics = sample();
+  metrics.map = MapError{.SA = 99.0, .DA = 50.0, .AA = 70.4, .HA = 66.4};
+  const std::string json = to_json(metrics);
+  EXPECT_NE(json.find("\"map\": {\n    \"SA\": 99.0"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"HA\": 66.4"), std::string::npos) << json;
+  EXPECT_EQ(metric_values(metrics).size(), metric_values(sample()).size() + 3);
+}
+
 TEST(Metrics, QuoteStageNames) {
   RunMetrics metrics = sample();
   metrics.stages = {{"a \"b\"", {}}};

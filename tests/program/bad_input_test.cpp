@@ -217,7 +217,8 @@ TEST(BadInput, FaultyCalibration) {
 
 TEST(BadInput, FaultyAddressOfTheSimulation) {
   const TempFolder folder;
-  expect_fault(run_mms(folder.path(), {"run", "sim:room?sead=3"}), "unknown key 'sead' (keys are");
+  expect_fault(run_mms(folder.path(), {"run", "sim:room?sead=3"}),
+               "unknown key 'sead' (did you mean 'seed'?");
   expect_fault(run_mms(folder.path(), {"run", "sim:room?frames=many"}),
                "frames is 'many', allowed");
   expect_fault(run_mms(folder.path(), {"run", "sim:hall"}), "sim:hall: ");

@@ -15,7 +15,7 @@ using Words = std::vector<std::string>;
 
 /// Commands and the words their help must name.
 const std::map<Words, Words> kCommands = {
-    {{}, {"run", "eval", "info", "config", "doctor", "--version"}},
+    {{}, {"run", "eval", "simulate", "info", "config", "doctor", "--version"}},
     {{"run"},
      {"DATA", "-c,--config", "-o,--output", "--segmenter", "masks", "none", "--masks", "--fusion",
       "multimodal", "vision", "--frames", "--start", "--realtime", "--threads"}},
@@ -25,6 +25,10 @@ const std::map<Words, Words> kCommands = {
     {{"eval", "drift"}, {"ESTIMATE", "--json"}},
     {{"eval", "map"}, {"TRUTH", "MAP", "--json"}},
     {{"eval", "residue"}, {"DATA", "MAP", "--json"}},
+    {{"simulate"},
+     {"SCENE", "warehouse_loop", "-o,--output", "--seed", "--frames", "--sensor", "lidar16", "--hz",
+      "--blur", "--set", "--threads", "--print", "training-set"}},
+    {{"simulate", "training-set"}, {"-o,--output", "--images", "--seed", "--threads"}},
     {{"info"}, {"DATA", "--masks"}},
     {{"config"}, {"dump", "check"}},
     {{"config", "dump"}, {"FILE"}},
@@ -54,7 +58,7 @@ TEST(CommandLine, VersionIsOneLine) {
 TEST(CommandLine, WrongWordsAreUsageFaultsThatNameThem) {
   const TempFolder folder;
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
-  expect_usage_fault(run({}), "a command is wanted: run, eval, info, config or doctor");
+  expect_usage_fault(run({}), "a command is wanted: run, eval, simulate, info, config or doctor");
   expect_usage_fault(run({"rum"}), "'rum'");
   expect_usage_fault(run({"eval"}), "a command is wanted: trajectory, drift, map or residue");
   expect_usage_fault(run({"eval", "trajektory", "a", "b"}), "'trajektory'");

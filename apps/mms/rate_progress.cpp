@@ -1,0 +1,20 @@
+#include "rate_progress.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace mms {
+
+double RateProgress::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void RateProgress::show(int done, int total, int fresh) {
+  if (!status_.due(done >= total)) return;
+  const double rate = std::max(fresh, 1) / std::max(seconds(), 1e-9);
+  status_.show(fmt::format("{} {}/{}  {:.1f} a second  {:.0f} s left", what_, done, total, rate,
+                           (total - done) / rate));
+}
+
+}  // namespace mms

@@ -1,0 +1,51 @@
+#pragma once
+
+// Internal to io: the only header that shows the JSON library.
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mms/core/config.hpp"
+
+namespace mms {
+
+/// Parses a whole file. @throws FileError when it cannot be read, DataError when it is no JSON.
+nlohmann::json parse_json(const std::filesystem::path& path);
+
+/// A JSON value that knows where it stands, read strictly. Faults are DataErrors
+/// "file: annotations[3].bbox what". Views the value: it has to outlive the entry.
+class JsonEntry {
+ public:
+  JsonEntry(const nlohmann::json& value, std::string file, std::string path = "")
+      : value_(&value), file_(std::move(file)), path_(std::move(path)) {}
+
+  /// The value of a key. @throws DataError when this is no object or has no such key.
+  JsonEntry at(const std::string& key) const;
+  bool has(const std::string& key) const;
+
+  /// The elements of a list. @throws DataError when it is none.
+  std::vector<JsonEntry> elements() const;
+
+  bool is_list() const { return value_->is_array(); }
+  bool is_text() const { return value_->is_string(); }
+  bool is_object() const { return value_->is_object(); }
+
+  /// @throws DataError when it is of another type or out of the range.
+  double number(Range range = {}) const;
+  std::int64_t integer(Range range = {}) const;
+  std::string text() const;
+
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const;
+
+ private:
+  std::string type_name() const;
+
+  const nlohmann::json* value_;
+  std::string file_;
+  std::string path_;
+};
+
+}  // namespace mms

@@ -1,0 +1,174 @@
+#include "mms/io/coco_io.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "mms/core/error.hpp"
+#include "mms/io/files.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using testing::expect_in;
+using testing::message_of;
+using testing::TempFolder;
+
+const Rle kMask{4, 3, {3, 3, 2, 1, 3}};
+
+CocoDataset sample() {
+  CocoDataset dataset;
+  dataset.images = {{7, "rgb/a \"b\".jpg", 4, 3}, {8, "b.jpg", 4, 3}};
+  dataset.categories = {{1, "person"}, {2, "agv"}};
+  dataset.annotations = {coco_annotation(1, 7, 2, kMask)};
+  dataset.annotations[0].iscrowd = true;
+  return dataset;
+}
+
+/// A file with one image of 4 x 3, one category and the annotation given as JSON.
+std::string with_annotation(const std::string& annotation) {
+  return R"({"info": {}, "images": [{"id": 7, "file_name": "a", "width": 4, "height": 3}],)"
+         R"("categories": [{"id": 1, "name": "person", "supercategory": "x"}],)"
+         R"("annotations": [)" +
+         annotation + "]}";
+}
+
+std::string annotation(const std::string& segmentation, const std::string& more = "",
+                       const std::string& ids = R"("image_id": 7, "category_id": 1)") {
+  return R"({"id": 5, "bbox": [1, 0, 2, 3], "area": 4.5, "segmentation": )" + segmentation + ", " +
+         ids + more + "}";
+}
+
+std::string fault_of(const std::string& content) {
+  const TempFolder folder;
+  const auto path = folder.write("a.json", content);
+  const std::string message = message_of<DataError>([&] { read_coco(path); });
+  expect_in(path.string() + ": ", message);
+  return message;
+}
+
+TEST(CocoIo, RoundTrips) {
+  const TempFolder folder;
+  const auto path = folder.path() / "a.json";
+  write_coco(path, sample());
+  const CocoDataset read = read_coco(path);
+  ASSERT_EQ(read.images.size(), 2U);
+  EXPECT_EQ(read.images[0].file_name, "rgb/a \"b\".jpg");
+  EXPECT_EQ(read.categories[1].name, "agv");
+  ASSERT_EQ(read.annotations.size(), 1U);
+  EXPECT_EQ(read.annotations[0].segmentation, kMask);
+  EXPECT_EQ(read.annotations[0].bbox, (std::array{1.0, 0.0, 2.0, 3.0}));
+  EXPECT_EQ(read.annotations[0].area, 4.0);
+  EXPECT_TRUE(read.annotations[0].iscrowd);
+  write_coco(folder.path() / "b.json", read);
+  EXPECT_EQ(read_file(folder.path() / "b.json"), read_file(path));
+}
+
+TEST(CocoIo, AnEmptyDatasetIsOne) {
+  const TempFolder folder;
+  write_coco(folder.path() / "a.json", {});
+  EXPECT_TRUE(read_coco(folder.path() / "a.json").images.empty());
+}
+
+TEST(CocoIo, ReadsEveryKindOfMask) {
+  const TempFolder folder;
+  for (const char* segmentation :
+       {R"({"size": [3, 4], "counts": "332N1"})", R"({"size": [3, 4], "counts": [3, 3, 2, 1, 3]})",
+        "[[1, 0, 2, 0, 2, 3, 1, 3], [2, 2, 3, 2, 3, 3, 2, 3]]"}) {
+    const auto path = folder.write("a.json", with_annotation(annotation(segmentation)));
+    EXPECT_EQ(read_coco(path).annotations[0].segmentation, kMask) << segmentation;
+    EXPECT_FALSE(read_coco(path).annotations[0].iscrowd);
+  }
+}
+
+TEST(CocoIo, NamesTheEntryThatIsWrong) {
+  const std::string good = R"({"size": [3, 4], "counts": [12]})";
+  expect_in("is no JSON: parse error at line 1", fault_of("{"));
+  expect_in("is a list, as results are", fault_of("[]"));
+  expect_in("has no key 'images'", fault_of("{}"));
+  expect_in("images: is a number, a list is wanted", fault_of(R"({"images": 3})"));
+  expect_in("annotations[0]: is a number, an object is wanted", fault_of(with_annotation("3")));
+  expect_in("annotations[0].segmentation.counts: mask: its runs are of 11 pixels",
+            fault_of(with_annotation(annotation(R"({"size": [3, 4], "counts": [11]})"))));
+  expect_in("annotations[0].segmentation.counts[0]: is -1, allowed is 0 to",
+            fault_of(with_annotation(annotation(R"({"size": [3, 4], "counts": [-1]})"))));
+  expect_in("annotations[0].segmentation: is of 3 x 4 px, its image 7 of 4 x 3",
+            fault_of(with_annotation(annotation(R"({"size": [4, 3], "counts": [12]})"))));
+  expect_in("segmentation.size: is no list of height and width",
+            fault_of(with_annotation(annotation(R"({"size": [4], "counts": [12]})"))));
+  expect_in("segmentation: polygon: has 2 numbers",
+            fault_of(with_annotation(annotation("[[1, 2]]"))));
+  expect_in("annotations[0].image_id: is 9, there is no such image",
+            fault_of(with_annotation(annotation(good, "", R"("image_id": 9, "category_id": 1)"))));
+  expect_in("annotations[0].category_id: is 3, there is no such category",
+            fault_of(with_annotation(annotation(good, "", R"("image_id": 7, "category_id": 3)"))));
+  expect_in("annotations[0].iscrowd: is 2, allowed is 0 to 1",
+            fault_of(with_annotation(annotation(good, R"(, "iscrowd": 2)"))));
+  expect_in("annotations[1].id: is 5, which was there before",
+            fault_of(with_annotation(annotation(good) + "," + annotation(good))));
+}
+
+TEST(CocoIo, ResultsRoundTrip) {
+  const TempFolder folder;
+  const auto path = folder.path() / "results.json";
+  write_coco_results(path, {{7, 1, 0.25, kMask}});
+  const std::vector<CocoResult> read = read_coco_results(path);
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read[0].image_id, 7);
+  EXPECT_EQ(read[0].score, 0.25);
+  EXPECT_EQ(read[0].segmentation, kMask);
+  expect_in("[0].score: is 2, allowed is 0 to 1", message_of<DataError>([&] {
+              write_coco_results(path, {{7, 1, 2.0, kMask}});
+              read_coco_results(path);
+            }));
+  write_coco(path, sample());
+  expect_in("is no list of results", message_of<DataError>([&] { read_coco_results(path); }));
+}
+
+/// The reference files beside the checkout.
+std::filesystem::path shared_coco(const char* file) {
+  return std::filesystem::path(MMS_SOURCE_DIR) / "../shared/data/coco_eval" / file;
+}
+
+TEST(CocoIo, ReadsTheReferenceAnnotations) {
+  const auto path = shared_coco("instances_val2014_100.json");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";
+  const CocoDataset dataset = read_coco(path);
+  EXPECT_EQ(dataset.images.size(), 100U);
+  EXPECT_EQ(dataset.annotations.size(), 839U);
+  int crowds = 0;
+  double pixels = 0.0;
+  double area = 0.0;
+  for (const CocoAnnotation& annotation : dataset.annotations) {
+    const std::array<double, 4> box = rle_box(annotation.segmentation);
+    for (std::size_t axis = 0; axis < 2; ++axis) {  // pixels reach no further than the corners
+      EXPECT_GE(box[axis], annotation.bbox[axis] - 1.0) << annotation.id;
+      EXPECT_LE(box[axis] + box[axis + 2], annotation.bbox[axis] + annotation.bbox[axis + 2] + 1.0)
+          << annotation.id;
+    }
+    if (annotation.iscrowd) {
+      ++crowds;
+    } else {  // the file has the area of the polygons before they were made pixels
+      pixels += static_cast<double>(rle_area(annotation.segmentation));
+      area += annotation.area;
+    }
+  }
+  EXPECT_EQ(crowds, 9);
+  EXPECT_NEAR(pixels / area, 1.0, 0.01);
+}
+
+TEST(CocoIo, ReadsTheReferenceResults) {
+  const auto path = shared_coco("instances_val2014_fakesegm100_results.json");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";
+  const std::vector<CocoResult> results = read_coco_results(path);
+  EXPECT_EQ(results.size(), 734U);
+  const std::string file = read_file(path);
+  for (const CocoResult& result : results) {  // our text is theirs, to the letter
+    nlohmann::json quoted = rle_to_string(result.segmentation);
+    EXPECT_NE(file.find(quoted.dump()), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,56 @@
+#include "mms/io/kitti_io.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mms/core/error.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using testing::expect_in;
+using testing::message_of;
+using testing::TempFolder;
+
+TEST(KittiIo, ScansRoundTrip) {
+  const TempFolder folder;
+  LidarScan scan;
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  scan.points = {{1.0F, -2.0F, 0.1F}, {kNan, kNan, kNan}};
+  scan.intensity = {0.5F, 0.0F};
+  write_kitti_scan(folder.path() / "a.bin", scan);
+  const LidarScan read = read_kitti_scan(folder.path() / "a.bin");
+  ASSERT_EQ(read.points.size(), 2U);
+  EXPECT_EQ(read.points[0], scan.points[0]);
+  EXPECT_TRUE(std::isnan(read.points[1].x()));
+  EXPECT_EQ(read.intensity, scan.intensity);
+}
+
+TEST(KittiIo, WithoutIntensityTheReflectanceIsZero) {
+  const TempFolder folder;
+  LidarScan scan;
+  scan.points = {{1.0F, 2.0F, 3.0F}};
+  write_kitti_scan(folder.path() / "a.bin", scan);
+  EXPECT_EQ(read_kitti_scan(folder.path() / "a.bin").intensity, std::vector{0.0F});
+  scan.intensity = {1.0F, 2.0F};
+  expect_in("is to hold 1 points, but there are 2 intensities",
+            message_of<DataError>([&] { write_kitti_scan(folder.path() / "a.bin", scan); }));
+}
+
+TEST(KittiIo, TimesOfPointsRoundTrip) {
+  const TempFolder folder;
+  const std::vector<float> times = {0.0F, 0.001F, 0.1F};
+  write_point_times(folder.path() / "a.bin", times);
+  EXPECT_EQ(read_point_times(folder.path() / "a.bin"), times);
+  expect_in("has 5 bytes, not a multiple of 4",
+            message_of<DataError>([&] { read_point_times(folder.write("b.bin", "12345")); }));
+  write_point_times(folder.path() / "a.bin", {0.0F, std::numeric_limits<float>::infinity()});
+  expect_in("the time of point 1 is not finite",
+            message_of<DataError>([&] { read_point_times(folder.path() / "a.bin"); }));
+}
+
+}  // namespace
+}  // namespace mms

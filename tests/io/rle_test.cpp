@@ -1,0 +1,88 @@
+#include "mms/io/rle.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using testing::expect_in;
+using testing::message_of;
+
+/// 4 x 3 with the L: (1, 0), (1, 1), (1, 2), (2, 2).
+Image<std::uint8_t> l_shape() {
+  Image<std::uint8_t> mask(4, 3);
+  for (const auto& [x, y] : {std::pair(1, 0), {1, 1}, {1, 2}, {2, 2}}) mask(x, y) = 7;
+  return mask;
+}
+
+/// A pattern with runs of every length, the first pixel on or off.
+Image<std::uint8_t> pattern(int width, int height, unsigned seed) {
+  Image<std::uint8_t> mask(width, height);
+  unsigned state = seed;
+  for (std::uint8_t& pixel : mask.pixels()) {
+    state = state * 1664525U + 1013904223U;
+    pixel = (state >> 24) < 90 + seed % 100 ? 1 : 0;
+  }
+  return mask;
+}
+
+TEST(Rle, CountsRunDownTheColumns) {
+  const Rle rle = encode_rle(l_shape());
+  EXPECT_EQ(rle.counts, (std::vector<std::uint32_t>{3, 3, 2, 1, 3}));
+  EXPECT_EQ(rle.width, 4);
+  EXPECT_EQ(rle.height, 3);
+  EXPECT_EQ(rle_area(rle), 4U);
+  EXPECT_EQ(rle_box(rle), (std::array{1.0, 0.0, 2.0, 3.0}));
+}
+
+TEST(Rle, BeginsWithARunOfBackground) {
+  EXPECT_EQ(encode_rle(Image<std::uint8_t>(2, 2, 1)).counts, (std::vector<std::uint32_t>{0, 4}));
+  EXPECT_EQ(encode_rle(Image<std::uint8_t>(2, 2)).counts, (std::vector<std::uint32_t>{4}));
+  EXPECT_EQ(rle_box(encode_rle(Image<std::uint8_t>(2, 2))), (std::array{0.0, 0.0, 0.0, 0.0}));
+}
+
+TEST(Rle, TakesOneLabelOfMany) {
+  Image<std::uint8_t> labels = l_shape();
+  labels(3, 0) = 2;
+  EXPECT_EQ(rle_area(encode_rle(labels, 7)), 4U);
+  EXPECT_EQ(rle_area(encode_rle(labels, 2)), 1U);
+  EXPECT_EQ(rle_area(encode_rle(labels)), 5U);
+}
+
+TEST(Rle, TheTextIsThatOfPycocotools) {
+  // Worked by hand from its rule: numbers from the fourth on are differences to the last but one.
+  EXPECT_EQ(rle_to_string({4, 3, {3, 3, 2, 1, 3}}), "332N1");
+  EXPECT_EQ(rle_to_string({100, 100, {10000}}), "`h9");
+  EXPECT_EQ(rle_from_string("332N1", 4, 3).counts, (std::vector<std::uint32_t>{3, 3, 2, 1, 3}));
+}
+
+TEST(Rle, EverythingRoundTrips) {
+  for (unsigned seed = 0; seed < 100; seed += 9) {
+    const Image<std::uint8_t> mask = pattern(31 + static_cast<int>(seed), 47, seed);
+    const Rle rle = encode_rle(mask);
+    EXPECT_EQ(decode_rle(rle).pixels(), mask.pixels());
+    EXPECT_EQ(rle_from_string(rle_to_string(rle), rle.width, rle.height), rle);
+  }
+  const Rle large{4000, 3000, {11'999'999, 1}};
+  EXPECT_EQ(rle_from_string(rle_to_string(large), 4000, 3000), large);
+}
+
+TEST(Rle, SaysWhatIsWrong) {
+  expect_in("its runs are of 5 pixels, the image has 4 x 3", message_of<DataError>([] {
+              decode_rle({4, 3, {2, 3}});
+            }));
+  expect_in("has the letter 'z', allowed are '0' to 'o'",
+            message_of<DataError>([] { rle_from_string("3z", 4, 3); }));
+  expect_in("ends within a number", message_of<DataError>([] { rle_from_string("`", 4, 3); }));
+  expect_in("more than 32 bits",
+            message_of<DataError>([] { rle_from_string("ooooooooooooo0", 4, 3); }));
+  expect_in("has a run of 13 pixels in an image of 4 x 3",
+            message_of<DataError>([] { rle_from_string("=", 4, 3); }));
+  expect_in("has a run of -1 pixels", message_of<DataError>([] { rle_from_string("O", 4, 3); }));
+}
+
+}  // namespace
+}  // namespace mms
