@@ -38,6 +38,14 @@ void check(const Frame& frame) {
   }
 }
 
+/// Where a block's returns lie on average: beside its middle where some are missing, which on a
+/// slanted surface makes centimetres of depth.
+struct Return {
+  float depth = 0.0F;  ///< [m], 0 for none
+  float u = 0.0F;      ///< from the block's middle [px of the full image]
+  float v = 0.0F;
+};
+
 /// Sums and reads of one block of pixels; Stride 0 stands for one known at run time only.
 template <int Stride>
 class Block {
@@ -50,32 +58,35 @@ class Block {
 
   int stride() const { return Stride > 0 ? Stride : stride_; }
 
-  /// Mean depth of the nearest surface in the block at (x, y) of the cloud; 0 without a return.
-  float depth(const Image<float>& image, int x, int y) const {
+  /// Mean of the nearest surface's returns in the block at (x, y) of the cloud.
+  Return nearest_surface(const Image<float>& image, int x, int y) const {
     float nearest = kInfinity;
     float farthest = 0.0F;
-    for_each(image, x, y, [&](float z) {
+    for_each(image, x, y, [&](float z, int, int) {
       const bool is_return = z >= min_ && z <= max_;
       nearest = is_return && z < nearest ? z : nearest;
       farthest = is_return && z > farthest ? z : farthest;
     });
-    if (farthest == 0.0F) return 0.0F;
+    if (farthest == 0.0F) return {};
     if (farthest - nearest > kSurfaceStep) {
       farthest = std::min(farthest, nearest + surface_step(nearest));
     }
-    float sum = 0.0F;
+    Return sum;
     float count = 0.0F;
-    for_each(image, x, y, [&](float z) {
-      const bool is_on_surface = z >= nearest && z <= farthest;
-      sum += is_on_surface ? z : 0.0F;
-      count += is_on_surface ? 1.0F : 0.0F;
+    for_each(image, x, y, [&](float z, int u, int v) {
+      const float used = z >= nearest && z <= farthest ? 1.0F : 0.0F;
+      sum.depth += used * z;
+      sum.u += used * static_cast<float>(u);
+      sum.v += used * static_cast<float>(v);
+      count += used;
     });
-    return sum / count;
+    const float middle = 0.5F * static_cast<float>(stride() - 1);
+    return {sum.depth / count, sum.u / count - middle, sum.v / count - middle};
   }
 
   Rgb color(const Image<Rgb>& image, int x, int y) const {
     int sum[3] = {0, 0, 0};
-    for_each(image, x, y, [&](const Rgb& c) {
+    for_each(image, x, y, [&](const Rgb& c, int, int) {
       sum[0] += c.r;
       sum[1] += c.g;
       sum[2] += c.b;
@@ -90,7 +101,7 @@ class Block {
   void for_each(const Image<T>& image, int x, int y, const Visit& visit) const {
     for (int v = 0; v < stride(); ++v) {
       const T* row = image.row(y * stride() + v) + x * stride();
-      for (int u = 0; u < stride(); ++u) visit(row[u]);
+      for (int u = 0; u < stride(); ++u) visit(row[u], u, v);
     }
   }
 
@@ -105,13 +116,17 @@ class Block {
 template <int Stride>
 void fill_cloud(const Frame& frame, const Block<Stride>& block,
                 const std::vector<Eigen::Vector3f>& rays, LabeledCloud& cloud) {
+  const CameraIntrinsics& full = *frame.calibration->camera;
+  const Eigen::Vector2f per_pixel(static_cast<float>(1.0 / full.fx),
+                                  static_cast<float>(1.0 / full.fy));
   std::size_t i = 0;
   for (int y = 0; y < cloud.height; ++y) {
     for (int x = 0; x < cloud.width; ++x, ++i) {
       if (!cloud.colors.empty()) cloud.colors[i] = block.color(frame.color, x, y);
-      const float z = block.depth(frame.depth, x, y);
-      if (z == 0.0F) continue;
-      cloud.points[i] = rays[i] * z;
+      const Return mean = block.nearest_surface(frame.depth, x, y);
+      if (mean.depth == 0.0F) continue;
+      const Eigen::Vector3f aside(mean.u * per_pixel.x(), mean.v * per_pixel.y(), 0.0F);
+      cloud.points[i] = (rays[i] + aside) * mean.depth;
       cloud.labels[i] = PointLabel::kStatic;
     }
   }

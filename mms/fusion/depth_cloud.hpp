@@ -15,7 +15,7 @@ class DepthCloudBuilder {
   explicit DepthCloudBuilder(const FusionConfig& config) : config_(config) {}
 
   /// The cloud of an RGB-D frame in the camera frame. Every point with a return in range is static,
-  /// the others invalid. A block's depth is the mean of its returns that lie on the surface of the
+  /// the others invalid. A block's point is the mean of its returns that lie on the surface of the
   /// nearest one: averaging over an occlusion border would make points in thin air.
   /// @throws DataError when calibration, colour and depth disagree in size
   LabeledCloud build(const Frame& frame);

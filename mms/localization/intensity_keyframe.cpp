@@ -67,16 +67,25 @@ std::vector<TexturedPoint> textured_points(const IntensityLevel& level,
   return points;
 }
 
+double harmonic_depth(const std::vector<std::vector<TexturedPoint>>& levels) {
+  if (levels.empty() || levels.front().empty()) return IntensityKeyframe{}.depth;
+  double inverse = 0.0;
+  for (const TexturedPoint& p : levels.front()) inverse += 1.0 / static_cast<double>(p.point.z());
+  return static_cast<double>(levels.front().size()) / inverse;
+}
+
 }  // namespace
 
 IntensityKeyframe make_intensity_keyframe(const std::vector<IntensityLevel>& levels,
                                           const Eigen::Isometry3d& T_world_sensor,
                                           const PhotometricConfig& config,
                                           const DepthNoise& noise) {
-  IntensityKeyframe keyframe{T_world_sensor, {}};
+  IntensityKeyframe keyframe;
+  keyframe.T_world_sensor = T_world_sensor;
   for (const IntensityLevel& level : levels) {
     keyframe.levels.push_back(textured_points(level, config, noise));
   }
+  keyframe.depth = harmonic_depth(keyframe.levels);
   return keyframe;
 }
 

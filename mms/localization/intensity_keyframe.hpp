@@ -19,6 +19,7 @@ struct TexturedPoint {
 struct IntensityKeyframe {
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
   std::vector<std::vector<TexturedPoint>> levels;  ///< finest first
+  double depth = 1.0;  ///< harmonic mean of the points' depths: what parallax goes by [m]
 };
 
 /// Takes the strongest gradient of every cell of `cell_px` pixels, where the surface is static and

@@ -13,6 +13,9 @@ namespace {
 /// estimate through the wall.
 constexpr double kCoasting = 0.5;
 
+/// How far two measurements of one pose may be apart [m].
+constexpr double kMeasurementError = 0.01;
+
 constexpr double kVoxelsPerRange = 25.0;
 constexpr double kMinVoxel = 0.05;  ///< [m]
 constexpr double kMaxVoxel = 1.0;   ///< [m]
@@ -55,6 +58,8 @@ void OdometryConfig::visit(ConfigVisitor& v) {
   v.number({"max_speed", "m/s", "a faster estimate is not believed"}, max_speed, {0.1, 1000.0});
   v.number({"max_turn_rate", "deg/s", "a faster estimate is not believed"}, max_turn_rate,
            {1.0, 36000.0});
+  v.number({"max_acceleration", "m/s^2", "a faster change of the velocity is not believed"},
+           max_acceleration, {0.1, 10000.0});
   v.group({"registration", "", "robust Gauss-Newton of a frame against the local maps"},
           registration);
 }
@@ -80,7 +85,7 @@ OdometryEstimate Odometry::estimate(FeatureCloud measured) {
   estimate.degenerate_directions = result.degenerate_directions;
   estimate.plane_rms =
       std::sqrt(result.geometric.plane_square_sum / std::max(1, result.geometric.planes.inliers));
-  if (trustworthy(features, result, elapsed)) {
+  if (trustworthy(features, result, prediction, elapsed)) {
     estimate.status = lost_                              ? Status::kRecovered
                       : result.degenerate_directions > 0 ? Status::kDegenerate
                                                          : Status::kTracking;
@@ -98,7 +103,7 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
   OdometryEstimate estimate;
   estimate.stamp = features.stamp;
   estimate.T_world_sensor = Transform<World, Sensor>(pose_);
-  stamp_ = features.stamp;
+  stamp_ = known_at_ = features.stamp;
   const auto count = features.planes.size() + features.edges.size();
   if (count < static_cast<std::size_t>(config_.min_inliers)) {
     estimate.status = Status::kLost;
@@ -119,23 +124,34 @@ Odometry::Isometry Odometry::predict(Timestamp stamp) const {
 }
 
 bool Odometry::trustworthy(const FeatureCloud& features, const RegistrationResult& result,
-                           double elapsed) const {
+                           const Isometry& prediction, double elapsed) const {
   const GeometricEquations& geometric = result.geometric;
   const int inliers = geometric.edges.inliers + geometric.planes.inliers;
   const auto offered = static_cast<double>(features.edges.size() + features.planes.size());
   if (inliers + result.intensity_inliers < config_.min_inliers) return false;
   if (inliers < config_.min_inlier_share * offered) return false;
   if (!result.T_world_sensor.matrix().allFinite()) return false;
-  const Isometry motion = pose_.inverse() * result.T_world_sensor;
-  const double seconds = std::max(elapsed, 1e-3);
+  return plausible(result.T_world_sensor, prediction, std::max(elapsed, 1e-3));
+}
+
+bool Odometry::plausible(const Isometry& pose, const Isometry& prediction, double seconds) const {
+  // What nothing on wheels or legs can do is people who were taken for the world.
+  const double unknown_for = std::max(seconds, seconds + to_seconds(stamp_ - known_at_));
+  const double deviation = (pose.translation() - prediction.translation()).norm();
+  const double limit =
+      kMeasurementError + 0.5 * config_.max_acceleration * unknown_for * unknown_for;
+  if (velocity_known_ && deviation > limit) return false;
+  const Isometry motion = pose_.inverse() * pose;
   return motion.translation().norm() <= config_.max_speed * seconds &&
          se3::angle(motion) <= config_.max_turn_rate * M_PI / 180.0 * seconds;
 }
 
 void Odometry::accept(const FeatureCloud& features, const Isometry& pose, double elapsed) {
   const Vector6d motion = se3::log(pose_.inverse() * pose);
-  velocity_ = lost_ || elapsed <= 0.0 ? Vector6d(Vector6d::Zero()) : Vector6d(motion / elapsed);
+  velocity_known_ = !lost_ && elapsed > 0.0;
+  velocity_ = velocity_known_ ? Vector6d(motion / elapsed) : Vector6d(Vector6d::Zero());
   pose_ = pose;
+  known_at_ = features.stamp;
   lost_ = false;
   update_maps(features);
 }

@@ -19,6 +19,7 @@ struct OdometryConfig {
   double min_inlier_share = 0.25;
   double max_speed = 30.0;
   double max_turn_rate = 720.0;
+  double max_acceleration = 20.0;
 
   void visit(ConfigVisitor& v);
 };
@@ -37,7 +38,8 @@ class Odometry {
   OdometryEstimate initialize(const FeatureCloud& features);
   Isometry predict(Timestamp stamp) const;
   bool trustworthy(const FeatureCloud& features, const RegistrationResult& result,
-                   double elapsed) const;
+                   const Isometry& prediction, double elapsed) const;
+  bool plausible(const Isometry& pose, const Isometry& prediction, double seconds) const;
   void accept(const FeatureCloud& features, const Isometry& pose, double elapsed);
   void coast(const Isometry& pose);
   void update_maps(const FeatureCloud& features);
@@ -51,6 +53,8 @@ class Odometry {
   Vector6d velocity_ = Vector6d::Zero();  ///< of the sensor in its own frame [m/s, rad/s]
   Isometry trimmed_at_ = Isometry::Identity();
   Timestamp stamp_;
+  bool velocity_known_ = false;  ///< from two frames in a row
+  Timestamp known_at_;           ///< when the pose was last measured
   bool lost_ = false;
 };
 

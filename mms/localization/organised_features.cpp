@@ -20,6 +20,7 @@ struct Candidate {
   int x;
   int y;
   float smoothness;  ///< magnitude of eq. (2) over range
+  bool complete;     ///< no neighbour is missing, so it is not at a border
 };
 
 /// Reads the static points of an organised cloud by pixel.
@@ -33,10 +34,13 @@ class StaticGrid {
 
   /// The static point at a pixel, or null.
   const Eigen::Vector3f* at(int x, int y) const {
-    if (x < 0 || y < 0 || x >= cloud_.width || y >= cloud_.height) return nullptr;
-    const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud_.width) +
-                   static_cast<std::size_t>(x);
-    return cloud_.labels[i] == PointLabel::kStatic ? &cloud_.points[i] : nullptr;
+    return label(x, y) == PointLabel::kStatic ? &cloud_.points[index(x, y)] : nullptr;
+  }
+
+  /// Label of a pixel; invalid outside the image.
+  PointLabel label(int x, int y) const {
+    const bool inside = x >= 0 && y >= 0 && x < cloud_.width && y < cloud_.height;
+    return inside ? cloud_.labels[index(x, y)] : PointLabel::kInvalid;
   }
 
   /// Largest difference in depth [m] between points of one surface `pixels` apart.
@@ -47,13 +51,21 @@ class StaticGrid {
   }
 
  private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud_.width) +
+           static_cast<std::size_t>(x);
+  }
+
   const LabeledCloud& cloud_;
   DepthNoise noise_;
 };
 
-/// Magnitude of eq. (2) over range, or nothing where a neighbour is missing or on another surface:
-/// occlusion borders, frame borders and the borders of the dynamic region.
-std::optional<float> smoothness(const StaticGrid& grid, int x, int y) {
+/// The pixel as a candidate, or nothing where a neighbour is dynamic or on another surface, or more
+/// than a sixth of them are missing: occlusion borders, frame borders and the borders of the dynamic
+/// region. A few holes are what every depth camera leaves on dark or slanted surfaces.
+std::optional<Candidate> candidate_at(const StaticGrid& grid, int x, int y) {
+  constexpr int kSide = 2 * kSmoothnessWindow / kSmoothnessStep + 1;
+  constexpr int kNeighbours = kSide * kSide - 1;
   const Eigen::Vector3f* centre = grid.at(x, y);
   if (centre == nullptr) return std::nullopt;
   const float range = centre->norm();
@@ -64,12 +76,17 @@ std::optional<float> smoothness(const StaticGrid& grid, int x, int y) {
     for (int dx = -kSmoothnessWindow; dx <= kSmoothnessWindow; dx += kSmoothnessStep) {
       if (dx == 0 && dy == 0) continue;
       const Eigen::Vector3f* p = grid.at(x + dx, y + dy);
-      if (p == nullptr || std::abs(p->z() - centre->z()) > gate) return std::nullopt;
+      if (p == nullptr) {
+        if (grid.label(x + dx, y + dy) == PointLabel::kDynamic) return std::nullopt;
+        continue;
+      }
+      if (std::abs(p->z() - centre->z()) > gate) return std::nullopt;
       sum += range - p->norm();
       ++count;
     }
   }
-  return std::abs(sum / static_cast<float>(count)) / range;
+  if (6 * count < 5 * kNeighbours) return std::nullopt;
+  return Candidate{x, y, std::abs(sum / static_cast<float>(count)) / range, count == kNeighbours};
 }
 
 std::optional<PlaneFeature> fit_plane(const StaticGrid& grid, const Candidate& candidate,
@@ -110,6 +127,7 @@ SectorFeatures choose(const StaticGrid& grid, const std::vector<Candidate>& sort
   }
   for (auto c = sorted.rbegin(); c != sorted.rend(); ++c) {
     if (static_cast<int>(chosen.edges.size()) >= config.edges_per_sector) break;
+    if (!c->complete) continue;
     const Eigen::Vector3f& point = *grid.at(c->x, c->y);
     const float sigma = config.noise.sigma(point.z());
     const float least =
@@ -124,7 +142,7 @@ std::vector<Candidate> sector_candidates(const StaticGrid& grid, int left, int t
   std::vector<Candidate> candidates;
   for (int y = top; y < std::min(top + side, grid.height()); y += kCandidateStep) {
     for (int x = left; x < std::min(left + side, grid.width()); x += kCandidateStep) {
-      if (const auto s = smoothness(grid, x, y)) candidates.push_back({x, y, *s});
+      if (const auto candidate = candidate_at(grid, x, y)) candidates.push_back(*candidate);
     }
   }
   std::stable_sort(

@@ -18,6 +18,8 @@ void PhotometricConfig::visit(ConfigVisitor& v) {
   v.integer({"references", "", "keyframes a frame is compared with"}, references, {1, 8});
   v.number({"keyframe_translation", "m", "distance to all keyframes that makes a new one"},
            keyframe_translation, {0.001, 10.0});
+  v.number({"keyframe_parallax", "", "the same as a share of the depth of what they see"},
+           keyframe_parallax, {0.0, 1.0});
   v.number({"keyframe_rotation", "deg", "angle to all keyframes that makes a new one"},
            keyframe_rotation, {0.1, 90.0});
   v.integer({"max_keyframes", "", "keyframes kept; the farthest goes first"}, max_keyframes,

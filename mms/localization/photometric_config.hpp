@@ -12,9 +12,10 @@ struct PhotometricConfig {
   double min_sigma = 3.0;
   double weight = 1.0;
   double depth_gate = 0.05;
-  int references = 2;
+  int references = 3;
   double keyframe_translation = 0.08;
-  double keyframe_rotation = 5.0;
+  double keyframe_parallax = 0.04;
+  double keyframe_rotation = 7.0;
   int max_keyframes = 100;
 
   void visit(ConfigVisitor& v);

@@ -8,10 +8,13 @@
 
 namespace mms {
 
-double ReferenceKeyframes::distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
-  const Eigen::Isometry3d between = a.inverse() * b;
+double ReferenceKeyframes::distance(const IntensityKeyframe& keyframe,
+                                    const Eigen::Isometry3d& pose) const {
+  const Eigen::Isometry3d between = keyframe.T_world_sensor.inverse() * pose;
+  const double threshold =
+      std::max(config_.keyframe_translation, config_.keyframe_parallax * keyframe.depth);
   constexpr double kDegree = M_PI / 180.0;
-  return std::hypot(between.translation().norm() / config_.keyframe_translation,
+  return std::hypot(between.translation().norm() / threshold,
                     se3::angle(between) / (config_.keyframe_rotation * kDegree));
 }
 
@@ -19,7 +22,7 @@ std::vector<const IntensityKeyframe*> ReferenceKeyframes::nearest(
     const Eigen::Isometry3d& T_world_sensor) const {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < keyframes_.size(); ++i) {
-    order.emplace_back(distance(keyframes_[i].T_world_sensor, T_world_sensor), i);
+    order.emplace_back(distance(keyframes_[i], T_world_sensor), i);
   }
   std::sort(order.begin(), order.end());
   order.resize(std::min(order.size(), static_cast<std::size_t>(config_.references)));
@@ -32,7 +35,7 @@ void ReferenceKeyframes::update(const std::vector<IntensityLevel>& levels,
                                 const Eigen::Isometry3d& T_world_sensor) {
   if (levels.empty() || !config_.enabled) return;
   const auto from_here = [&](const IntensityKeyframe& keyframe) {
-    return distance(keyframe.T_world_sensor, T_world_sensor);
+    return distance(keyframe, T_world_sensor);
   };
   const bool known = std::any_of(keyframes_.begin(), keyframes_.end(),
                                  [&](const auto& keyframe) { return from_here(keyframe) < 1.0; });

@@ -24,8 +24,8 @@ class ReferenceKeyframes {
   std::size_t size() const { return keyframes_.size(); }
 
  private:
-  /// 1 at the thresholds of translation or rotation alone.
-  double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
+  /// 1 at the thresholds of parallax or rotation alone.
+  double distance(const IntensityKeyframe& keyframe, const Eigen::Isometry3d& pose) const;
 
   PhotometricConfig config_;
   DepthNoise noise_;

@@ -14,6 +14,11 @@ void increment(std::uint16_t& counter) {
   if (counter < std::numeric_limits<std::uint16_t>::max()) ++counter;
 }
 
+void count_view(std::uint32_t keyframe, VoxelBlock& block) {
+  if (block.last_keyframe != keyframe) increment(block.views);
+  block.last_keyframe = keyframe;
+}
+
 /// Adds a point to the voxel's means.
 void add(const SurfacePoint& surface, const Eigen::Isometry3f& T_world_sensor,
          std::uint32_t keyframe, Voxel& voxel) {
@@ -25,6 +30,12 @@ void add(const SurfacePoint& surface, const Eigen::Isometry3f& T_world_sensor,
   voxel.position += share * (T_world_sensor * surface.point - voxel.position);
   voxel.normal += share * (T_world_sensor.linear() * surface.normal - voxel.normal);
   voxel.color += share * (color - voxel.color);
+}
+
+/// Voxels at the rim of what was seen, whose surroundings only few keyframes looked at, need not be
+/// seen again.
+bool is_shown(const VoxelBlock& block, const Voxel& voxel, std::size_t needed) {
+  return voxel.hits >= needed || block.views <= needed;
 }
 
 Rgb to_rgb(const Eigen::Vector3f& color) {
@@ -67,6 +78,7 @@ void StaticMap::insert(const std::vector<SurfacePoint>& points,
       __builtin_prefetch(&places[i].voxel().cell);
     }
     for (std::size_t i = 0; i < count; ++i) {
+      count_view(keyframe, *places[i].block);
       add(points[begin + i], T_world_sensor, keyframe, places[i].voxel());
     }
   }
@@ -117,7 +129,7 @@ MapCloud StaticMap::cloud() const {
   MapCloud cloud;
   for (const VoxelBlock& block : grid_.blocks()) {
     for (const Voxel& voxel : block.voxels) {
-      if (voxel.hits < needed) continue;
+      if (!is_shown(block, voxel, needed)) continue;
       cloud.points.push_back(voxel.position);
       cloud.colors.push_back(to_rgb(voxel.color));
       cloud.normals.push_back(normal_of(block, voxel));

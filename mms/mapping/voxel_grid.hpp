@@ -34,6 +34,8 @@ struct VoxelBlock {
   VoxelKey key;                              ///< in units of the block's side
   std::array<std::uint16_t, kCells> slot{};  ///< 1 + index into `voxels` by cell, 0 for none
   std::vector<Voxel> voxels;
+  std::uint32_t last_keyframe = 0;  ///< number of the last one that measured in it
+  std::uint16_t views = 0;          ///< keyframes that measured in it
 
   VoxelKey voxel_key(const Voxel& voxel) const;  ///< in units of the voxel's side
 };

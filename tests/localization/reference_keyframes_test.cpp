@@ -22,6 +22,7 @@ Eigen::Isometry3d at(double x) {
 TEST(ReferenceKeyframes, ANewOneNeedsDistanceOrTurn) {
   PhotometricConfig config;
   config.keyframe_translation = 0.1;
+  config.keyframe_parallax = 0.0;
   config.keyframe_rotation = 5.0;
   ReferenceKeyframes keyframes(config, {});
   keyframes.update(levels(), at(0.0));
@@ -33,6 +34,20 @@ TEST(ReferenceKeyframes, ANewOneNeedsDistanceOrTurn) {
   EXPECT_EQ(keyframes.size(), 2U);
   keyframes.update(levels(), motion(0, 0, 0, 0, 5.1 * M_PI / 180.0, 0));
   EXPECT_EQ(keyframes.size(), 3U);
+}
+
+TEST(ReferenceKeyframes, WhatIsFarAwayNeedsMoreDistance) {
+  PhotometricConfig config;
+  config.keyframe_translation = 0.01;
+  config.keyframe_parallax = 0.1;
+  ReferenceKeyframes keyframes(config, {});
+  keyframes.update(levels(), at(0.0));
+  const double depth = keyframes.nearest(at(0.0)).front()->depth;
+  ASSERT_GT(depth, 0.5);
+  keyframes.update(levels(), at(0.09 * depth));
+  EXPECT_EQ(keyframes.size(), 1U);
+  keyframes.update(levels(), at(0.11 * depth));
+  EXPECT_EQ(keyframes.size(), 2U);
 }
 
 TEST(ReferenceKeyframes, TheNearestComeFirstAndKeepTheirPose) {
