@@ -1,4 +1,4 @@
-// Every stage of the pipeline on the simulated room (640x480, people and a vehicle in view).
+// Every stage of the pipeline in the simulated warehouse (640x480, people and vehicles in view).
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -8,19 +8,19 @@
 #include "mms/evaluation/trajectory_error.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/segmentation/mask_segmenter.hpp"
-#include "room.hpp"
+#include "scene.hpp"
 
 namespace mms {
 namespace {
 
 /// The frames one after the other, again and again.
 const Frame& frame_of(std::size_t iteration) {
-  const auto& frames = room_recording().frames;
+  const auto& frames = scene_recording().frames;
   return frames[iteration % frames.size()];
 }
 
 void segmentation_masks(benchmark::State& state) {
-  room_recording();  // rendered before the clock runs
+  scene_recording();  // rendered before the clock runs
   MaskSegmenter segmenter;
   std::size_t i = 0;
   for (auto unused : state) benchmark::DoNotOptimize(segmenter.segment(frame_of(i++)));
@@ -51,7 +51,7 @@ const std::vector<LabeledCloud>& labeled_clouds() {
     SemanticFusion fusion(FusionConfig{});
     MaskSegmenter segmenter;
     std::vector<LabeledCloud> result;
-    for (const Frame& frame : room_recording().frames) {
+    for (const Frame& frame : scene_recording().frames) {
       result.push_back(fusion.fuse(frame, segmenter.segment(frame)));
     }
     return result;
@@ -76,7 +76,7 @@ void features(benchmark::State& state) {
 BENCHMARK(features)->Unit(benchmark::kMillisecond);
 
 double ate_cm(const Trajectory& estimate) {
-  return 100.0 * evaluate_trajectory(room_recording().truth, estimate).ate_rmse_m;
+  return 100.0 * evaluate_trajectory(scene_recording().truth, estimate).ate_rmse_m;
 }
 
 /// The whole recording an iteration; the time reported is that of a frame.
@@ -109,7 +109,7 @@ BENCHMARK_CAPTURE(odometry, paper, Association::kPaper, false)->Unit(benchmark::
 
 void static_map_keyframe(benchmark::State& state) {
   const auto& clouds = labeled_clouds();
-  const auto& truth = room_recording().truth;
+  const auto& truth = scene_recording().truth;
   StaticMap map;
   std::size_t i = 0;
   for (auto unused : state) {
@@ -128,7 +128,7 @@ void whole_pipeline(benchmark::State& state) {
   for (auto unused : state) {
     SlamSystem system({}, std::make_unique<MaskSegmenter>());
     estimate.clear();
-    for (const Frame& frame : room_recording().frames) {
+    for (const Frame& frame : scene_recording().frames) {
       const FrameResult result = system.process(frame);
       estimate.push_back({frame.stamp, result.odometry.T_world_sensor});
     }

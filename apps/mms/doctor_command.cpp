@@ -34,7 +34,7 @@ bool check(const std::string& what, const std::string& fault) {
 
 /// Tracks a few simulated frames. @returns what is wrong, or nothing.
 std::string trial_run() {
-  const auto source = open_dataset(fmt::format("sim:room?frames={}", kTrialFrames));
+  const auto source = open_dataset(fmt::format("sim:rack_aisle?frames={}", kTrialFrames));
   SlamSystem system({}, std::make_unique<MaskSegmenter>());
   const auto start = std::chrono::steady_clock::now();
   double read_seconds = 0.0;
@@ -44,7 +44,7 @@ std::string trial_run() {
     read_seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (!frame) break;
-    if (system.process(*frame).odometry.status == Status::kLost) return "lost track of the room";
+    if (system.process(*frame).odometry.status == Status::kLost) return "lost track";
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   fmt::print("{:<44} {:.1f} ms a frame, one thread after the other\n", "speed without network",
@@ -69,7 +69,7 @@ void add_doctor_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("doctor", "Check that the program works on this machine");
   command->callback([] {
     print_machine();
-    const bool tracked = check("tracking a simulated room", trial_run());
+    const bool tracked = check("tracking in a simulated warehouse", trial_run());
     const bool writable = check("writing to the working directory", write_trial());
     if (!tracked || !writable) throw Error("doctor", "a check failed", "see the lines above");
   });

@@ -29,8 +29,12 @@ namespace {
 
 constexpr int kMaxCount = 1'000'000'000;  // of frames
 
-SystemConfig load_settings(const RunOptions& options) {
+SystemConfig load_settings(const RunOptions& options, const FrameSource& source) {
   SystemConfig config;
+  const auto calibration = source.calibration();
+  if (calibration && calibration->max_depth) {
+    config.static_map.surface.max_depth = *calibration->max_depth;
+  }
   if (!options.config.empty()) load_config(options.config, config);
   if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
@@ -82,9 +86,9 @@ void compare_map(const FrameSource& source, const SlamSystem& system, RunLog& lo
 }
 
 void run(const RunOptions& options) {
-  const SystemConfig config = load_settings(options);
   const std::unique_ptr<FrameSource> source = open_dataset(
       options.data, {.masks = options.masks, .load_masks = options.segmenter != "none"});
+  const SystemConfig config = load_settings(options, *source);
   check_range(options, *source);
   SlamSystem system(config, make_segmenter(options, *source));
   const ResultFolder folder(options.output, options.data);

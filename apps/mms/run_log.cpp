@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "mms/evaluation/alignment.hpp"
 #include "overlay.hpp"
 
 namespace mms {
@@ -106,11 +107,13 @@ void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vecto
   const Trajectory estimate = trajectory();
   const auto matched = match_by_stamp(truth_, estimate, TrajectoryErrorOptions{}.max_difference);
   if (matched.empty()) return;
-  const Eigen::Isometry3d& T_map_sensor =
-      estimate[matched.front().estimate].T_world_sensor.isometry();
-  const Eigen::Isometry3d& T_truth_sensor =
-      truth_[matched.front().reference].T_world_sensor.isometry();
-  const Eigen::Isometry3f T_map_truth = (T_map_sensor * T_truth_sensor.inverse()).cast<float>();
+  std::vector<Eigen::Isometry3d> true_poses;
+  std::vector<Eigen::Isometry3d> poses;
+  for (const PoseMatch& match : matched) {
+    true_poses.push_back(truth_[match.reference].T_world_sensor.isometry());
+    poses.push_back(estimate[match.estimate].T_world_sensor.isometry());
+  }
+  const Eigen::Isometry3f T_map_truth = align_poses(true_poses, poses).cast<float>();
   std::vector<Eigen::Vector3f> fixed;
   std::vector<Eigen::Vector3f> dynamic;
   for (std::size_t i = 0; i < truth.points.size(); ++i) {

@@ -40,8 +40,8 @@ class RunLog {
   /// @param skipped  frames that could not be read or were dropped
   void finish(std::size_t skipped, const SlamSystem& system);
 
-  /// Compares the static map with the true one, which is taken to the map's frame by the truth pose
-  /// of the first frame that has one. Without such a frame there is no comparison.
+  /// Compares the static map with the true one, which is taken to the map's frame by aligning the
+  /// poses of all frames that have a true one. Without such a frame there is no comparison.
   /// @param truth  in the world frame of the truth poses
   /// @throws DataError when the truth has no usable points.
   void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);

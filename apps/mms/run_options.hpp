@@ -9,7 +9,7 @@ namespace mms {
 
 /// The words of `mms run`.
 struct RunOptions {
-  std::string data = "sim:room";
+  std::string data = "sim:warehouse_loop";
   std::filesystem::path config;  ///< empty: the defaults
   std::filesystem::path output;  ///< empty: results/<time>_<name>
   std::string segmenter =

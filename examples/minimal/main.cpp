@@ -1,4 +1,5 @@
-// Localises a recording, or a simulated room with people in it, and prints a pose a frame:
+// Localises a recording, or a simulated aisle of a warehouse with people in it, and prints a pose a
+// frame:
 //   minimal [FOLDER]
 // Shows how a program of your own feeds its frames to the library; `mms run` does much more.
 
@@ -43,7 +44,7 @@ void localise(const std::string& data) {
 
 int main(int argc, char** argv) {
   try {
-    localise(argc > 1 ? argv[1] : "sim:room?frames=10");
+    localise(argc > 1 ? argv[1] : "sim:rack_aisle?frames=10");
   } catch (const std::exception& error) {  // mms::Error says where, what and what to do about it
     std::fprintf(stderr, "minimal: %s\n", error.what());
     return 1;

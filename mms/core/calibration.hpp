@@ -27,6 +27,7 @@ struct Calibration {
   std::optional<CameraIntrinsics> camera;   ///< absent for LiDAR without a camera
   Transform<Camera, Lidar> T_camera_lidar;  ///< extrinsics, used where both are there
   double depth_scale = 1000.0;              ///< depth image units per metre
+  std::optional<double> max_depth;          ///< farthest depth worth mapping [m], if it is known
 };
 
 }  // namespace mms

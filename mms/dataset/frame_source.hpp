@@ -37,6 +37,9 @@ class FrameSource {
   /// Whether any frame comes with a mask.
   virtual bool has_masks() const = 0;
 
+  /// What is known of the sensor before the first frame; null where nothing is.
+  virtual std::shared_ptr<const Calibration> calibration() const { return nullptr; }
+
   /// Truth poses, in the recording's own world frame; empty where there are none.
   virtual const Trajectory& ground_truth() const = 0;
 

@@ -30,7 +30,7 @@ class KittiLayout final : public RecordingLayout {
   void add(const SimulatedFrame& simulated) override {
     const Frame& frame = simulated.frame;
     if (times_.empty()) {
-      const Calibration calibration = recorded_calibration(frame, sensor_);
+      const Calibration calibration = recorded_calibration(*frame.calibration, sensor_);
       write_calibration(folder_ / "calibration.yaml", calibration);
       T_lidar_camera_ = calibration.T_camera_lidar.isometry().inverse();
     }

@@ -57,9 +57,10 @@ std::string recorded_name(const Frame& frame, const SensorPreset& sensor) {
   return text;
 }
 
-Calibration recorded_calibration(const Frame& frame, const SensorPreset& sensor) {
-  Calibration calibration = *frame.calibration;
+Calibration recorded_calibration(const Calibration& exact, const SensorPreset& sensor) {
+  Calibration calibration = exact;
   calibration.depth_scale = sensor.depth_scale;
+  if (sensor.depth) calibration.max_depth = sensor.depth->max_range;
   return calibration;
 }
 
@@ -67,8 +68,8 @@ Frame as_recorded(const SimulatedFrame& simulated, const SceneConfig& config,
                   const SensorPreset& sensor) {
   Frame frame = simulated.frame;
   frame.name = recorded_name(frame, sensor);
-  frame.calibration =
-      std::make_shared<const Calibration>(recorded_calibration(simulated.frame, sensor));
+  frame.calibration = std::make_shared<const Calibration>(
+      recorded_calibration(*simulated.frame.calibration, sensor));
   frame.mask = recorded_mask(simulated, config);
   if (!frame.color.empty()) frame.color = decode_color(recorded_color(frame, sensor), frame.name);
   if (frame.has_depth()) {

@@ -25,8 +25,9 @@ Image<std::uint8_t> recorded_mask(const SimulatedFrame& frame, const SceneConfig
 /// camera, "000012" for a LiDAR.
 std::string recorded_name(const Frame& frame, const SensorPreset& sensor);
 
-/// The calibration written beside the frames, with the sensor's units of depth.
-Calibration recorded_calibration(const Frame& frame, const SensorPreset& sensor);
+/// The calibration written beside the frames: the scene's with the sensor's units and reach of
+/// depth.
+Calibration recorded_calibration(const Calibration& calibration, const SensorPreset& sensor);
 
 /// The frame that comes back from the recording.
 Frame as_recorded(const SimulatedFrame& frame, const SceneConfig& config,

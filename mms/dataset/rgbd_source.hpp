@@ -43,6 +43,7 @@ class RgbdSource final : public RecordedSource {
 
   std::size_t size() const override { return recording_.frames.size(); }
   bool has_masks() const override;
+  std::shared_ptr<const Calibration> calibration() const override { return recording_.calibration; }
 
  protected:
   Timestamp stamp_at(std::size_t index) const override { return recording_.frames[index].stamp; }

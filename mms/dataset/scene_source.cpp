@@ -13,7 +13,10 @@ namespace {
 class SceneSource final : public FrameSource {
  public:
   SceneSource(const SceneConfig& config, bool load_masks)
-      : scene_(config), load_masks_(load_masks) {
+      : scene_(config),
+        load_masks_(load_masks),
+        calibration_(std::make_shared<const Calibration>(
+            recorded_calibration(scene_.calibration(), scene_.sensor()))) {
     for (int i = 0; i < scene_.size(); ++i) truth_.push_back(scene_.truth(i));
   }
 
@@ -30,6 +33,7 @@ class SceneSource final : public FrameSource {
   std::size_t size() const override { return static_cast<std::size_t>(scene_.size()); }
   std::size_t skipped() const override { return 0; }
   bool has_masks() const override { return load_masks_; }
+  std::shared_ptr<const Calibration> calibration() const override { return calibration_; }
   void skip(std::size_t count) override { position_ += std::min(count, size() - position_); }
   const Trajectory& ground_truth() const override { return truth_; }
   void on_warning(WarningHandler) override {}
@@ -61,6 +65,7 @@ class SceneSource final : public FrameSource {
 
   SimulatedScene scene_;
   bool load_masks_;
+  std::shared_ptr<const Calibration> calibration_;
   Trajectory truth_;
   MapTruth map_;
   std::size_t position_ = 0;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "mms/core/error.hpp"
-#include "mms/dataset/room_source.hpp"
 #include "mms/dataset/scene_source.hpp"
 #include "mms/io/config_assignments.hpp"
 #include "mms/io/nearest_word.hpp"
@@ -14,7 +13,6 @@ namespace mms {
 namespace {
 
 constexpr std::string_view kScheme = "sim:";
-constexpr std::string_view kRoom = "room";
 
 /// "sim:name?key=value&key=value" taken apart.
 struct Address {
@@ -37,7 +35,7 @@ Address parse(std::string_view text) {
 }
 
 [[noreturn]] void fail_unknown(const Address& address) {
-  std::vector<std::string> known = {std::string(kScheme).append(kRoom)};
+  std::vector<std::string> known;
   for (const std::string_view name : scene_names()) {
     known.push_back(std::string(kScheme).append(name));
   }
@@ -58,11 +56,6 @@ std::unique_ptr<FrameSource> open_simulated(std::string_view text, const SourceO
                     "a simulation brings its own masks");
   }
   const Address address = parse(text);
-  if (address.scene == kRoom) {
-    RoomConfig config;
-    assign(config, address.assignments, address.text);
-    return play_room(config, options.load_masks);
-  }
   const auto names = scene_names();
   if (std::find(names.begin(), names.end(), address.scene) == names.end()) fail_unknown(address);
   SceneConfig config = scene_config(address.scene);

@@ -13,7 +13,7 @@ bool is_simulated(std::string_view address);
 
 /// Opens a simulation, which renders its frames as they are asked for, with masks and truth poses:
 /// "sim:warehouse_loop" or another of scene_names(), or with any fields of SceneConfig
-/// "sim:crowd?seed=3&sensor=d435&mask_errors.enabled=true"; "sim:room" with those of RoomConfig.
+/// "sim:crowd?seed=3&sensor=d435&mask_errors.enabled=true".
 /// @throws DataError for another scene or an unknown key (naming the nearest known ones), a value
 ///         that is not of the key's type or out of its range, or a folder of masks in the options.
 std::unique_ptr<FrameSource> open_simulated(std::string_view address,

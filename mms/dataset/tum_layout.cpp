@@ -26,7 +26,8 @@ class TumLayout final : public RecordingLayout {
   void add(const SimulatedFrame& simulated) override {
     const Frame& frame = simulated.frame;
     if (color_list_.empty()) {
-      write_calibration(folder_ / "calibration.yaml", recorded_calibration(frame, sensor_));
+      write_calibration(folder_ / "calibration.yaml",
+                        recorded_calibration(*frame.calibration, sensor_));
     }
     const Timestamp depth_stamp = frame.stamp + frame.depth_offset;
     const std::string depth_file = "depth/" + depth_stamp.to_string() + ".png";

@@ -43,4 +43,25 @@ Eigen::Isometry3d align_points(const std::vector<Eigen::Vector3d>& source,
   return T_target_source;
 }
 
+Eigen::Isometry3d align_poses(const std::vector<Eigen::Isometry3d>& source,
+                              const std::vector<Eigen::Isometry3d>& target) {
+  if (source.size() != target.size() || source.empty()) {
+    throw DataError("alignment", std::to_string(source.size()) + " and " +
+                                     std::to_string(target.size()) +
+                                     " poses, at least one matched pair is needed");
+  }
+  Eigen::Matrix3d rotations = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    rotations += target[i].linear() * source[i].linear().transpose();
+  }
+  Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
+  T_target_source.linear() = nearest_rotation(rotations);
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    offset += target[i].translation() - T_target_source.linear() * source[i].translation();
+  }
+  T_target_source.translation() = offset / static_cast<double>(source.size());
+  return T_target_source;
+}
+
 }  // namespace mms

@@ -12,4 +12,11 @@ namespace mms {
 Eigen::Isometry3d align_points(const std::vector<Eigen::Vector3d>& source,
                                const std::vector<Eigen::Vector3d>& target);
 
+/// Rigid transform T for which the poses T * source_i come nearest to target_i: the mean of their
+/// rotations (chordal), then the mean of the positions. Unlike `align_points` it is unique for
+/// sensors that stand still or drive straight on, as the frames of maps need.
+/// @throws DataError for no pair or vectors of different length
+Eigen::Isometry3d align_poses(const std::vector<Eigen::Isometry3d>& source,
+                              const std::vector<Eigen::Isometry3d>& target);
+
 }  // namespace mms

@@ -17,8 +17,9 @@ constexpr Range kCentre{-1e5, 1e5};
 constexpr Range kSide{1, 16384};
 constexpr Range kLens{-1e4, 1e4};
 constexpr Range kDepthScale{1e-3, 1e6};
-constexpr std::string_view kCameraKeys[] = {"fx",    "fy",     "cx",         "cy",
-                                            "width", "height", "distortion", "depth_scale"};
+constexpr Range kMaxDepth{0.1, 1000.0};
+constexpr std::string_view kCameraKeys[] = {
+    "fx", "fy", "cx", "cy", "width", "height", "distortion", "depth_scale", "max_depth"};
 
 YAML::Node required(YamlMap& map, const std::string& file, std::string_view key) {
   const auto node = map.find(key);
@@ -102,6 +103,9 @@ Calibration read_calibration(const std::filesystem::path& path) {
   calibration.camera = read_camera(map, path.string());
   calibration.depth_scale =
       map.number(required(map, path.string(), "depth_scale"), "depth_scale", kDepthScale);
+  if (const auto node = map.find("max_depth")) {
+    calibration.max_depth = map.number(*node, "max_depth", kMaxDepth);
+  }
   return calibration;
 }
 
@@ -117,6 +121,9 @@ void write_calibration(const std::filesystem::path& path, const Calibration& cal
     text += "height: " + std::to_string(camera.height) + "\n";
     text += "distortion: " + list(camera.distortion) + "  # k1 k2 p1 p2 k3\n";
     text += "depth_scale: " + format_number(calibration.depth_scale) + "  # units per metre\n";
+    if (calibration.max_depth) {
+      text += "max_depth: " + format_number(*calibration.max_depth) + "  # [m]\n";
+    }
   }
   const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows =
       calibration.T_camera_lidar.isometry().matrix().topRows<3>();

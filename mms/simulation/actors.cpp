@@ -12,9 +12,9 @@
 namespace mms {
 namespace {
 
-constexpr double kRobotRadius = 0.5;   // [m]
+constexpr double kRobotRadius = 0.5;    // [m]
 constexpr double kPersonRadius = 0.24;  // they brush past each other [m]
-constexpr double kAgvRadius = 1.0;     // [m]
+constexpr double kAgvRadius = 1.0;      // [m]
 constexpr int kTries = 100;
 
 /// A stretch of a lane: a place on it and the way it goes there.

@@ -63,16 +63,14 @@ Eigen::Vector3f poster(const Material& m, float u, float v, float footprint) {
   return tone * (fine < 0.35F ? Eigen::Vector3f(0.35F * base) : base);
 }
 
-Eigen::Vector3f stripes(const Material& m, float u, float v, float footprint) {
-  const float wave = std::abs(u - 2.0F * m.scale * std::round(u / (2.0F * m.scale)));
+Eigen::Vector3f hazard(const Material& m, float u, float v, float footprint) {
+  const float along = 0.70710678F * (u + v);
+  const float across = 0.70710678F * (u - v);
+  const float wave = std::abs(along - 2.0F * m.scale * std::round(along / (2.0F * m.scale)));
   const float blur = std::max(footprint, 1e-3F);
   const float share = std::clamp((0.5F * m.scale - wave) / blur + 0.5F, 0.0F, 1.0F);
-  const float tone = 1.0F + 0.1F * stains(m.seed, u, v, 0.05F, footprint);
+  const float tone = 1.0F + 0.1F * stains(m.seed, along, across, 0.05F, footprint);
   return tone * (m.color + share * (m.second - m.color));
-}
-
-Eigen::Vector3f hazard(const Material& m, float u, float v, float footprint) {
-  return stripes(m, 0.70710678F * (u + v), 0.70710678F * (u - v), footprint);
 }
 
 Eigen::Vector3f concrete(const Material& m, float u, float v, float footprint) {
@@ -165,8 +163,6 @@ Eigen::Vector3f albedo(const Material& material, float u, float v, float footpri
       return tiles(material, u, v, footprint);
     case Pattern::kPoster:
       return poster(material, u, v, footprint);
-    case Pattern::kStripes:
-      return stripes(material, u, v, footprint);
     case Pattern::kHazard:
       return hazard(material, u, v, footprint);
     case Pattern::kConcrete:

@@ -11,7 +11,6 @@ enum class Pattern : std::uint8_t {
   kPlanks,     ///< a floor of boards
   kTiles,      ///< square panels with dark joints
   kPoster,     ///< random coloured blocks with a white rim
-  kStripes,    ///< two colours in turn along u
   kHazard,     ///< two colours in turn along the diagonal
   kConcrete,   ///< slabs with stains, cracks and tyre marks
   kCardboard,  ///< brown board with tape, prints of the second colour and a white label

@@ -9,8 +9,8 @@ namespace mms {
 
 /// Rectangle in an image, in pixels; empty when it has no width. May reach beyond the image.
 struct PixelBox {
-  double x = 0.0;       ///< left edge
-  double y = 0.0;       ///< upper edge
+  double x = 0.0;  ///< left edge
+  double y = 0.0;  ///< upper edge
   double width = 0.0;
   double height = 0.0;
   bool empty() const { return width <= 0.0 || height <= 0.0; }
@@ -26,11 +26,11 @@ struct ObjectTruth {
   Eigen::Vector3d half_extent = Eigen::Vector3d::Zero();  ///< of the box [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     ///< of its origin, world frame [m/s]
   bool moving = false;                                    ///< faster than 0.05 m/s
-  PixelBox visible;          ///< tight about its visible pixels
-  PixelBox amodal;           ///< about its whole projection, hidden and cut-off parts too
-  int pixels = 0;            ///< visible in the image
-  double occlusion = 0.0;    ///< share of its pixels inside the image that something hides
-  double truncation = 0.0;   ///< share of the amodal box that lies outside the image
+  PixelBox visible;                                       ///< tight about its visible pixels
+  PixelBox amodal;          ///< about its whole projection, hidden and cut-off parts too
+  int pixels = 0;           ///< visible in the image
+  double occlusion = 0.0;   ///< share of its pixels inside the image that something hides
+  double truncation = 0.0;  ///< share of the amodal box that lies outside the image
 };
 
 }  // namespace mms

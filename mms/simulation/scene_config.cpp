@@ -22,14 +22,13 @@ SceneConfig nobody(SceneConfig config) {
 
 SceneConfig warehouse_loop() {
   SceneConfig config;
-  config.frames = 960;
   config.hz = 15.0;
   return config;
 }
 
 SceneConfig still_walker() {
   SceneConfig config = nobody(warehouse_loop());
-  config.frames = 300;
+  config.duration = 20.0;
   config.ride = CameraRide::kStill;
   config.crossing = 1;
   config.pause_share = 0.0;
@@ -38,7 +37,7 @@ SceneConfig still_walker() {
 
 SceneConfig crowd() {
   SceneConfig config = nobody(warehouse_loop());
-  config.frames = 300;
+  config.duration = 20.0;
   config.ride = CameraRide::kAlong;
   config.speed = 0.03;
   config.crossing_from = 1.25;
@@ -52,7 +51,7 @@ SceneConfig crowd() {
 
 SceneConfig stop_and_go() {
   SceneConfig config = warehouse_loop();
-  config.frames = 600;
+  config.duration = 40.0;
   config.ride = CameraRide::kAlong;
   config.speed = 0.4;
   config.crossing = 4;
@@ -65,7 +64,7 @@ SceneConfig stop_and_go() {
 
 SceneConfig corridor() {
   SceneConfig config = nobody(warehouse_loop());
-  config.frames = 450;
+  config.duration = 30.0;
   config.layout = Layout::kCorridor;
   config.ride = CameraRide::kAlong;
   config.speed = 0.8;
@@ -75,13 +74,13 @@ SceneConfig corridor() {
 
 SceneConfig empty_hall() {
   SceneConfig config = nobody(warehouse_loop());
-  config.frames = 450;
+  config.duration = 30.0;
   return config;
 }
 
 SceneConfig fast() {
   SceneConfig config = warehouse_loop();
-  config.frames = 450;
+  config.duration = 15.0;
   config.hz = 30.0;
   config.ride = CameraRide::kShaken;
   config.speed = 1.2;
@@ -94,7 +93,7 @@ SceneConfig fast() {
 
 SceneConfig rack_aisle() {
   SceneConfig config = nobody(warehouse_loop());
-  config.frames = 450;
+  config.duration = 30.0;
   config.layout = Layout::kAisle;
   config.ride = CameraRide::kAlong;
   config.speed = 0.9;
@@ -110,7 +109,8 @@ constexpr std::array<SceneConfig (*)(), kScenes.size()> kMakers = {
 
 void SceneConfig::visit(ConfigVisitor& v) {
   v.integer({"seed", "", "of building, stock, people, their ways and the noise"}, seed, {0.0, 1e9});
-  v.integer({"frames", "", "length of the recording; 0: the scene's own"}, frames, {0.0, 1e6});
+  v.number({"duration", "s", "how long the ride lasts"}, duration, {0.1, 1e5});
+  v.integer({"frames", "", "how many of its frames are played; 0: all"}, frames, {0.0, 1e6});
   v.number({"hz", "1/s", "frame rate; 0: the sensor's own"}, hz, {0.0, 1000.0});
   v.choice({"sensor", "", "what looks at it"}, sensor, sensor_names());
   v.integer({"width", "px", "image width, the height in proportion; 0: the sensor's own"}, width,

@@ -28,13 +28,14 @@ enum class CameraRide : std::uint8_t {
 struct SceneConfig {
   std::string name = "warehouse_loop";
   int seed = 1;
-  int frames = 0;         ///< 0: the scene's own length
-  double hz = 0.0;        ///< frames a second; 0: the sensor's own
-  int sensor = 0;         ///< index into sensor_names()
-  int width = 0;          ///< image width [px], height in proportion; 0: the sensor's own
-  bool noise = true;      ///< of the sensors
-  double exposure = 0.0;  ///< [s]; 0: the camera's own
-  int blur_samples = 1;   ///< instants that an exposure is made of; 1: no motion blur
+  double duration = 64.0;  ///< how long the ride lasts and everybody has ways for [s]
+  int frames = 0;          ///< how many of its frames are played; 0: all
+  double hz = 0.0;         ///< frames a second; 0: the sensor's own
+  int sensor = 0;          ///< index into sensor_names()
+  int width = 0;           ///< image width [px], height in proportion; 0: the sensor's own
+  bool noise = true;       ///< of the sensors
+  double exposure = 0.0;   ///< [s]; 0: the camera's own
+  int blur_samples = 1;    ///< instants that an exposure is made of; 1: no motion blur
   Layout layout = Layout::kHall;
   CameraRide ride = CameraRide::kLoop;
   double speed = 1.0;            ///< of the sensor [m/s]

@@ -1,5 +1,6 @@
 #include "mms/simulation/simulated_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -16,7 +17,7 @@ namespace mms {
 namespace {
 
 constexpr double kMovingSpeed = 0.05;  // [m/s]
-constexpr float kExposure = 0.78F;  // what white surfaces under good light come to
+constexpr float kExposure = 0.78F;     // what white surfaces under good light come to
 
 SensorPreset sensor_of(const SceneConfig& config) {
   SensorPreset preset = sensor_preset(sensor_names()[static_cast<std::size_t>(config.sensor)]);
@@ -67,7 +68,7 @@ struct SimulatedScene::Impl {
   explicit Impl(const SceneConfig& wanted)
       : config(wanted),
         sensor(sensor_of(wanted)),
-        seconds(config.frames / sensor.hz + 1.0),
+        seconds(std::max(config.duration, config.frames / sensor.hz) + 1.0),
         stage(make_stage()),
         ride(config, stage.building(), seconds),
         table(ray_table(sensor.color.intrinsics)),
@@ -127,12 +128,7 @@ struct SimulatedScene::Impl {
   }
 };
 
-SimulatedScene::SimulatedScene(const SceneConfig& config) {
-  if (config.frames < 1) {
-    throw ConfigError(config.name, "has frames: 0", "a recording has at least one");
-  }
-  impl_ = std::make_unique<Impl>(config);
-}
+SimulatedScene::SimulatedScene(const SceneConfig& config) : impl_(std::make_unique<Impl>(config)) {}
 
 SimulatedScene::~SimulatedScene() = default;
 
@@ -145,7 +141,13 @@ const SensorPreset& SimulatedScene::sensor() const {
 }
 
 int SimulatedScene::size() const {
-  return impl_->config.frames;
+  const SceneConfig& config = impl_->config;
+  if (config.frames > 0) return config.frames;
+  return std::max(1, static_cast<int>(std::lround(config.duration * impl_->sensor.hz)));
+}
+
+const Calibration& SimulatedScene::calibration() const {
+  return *impl_->calibration;
 }
 
 Timestamp SimulatedScene::stamp(int index) const {

@@ -26,13 +26,13 @@ struct SimulatedFrame {
 /// arena. The world frame is the sensor's at time 0.
 class SimulatedScene {
  public:
-  /// @throws ConfigError when the config asks for what cannot be.
   explicit SimulatedScene(const SceneConfig& config);
   ~SimulatedScene();
 
   const SceneConfig& config() const;
   const SensorPreset& sensor() const;
   int size() const;  ///< number of frames
+  const Calibration& calibration() const;
 
   SimulatedFrame render(int index);
 

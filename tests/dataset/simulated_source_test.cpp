@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-constexpr const char* kSmall = "sim:room?frames=3&width=64&height=48&seed=5";
+constexpr const char* kSmall = "sim:warehouse_loop?frames=3&width=64&seed=5";
 
 std::string message_of(const std::string& address) {
   try {
@@ -50,20 +50,21 @@ TEST(SimulatedSource, LeavesMasksOutWhenAsked) {
 }
 
 TEST(SimulatedSource, DefaultsNeedNoQuery) {
-  EXPECT_TRUE(is_simulated("sim:room"));
-  EXPECT_FALSE(is_simulated("room"));
-  EXPECT_EQ(open_simulated("sim:room")->size(), 150U);
-  EXPECT_EQ(open_simulated("sim:room?moving_objects=false")->size(), 150U);
+  EXPECT_TRUE(is_simulated("sim:static"));
+  EXPECT_FALSE(is_simulated("static"));
+  EXPECT_EQ(open_simulated("sim:static")->size(), 450U);
+  EXPECT_EQ(open_simulated("sim:static?noise=false")->size(), 450U);
 }
 
 TEST(SimulatedSource, SaysWhatIsWrong) {
-  EXPECT_NE(message_of("sim:moon").find("sim:room"), std::string::npos);
-  EXPECT_NE(message_of("sim:room?sed=1").find("did you mean 'seed'?"), std::string::npos);
-  EXPECT_NE(message_of("sim:room?colour=1").find("known are frames, hz, seed"), std::string::npos);
-  EXPECT_NE(message_of("sim:room?frames=0").find("allowed is 1 to"), std::string::npos);
-  EXPECT_NE(message_of("sim:room?frames=ten").find("frames is 'ten'"), std::string::npos);
-  EXPECT_NE(message_of("sim:room?noise=maybe").find("true and false"), std::string::npos);
-  EXPECT_NE(message_of("sim:room?frames").find("key=value"), std::string::npos);
+  EXPECT_NE(message_of("sim:moon").find("sim:warehouse_loop"), std::string::npos);
+  EXPECT_NE(message_of("sim:crowd?sed=1").find("did you mean 'seed'?"), std::string::npos);
+  EXPECT_NE(message_of("sim:crowd?colour=1").find("known are seed, duration, frames, hz"),
+            std::string::npos);
+  EXPECT_NE(message_of("sim:crowd?frames=-1").find("allowed is 0 to"), std::string::npos);
+  EXPECT_NE(message_of("sim:crowd?frames=ten").find("frames is 'ten'"), std::string::npos);
+  EXPECT_NE(message_of("sim:crowd?noise=maybe").find("true and false"), std::string::npos);
+  EXPECT_NE(message_of("sim:crowd?frames").find("key=value"), std::string::npos);
 }
 
 }  // namespace

@@ -51,6 +51,19 @@ TEST_P(AlignmentOfSeed, NoOtherTransformNearbyFitsNoisyPointsBetter) {
   }
 }
 
+TEST_P(AlignmentOfSeed, PosesOfASensorThatHardlyMovesTellTheirTransform) {
+  std::mt19937 random(GetParam());
+  const Eigen::Isometry3d truth = test::random_isometry(random, 10.0, 1.8);
+  std::vector<Eigen::Isometry3d> source;
+  std::vector<Eigen::Isometry3d> target;
+  for (int i = 0; i < 10; ++i) {
+    source.push_back(test::random_isometry(random, 0.0, 0.5));
+    target.push_back(truth * source.back());
+  }
+  const Eigen::Isometry3d found = align_poses(source, target);
+  EXPECT_TRUE(found.isApprox(truth, 1e-9)) << found.matrix() << "\n\n" << truth.matrix();
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, AlignmentOfSeed, testing::Range(0U, 20U));
 
 TEST(Alignment, IsARotationForMirroredAndFlatPoints) {
@@ -70,6 +83,13 @@ TEST(Alignment, NeedsThreePairs) {
   const Points two(2, Eigen::Vector3d::Zero());
   EXPECT_THROW(align_points(two, two), DataError);
   EXPECT_THROW(align_points(Points(3, Eigen::Vector3d::Zero()), two), DataError);
+}
+
+TEST(Alignment, OfPosesNeedsPairs) {
+  const std::vector<Eigen::Isometry3d> one(1, Eigen::Isometry3d::Identity());
+  EXPECT_THROW(align_poses({}, {}), DataError);
+  EXPECT_THROW(align_poses(one, {}), DataError);
+  EXPECT_TRUE(align_poses(one, one).isApprox(one.front()));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ step("configure" ${clean_environment} ${CMAKE_COMMAND} -S ${WORK_DIR}/minimal -B
                  -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved -DCMAKE_BUILD_TYPE=Release
                  "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" -G Ninja)
 step("build" ${clean_environment} ${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-step("run" ${WORK_DIR}/build/minimal "sim:room?frames=3&width=160&height=120")
+step("run" ${WORK_DIR}/build/minimal "sim:corridor?frames=3&width=320")
 if(NOT output MATCHES "tracking\n.*static map: [1-9][0-9]* points")
   message(FATAL_ERROR "unexpected output of examples/minimal:\n${output}")
 endif()

@@ -44,6 +44,7 @@ TEST(CalibrationIo, RoundTripsExactly) {
   Calibration written;
   written.camera = CameraIntrinsics{517.3, 516.5, 318.6, 255.3, 640, 480, {0.2, -0.9, 0, 0, 1.1}};
   written.depth_scale = 999.7;
+  written.max_depth = 9.1;
   Vector6d tangent;
   tangent << 0.1, -0.2, 1.0 / 3.0, 0.4, -0.5, 0.6;
   written.T_camera_lidar = Transform<Camera, Lidar>(se3::exp(tangent));
@@ -52,6 +53,7 @@ TEST(CalibrationIo, RoundTripsExactly) {
   const Calibration read = read_calibration(path);
   EXPECT_EQ(read.camera, written.camera);
   EXPECT_EQ(read.depth_scale, written.depth_scale);
+  EXPECT_EQ(read.max_depth, written.max_depth);
   EXPECT_EQ(read.T_camera_lidar.isometry().matrix(), written.T_camera_lidar.isometry().matrix());
 }
 
@@ -67,6 +69,7 @@ TEST(CalibrationIo, FaultsNameFileLineAndKey) {
       {kCamera + "distortion: [1, 2]\n", ":8: distortion is no list of 4 or 5 numbers"},
       {kCamera + "distortion: [1, 2, 3, x]\n", ":8: distortion is 'x', a number is wanted"},
       {kCamera + "width: 640\n", ":8: width is there twice"},
+      {kCamera + "max_depth: 0\n", ":8: max_depth is 0, allowed is 0.1 to 1000"},
       {"T_camera_lidar: 5\n", ":1: T_camera_lidar is '5', a matrix is wanted"},
       {"T_camera_lidar: [1, 2, 3]\n", ":1: T_camera_lidar makes no rigid transform"},
       {"T_camera_lidar: [1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0]\n", "is not a rotation"},

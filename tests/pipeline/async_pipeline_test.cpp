@@ -7,22 +7,22 @@
 
 #include "mms/core/error.hpp"
 #include "tests/io/temp_folder.hpp"
-#include "tests/pipeline/played_room.hpp"
+#include "tests/pipeline/played_scene.hpp"
 
 namespace mms {
 namespace {
 
 using testing::mask_system;
 using testing::message_of;
-using testing::room_frame;
+using testing::scene_frame;
 
 constexpr std::size_t kFrames = 10;
 
-/// Gives the first `count` frames of the room.
+/// Gives the first `count` frames of the scene.
 AsyncPipeline::Source first_frames(std::size_t count) {
   return [count, next = std::size_t{0}]() mutable -> std::optional<Frame> {
     if (next >= count) return std::nullopt;
-    return room_frame(next++);
+    return scene_frame(next++);
   };
 }
 
@@ -53,9 +53,9 @@ TEST_P(AsyncPipelineThreads, GivesTheBitsOfTheSynchronousSystem) {
   pipeline_.run(system, first_frames(kFrames), [&](const Processed& processed) {
     EXPECT_EQ(std::this_thread::get_id(), caller);
     ASSERT_LT(next, kFrames);
-    EXPECT_EQ(processed.frame.index, room_frame(next).index);
-    EXPECT_EQ(processed.frame.color.pixels(), room_frame(next).color.pixels());
-    EXPECT_TRUE(testing::same_bits(processed.result, reference.process(room_frame(next))));
+    EXPECT_EQ(processed.frame.index, scene_frame(next).index);
+    EXPECT_EQ(processed.frame.color.pixels(), scene_frame(next).color.pixels());
+    EXPECT_TRUE(testing::same_bits(processed.result, reference.process(scene_frame(next))));
     ++next;
   });
   EXPECT_EQ(next, kFrames);
@@ -93,7 +93,7 @@ TEST_P(AsyncPipelineThreads, TheSegmentersExceptionArrives) {
   const std::string message = message_of<DataError>([&] {
     pipeline_.run(system, first_frames(kFrames), [&](const Processed&) { ++delivered; });
   });
-  EXPECT_EQ(message, "room_2: the segmenter fails");
+  EXPECT_EQ(message, scene_frame(2).name + ": the segmenter fails");
   EXPECT_LE(delivered, 2U);
 }
 
@@ -101,7 +101,7 @@ TEST_P(AsyncPipelineThreads, TheSinksExceptionArrivesAndEndsTheRun) {
   SlamSystem system = mask_system();
   std::size_t delivered = 0;
   // A source without end: the run ends only if the threads are told to.
-  const auto endless = []() -> std::optional<Frame> { return room_frame(0); };
+  const auto endless = []() -> std::optional<Frame> { return scene_frame(0); };
   const std::string message = message_of<std::runtime_error>([&] {
     pipeline_.run(system, endless, [&](const Processed&) {
       if (++delivered == 2) throw std::runtime_error("the disk is full");
@@ -121,7 +121,8 @@ TEST_P(AsyncPipelineThreads, EveryRealtimeFrameIsProcessedOrDropped) {
   std::size_t next = 0;
   const auto burst = [&]() -> std::optional<Frame> {
     if (next == 30) return std::nullopt;
-    Frame frame = room_frame(next);
+    Frame frame = scene_frame(next % kFrames);
+    frame.index = static_cast<std::int64_t>(next);
     frame.stamp = Timestamp(static_cast<std::int64_t>(next));  // all at once
     ++next;
     return frame;

@@ -7,32 +7,32 @@
 
 #include "mms/core/error.hpp"
 #include "mms/pipeline/slam_system.hpp"
-#include "tests/pipeline/played_room.hpp"
+#include "tests/pipeline/played_scene.hpp"
 
 namespace mms {
 namespace {
 
 using testing::mask_system;
-using testing::room;
-using testing::room_frame;
+using testing::scene;
+using testing::scene_frame;
 
-/// A frame of the room whose depth is everywhere `value`.
+/// A frame of the scene whose depth is everywhere `value`.
 Frame blind(std::size_t index, float value) {
-  Frame frame = room_frame(index);
+  Frame frame = scene_frame(index);
   frame.depth = Image<float>(frame.depth.width(), frame.depth.height(), value);
   return frame;
 }
 
 TEST(BadFrames, FiftyFramesWithoutDepthAreLostAndThenItRecovers) {
   SlamSystem system = mask_system();
-  for (std::size_t i = 0; i < 5; ++i) system.process(room_frame(i));
+  for (std::size_t i = 0; i < 5; ++i) system.process(scene_frame(i));
   const std::size_t map_size = system.static_map().size();
   const std::array<float, 3> no_return = {0.0F, std::numeric_limits<float>::quiet_NaN(),
                                           std::numeric_limits<float>::infinity()};
-  const Duration period = room_frame(1).stamp - room_frame(0).stamp;
+  const Duration period = scene_frame(1).stamp - scene_frame(0).stamp;
   for (int i = 1; i <= 50; ++i) {
     Frame frame = blind(4, no_return[static_cast<std::size_t>(i) % 3]);
-    frame.stamp = room_frame(4).stamp + i * period;
+    frame.stamp = scene_frame(4).stamp + i * period;
     const FrameResult result = system.process(frame);
     EXPECT_EQ(result.odometry.status, Status::kLost);
     EXPECT_TRUE(result.odometry.T_world_sensor.is_finite());
@@ -41,11 +41,11 @@ TEST(BadFrames, FiftyFramesWithoutDepthAreLostAndThenItRecovers) {
   }
   EXPECT_EQ(system.static_map().size(), map_size);
   for (std::size_t i = 5; i < 8; ++i) {
-    Frame frame = room_frame(i);
+    Frame frame = scene_frame(i);
     frame.stamp = frame.stamp + 50 * period;
     const FrameResult result = system.process(frame);
     EXPECT_EQ(result.odometry.status, i == 5 ? Status::kRecovered : Status::kTracking);
-    const Eigen::Vector3d truth = room().truth(static_cast<int>(i)).T_world_sensor.translation();
+    const Eigen::Vector3d truth = scene().truth(static_cast<int>(i)).T_world_sensor.translation();
     EXPECT_LT((result.odometry.T_world_sensor.translation() - truth).norm(), 0.03);
   }
 }
@@ -55,7 +55,7 @@ TEST(BadFrames, BlindFromTheStartItBeginsWhenItSees) {
   EXPECT_EQ(system.process(blind(0, 0.0F)).odometry.status, Status::kLost);
   EXPECT_EQ(system.process(blind(1, NAN)).odometry.status, Status::kLost);
   EXPECT_EQ(system.static_map().size(), 0U);
-  const FrameResult first = system.process(room_frame(2));
+  const FrameResult first = system.process(scene_frame(2));
   EXPECT_EQ(first.odometry.status, Status::kInitialized);
   EXPECT_TRUE(first.odometry.T_world_sensor.isometry().isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_GT(system.static_map().size(), 0U);
@@ -64,27 +64,27 @@ TEST(BadFrames, BlindFromTheStartItBeginsWhenItSees) {
 TEST(BadFrames, FramesWithoutAnythingAreLost) {
   SlamSystem system = mask_system();
   Frame nothing;
-  nothing.calibration = room_frame(0).calibration;
+  nothing.calibration = scene_frame(0).calibration;
   EXPECT_EQ(system.process(nothing).odometry.status, Status::kLost);
-  system.process(room_frame(0));
-  nothing.stamp = room_frame(1).stamp;
+  system.process(scene_frame(0));
+  nothing.stamp = scene_frame(1).stamp;
   const FrameResult result = system.process(nothing);
   EXPECT_EQ(result.odometry.status, Status::kLost);
   EXPECT_TRUE(result.cloud.points.empty());
-  EXPECT_EQ(system.process(room_frame(2)).odometry.status, Status::kRecovered);
+  EXPECT_EQ(system.process(scene_frame(2)).odometry.status, Status::kRecovered);
 }
 
 TEST(BadFrames, SizesThatDisagreeAreADataError) {
   SlamSystem system = mask_system();
-  Frame frame = room_frame(0);
+  Frame frame = scene_frame(0);
   frame.depth = Image<float>(100, 100, 2.0F);
   EXPECT_THROW(system.process(frame), DataError);
 }
 
 TEST(BadFrames, AFrameWhollyUnderAMaskIsLost) {
   SlamSystem system = mask_system();
-  system.process(room_frame(0));
-  Frame covered = room_frame(1);
+  system.process(scene_frame(0));
+  Frame covered = scene_frame(1);
   for (std::uint8_t& pixel : covered.mask.pixels()) pixel = 1;
   for (float& z : covered.depth.pixels()) z = 1.0F;  // somebody stands before the lens
   const FrameResult result = system.process(covered);

@@ -51,14 +51,14 @@ TEST(BadInput, NoSuchFolder) {
 
 TEST(BadInput, MissingDepthList) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(2));
+  write_scene(folder.path() / "data", small_scene(2));
   fs::remove(folder.path() / "data/depth.txt");
   expect_fault(run_data(folder), "data: is a TUM-layout sequence, but depth.txt is missing");
 }
 
 TEST(BadInput, TruncatedPng) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(4));
+  write_scene(folder.path() / "data", small_scene(4));
   for (const char* file : {"data/rgb/0001.png", "data/depth/0002.png"}) {
     const std::string bytes = read_file(folder.path() / file);
     folder.write(file, bytes.substr(0, bytes.size() / 2));
@@ -68,29 +68,29 @@ TEST(BadInput, TruncatedPng) {
 
 TEST(BadInput, EightBitDepth) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(3));
-  write_png(folder.path() / "data/depth/0001.png", Image<std::uint8_t>(160, 120, 9));
+  write_scene(folder.path() / "data", small_scene(3));
+  write_png(folder.path() / "data/depth/0001.png", Image<std::uint8_t>(320, 240, 9));
   expect_skipped(folder, 2, 1, "frame 0001 skipped: data/depth/0001.png: ");
 }
 
 TEST(BadInput, ColourAndDepthOfDifferentSize) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(3));
+  write_scene(folder.path() / "data", small_scene(3));
   write_png(folder.path() / "data/depth/0000.png", Image<std::uint16_t>(80, 60, 1500));
   write_png(folder.path() / "data/rgb/0002.png", Image<Rgb>(80, 60));
-  expect_skipped(folder, 1, 2, "is 80x60 pixels, the calibration says 160x120");
+  expect_skipped(folder, 1, 2, "is 80x60 pixels, the calibration says 320x240");
 }
 
 TEST(BadInput, MaskOfAnotherSize) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(3));
+  write_scene(folder.path() / "data", small_scene(3));
   write_png(folder.path() / "data/masks/0001.png", Image<std::uint8_t>(80, 60));
   expect_skipped(folder, 2, 1, "data/masks/0001.png: is 80x60 pixels, the calibration says");
 }
 
 TEST(BadInput, EveryFrameDamaged) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(2));
+  write_scene(folder.path() / "data", small_scene(2));
   fs::remove_all(folder.path() / "data/depth");
   expect_fault(run_data(folder), "data: none of its 2 frames could be processed");
   EXPECT_FALSE(fs::exists(folder.path() / "out")) << "an empty folder of results is left over";
@@ -98,10 +98,10 @@ TEST(BadInput, EveryFrameDamaged) {
 
 /// A recording with depth in its first and last frames only.
 void write_blind_stretch(const TempFolder& folder, int blind) {
-  write_room(folder.path() / "data", small_room(blind + 8));
+  write_scene(folder.path() / "data", small_scene(blind + 8));
   for (int i = 4; i < blind + 4; ++i) {
     write_png(folder.path() / "data/depth" / (frame_name(i) + ".png"),
-              Image<std::uint16_t>(160, 120, 0));
+              Image<std::uint16_t>(320, 240, 0));
   }
 }
 
@@ -119,10 +119,10 @@ TEST(BadInput, DepthOfZeroForFiftyFrames) {
 
 TEST(BadInput, DepthOfZeroThroughout) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(3));
+  write_scene(folder.path() / "data", small_scene(3));
   for (int i = 0; i < 3; ++i) {
     write_png(folder.path() / "data/depth" / (frame_name(i) + ".png"),
-              Image<std::uint16_t>(160, 120, 0));
+              Image<std::uint16_t>(320, 240, 0));
   }
   expect_skipped(folder, 3, 0, "warning");
   EXPECT_TRUE(read_ply(folder.path() / "out/static_map.ply").points.empty());
@@ -167,7 +167,7 @@ TEST(BadInput, TruncatedScan) {
 
 TEST(BadInput, StampsGoingBack) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(4));
+  write_scene(folder.path() / "data", small_scene(4));
   const auto list = [&](const std::string& kind) {
     std::string text;
     for (const char* line :
@@ -191,7 +191,7 @@ TEST(BadInput, StampsGoingBackInTimes) {
 TEST(BadInput, OutputThatCannotBeWritten) {
   const TempFolder folder;
   folder.write("occupied", "a file");
-  const std::string small = "sim:room?width=160&height=120&frames=2";
+  const std::string small = "sim:corridor?width=320&frames=2";
   expect_fault(run_mms(folder.path(), {"run", small, "-o", "occupied"}),
                "occupied: cannot be made a folder");
   expect_fault(run_mms(folder.path(), {"run", small, "-o", "occupied/below"}),
@@ -201,14 +201,13 @@ TEST(BadInput, OutputThatCannotBeWritten) {
 TEST(BadInput, AResultThatCannotBeReplaced) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "out/metrics.json/in_the_way");
-  expect_fault(
-      run_mms(folder.path(), {"run", "sim:room?width=160&height=120&frames=2", "-o", "out"}),
-      "out/metrics.json: cannot be written");
+  expect_fault(run_mms(folder.path(), {"run", "sim:corridor?width=320&frames=2", "-o", "out"}),
+               "out/metrics.json: cannot be written");
 }
 
 TEST(BadInput, FaultyCalibration) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(2));
+  write_scene(folder.path() / "data", small_scene(2));
   folder.write("data/calibration.yaml", "fx: 100\nfy: wide\n");
   expect_fault(run_data(folder), "calibration.yaml:2: ");
   fs::remove(folder.path() / "data/calibration.yaml");
@@ -217,9 +216,9 @@ TEST(BadInput, FaultyCalibration) {
 
 TEST(BadInput, FaultyAddressOfTheSimulation) {
   const TempFolder folder;
-  expect_fault(run_mms(folder.path(), {"run", "sim:room?sead=3"}),
+  expect_fault(run_mms(folder.path(), {"run", "sim:crowd?sead=3"}),
                "unknown key 'sead' (did you mean 'seed'?");
-  expect_fault(run_mms(folder.path(), {"run", "sim:room?frames=many"}),
+  expect_fault(run_mms(folder.path(), {"run", "sim:crowd?frames=many"}),
                "frames is 'many', allowed");
   expect_fault(run_mms(folder.path(), {"run", "sim:hall"}), "sim:hall: ");
 }

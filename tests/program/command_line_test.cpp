@@ -80,12 +80,12 @@ TEST(CommandLine, UsageFaultsSayWhereHelpIs) {
 
 TEST(Info, DescribesARecording) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(5));
+  write_scene(folder.path() / "data", small_scene(5));
   const Outcome outcome = run_mms(folder.path(), {"info", "data"});
   expect_done(outcome);
   for (const char* fact :
        {"layout: TUM RGB-D", "5 colour and 5 depth images, 5 matched", "masks: 5 of 5",
-        "image: 160x120 pixels, 1000 depth units per metre", "rate: 15.00 Hz",
+        "image: 320x240 pixels, 1000 depth units per metre", "rate: 15.00 Hz",
         "ground truth: 5 poses", "frame 0: readable", "frame 2: readable", "frame 4: readable"}) {
     expect_in(fact, outcome.out);
   }
@@ -93,7 +93,7 @@ TEST(Info, DescribesARecording) {
 
 TEST(Info, NamesADamagedFrame) {
   const TempFolder folder;
-  write_room(folder.path() / "data", small_room(3));
+  write_scene(folder.path() / "data", small_scene(3));
   folder.write("data/rgb/0000.png", "");
   const Outcome outcome = run_mms(folder.path(), {"info", "data"});
   expect_done(outcome);
@@ -114,7 +114,7 @@ TEST(Doctor, FindsThisMachineWell) {
   const TempFolder folder;
   const Outcome outcome = run_mms(folder.path(), {"doctor"});
   expect_done(outcome);
-  for (const char* line : {"cores", "memory", "tracking a simulated room", "ok"}) {
+  for (const char* line : {"cores", "memory", "tracking in a simulated warehouse", "ok"}) {
     expect_in(line, outcome.out);
   }
   EXPECT_EQ(outcome.out.find("FAILED"), std::string::npos) << outcome.out;

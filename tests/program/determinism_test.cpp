@@ -26,10 +26,9 @@ void expect_same_bytes(const TempFolder& folder) {
 
 TEST(Determinism, RgbdRunsGiveTheSameBytes) {
   const TempFolder folder;
-  RoomConfig config = small_room(12);
-  config.width = 320;
-  config.height = 240;
-  write_room(folder.path() / "data", config);
+  SceneConfig config = small_scene(12);
+  config.crossing = 3;
+  write_scene(folder.path() / "data", config);
   expect_same_bytes(folder);
 }
 

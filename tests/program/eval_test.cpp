@@ -99,15 +99,15 @@ TEST(EvalMap, FaultsAreOneLine) {
   expect_fault(run_mms(folder.path(), {"eval", "map", "none.ply", "map.ply"}), "none.ply: ");
 }
 
-TEST(EvalResidue, OfTheRoomsOwnMapIsSmall) {
+TEST(EvalResidue, OfTheScenesOwnMapIsSmall) {
   const TempFolder folder;
-  const std::string still = "sim:room?width=160&height=120&frames=12&moving_camera=false";
+  const std::string still = "sim:corridor?ride=still&crossing=1&width=320&frames=12";
   expect_done(run_mms(folder.path(), {"run", still, "-o", "out"}));
   const auto json =
       json_of(run_mms(folder.path(), {"eval", "residue", still, "out/static_map.ply", "--json"}));
   EXPECT_EQ(keys_of(json), (Keys{"points", "seen", "residue", "residue_percent"}));
-  EXPECT_GT(json["seen"], 100);
-  EXPECT_LT(json["residue_percent"], 5.0);
+  EXPECT_GT(json["seen"], 4000);
+  EXPECT_LT(json["residue_percent"], 1.0);
 }
 
 TEST(EvalResidue, FaultsAreOneLine) {

@@ -42,11 +42,10 @@ double distance_to_sides(const Eigen::Vector3d& from, const Eigen::Vector3d& dir
 
 }  // namespace
 
-RoomConfig small_room(int frames) {
-  RoomConfig config;
+SceneConfig small_scene(int frames) {
+  SceneConfig config = scene_config("corridor");
   config.frames = frames;
-  config.width = 160;
-  config.height = 120;
+  config.width = 320;
   return config;
 }
 
@@ -56,14 +55,14 @@ std::string frame_name(int index) {
   return text;
 }
 
-void write_room(const fs::path& folder, const RoomConfig& config) {
+void write_scene(const fs::path& folder, const SceneConfig& config) {
   for (const char* kind : {"rgb", "depth", "masks"}) fs::create_directories(folder / kind);
   std::ofstream color_list(folder / "rgb.txt");
   std::ofstream depth_list(folder / "depth.txt");
-  const SimulatedRoom room(config);
+  SimulatedScene scene(config);
   Trajectory truth;
   for (int i = 0; i < config.frames; ++i) {
-    const Frame frame = room.render(i);
+    const Frame frame = scene.render(i).frame;
     const std::string file = frame_name(i) + ".png";
     write_png(folder / "rgb" / file, frame.color);
     write_png(folder / "depth" / file, raw_depth(frame.depth));
@@ -71,7 +70,7 @@ void write_room(const fs::path& folder, const RoomConfig& config) {
     const Timestamp stamp = frame.stamp + kStart;
     color_list << stamp.to_string() << " rgb/" << file << "\n";
     depth_list << stamp.to_string() << " depth/" << file << "\n";
-    truth.push_back({stamp, room.truth(i).T_world_sensor});
+    truth.push_back({stamp, scene.truth(i).T_world_sensor});
     if (i > 0) continue;
     Calibration calibration = *frame.calibration;
     calibration.depth_scale = kDepthScale;

@@ -6,19 +6,19 @@
 #include <string>
 
 #include "mms/core/frame.hpp"
-#include "mms/simulation/simulated_room.hpp"
+#include "mms/simulation/simulated_scene.hpp"
 
 namespace mms::testing {
 
-/// A small room that is quick to render.
-RoomConfig small_room(int frames);
+/// A corridor with a person walking ahead: 320 x 240 pixels, quick to render.
+SceneConfig small_scene(int frames);
 
 /// "0003" of frame 3, the name of its images without extension.
 std::string frame_name(int index);
 
-/// Writes a simulated room as a TUM-layout sequence with masks, truth and calibration: frame i has
+/// Writes a simulated scene as a TUM-layout sequence with masks, truth and calibration: frame i has
 /// the stamp 100 + i / hz.
-void write_room(const std::filesystem::path& folder, const RoomConfig& config);
+void write_scene(const std::filesystem::path& folder, const SceneConfig& config);
 
 /// A spinning LiDAR's scan of an empty hall, taken `x` metres from its middle.
 LidarScan hall_scan(double x);

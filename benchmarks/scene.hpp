@@ -7,12 +7,12 @@
 
 namespace mms {
 
-/// Fixed input of the benchmarks: the first seconds of the simulated room, rendered once.
-struct RoomRecording {
+/// Fixed input of the benchmarks: the first seconds of the simulated warehouse, rendered once.
+struct SceneRecording {
   std::vector<Frame> frames;
   Trajectory truth;
 };
 
-const RoomRecording& room_recording();
+const SceneRecording& scene_recording();
 
 }  // namespace mms

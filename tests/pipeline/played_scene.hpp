@@ -7,29 +7,35 @@
 #include "mms/core/frame.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/segmentation/mask_segmenter.hpp"
-#include "mms/simulation/simulated_room.hpp"
+#include "mms/simulation/simulated_scene.hpp"
 
 namespace mms::testing {
 
-/// The bundled room at 320 x 240: persons and an AGV cross before a driving camera.
-inline const SimulatedRoom& room() {
-  static const SimulatedRoom the_room([] {
-    RoomConfig config;
-    config.width = 320;
-    config.height = 240;
-    return config;
-  }());
-  return the_room;
+/// A warehouse at 320 x 240: persons and vehicles cross close before a driving camera.
+inline SceneConfig played_config() {
+  SceneConfig config = scene_config("crowd");
+  config.width = 320;
+  config.speed = 0.3;
+  return config;
 }
 
-/// One of its frames, rendered when first asked for; from any thread.
-inline const Frame& room_frame(std::size_t index) {
+inline SimulatedScene& scene() {
+  static SimulatedScene the_scene(played_config());
+  return the_scene;
+}
+
+/// One of its frames with its truth, rendered when first asked for; from any thread.
+inline const SimulatedFrame& simulated_frame(std::size_t index) {
   static std::mutex mutex;
-  static std::map<std::size_t, Frame> frames;
+  static std::map<std::size_t, SimulatedFrame> frames;
   const std::scoped_lock lock(mutex);
   const auto found = frames.find(index);
   if (found != frames.end()) return found->second;
-  return frames.emplace(index, room().render(static_cast<int>(index))).first->second;
+  return frames.emplace(index, scene().render(static_cast<int>(index))).first->second;
+}
+
+inline const Frame& scene_frame(std::size_t index) {
+  return simulated_frame(index).frame;
 }
 
 inline SlamSystem mask_system(FusionMode mode = FusionMode::kMultimodal) {
