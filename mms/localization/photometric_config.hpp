@@ -12,7 +12,7 @@ struct PhotometricConfig {
   double min_sigma = 3.0;
   double weight = 1.0;
   double depth_gate = 0.05;
-  int references = 3;
+  int references = 4;
   double keyframe_translation = 0.08;
   double keyframe_parallax = 0.04;
   double keyframe_rotation = 7.0;

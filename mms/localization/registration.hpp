@@ -13,7 +13,7 @@ struct RegistrationConfig {
   GeometricConfig geometric;
   PhotometricConfig photometric;
   int max_iterations = 30;
-  int iterations_per_level = 6;
+  int iterations_per_level = 16;
   double converged_translation = 5e-5;
   double converged_rotation = 5e-5;
   double degenerate_sigma = 0.02;

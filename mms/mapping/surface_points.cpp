@@ -25,17 +25,20 @@ class Grid {
     return (static_cast<float>(config_.max_jump) + 7.3F * config_.noise.sigma(z)) / (z * z);
   }
 
-  /// Whether the pixel lies inside a surface: it and its eight neighbours have a depth, and no jump
-  /// goes through any of them. On the rims of things depth and colour wobble by a pixel.
+  /// Whether the pixel lies inside a surface: its neighbours have depths, and no jump goes
+  /// through it or those beside it. On the rims of things depth and colour wobble by a pixel.
   bool inside_surface(int x, int y, float tolerance) const {
+    constexpr int kMostMissing = 1;  // a dropout; at a rim it is three
+    int missing = 0;
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        if (inverse_.contains(x + dx, y + dy) && inverse(x + dx, y + dy) <= 0.0F) return false;
+        if (inverse_.contains(x + dx, y + dy) && inverse(x + dx, y + dy) <= 0.0F) ++missing;
       }
     }
+    if (missing > kMostMissing) return false;
     for (int d = -1; d <= 1; ++d) {
-      if (inverse_.contains(x + d, y) && !smooth(x + d, y, 1, 0, tolerance)) return false;
-      if (inverse_.contains(x, y + d) && !smooth(x, y + d, 0, 1, tolerance)) return false;
+      if (inverse(x + d, y) > 0.0F && !smooth(x + d, y, 1, 0, tolerance)) return false;
+      if (inverse(x, y + d) > 0.0F && !smooth(x, y + d, 0, 1, tolerance)) return false;
     }
     return true;
   }
