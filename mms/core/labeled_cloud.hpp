@@ -41,8 +41,10 @@ struct LabeledCloud {
   std::vector<Rgb> colors;            ///< empty where there is no image
   std::vector<std::int16_t> cluster;  ///< index into `clusters`, -1 for none
   std::vector<DynamicCluster> clusters;
-  Image<std::uint8_t> dynamic_pixels;  ///< organised: non-zero where P_D or a dilated mask is
-  CameraIntrinsics camera;             ///< organised: of the width x height grid
+  /// Organised: non-zero where P_D or a mask is, and on the rim about them, whose colours are
+  /// mixed with theirs.
+  Image<std::uint8_t> dynamic_pixels;
+  CameraIntrinsics camera;  ///< organised: of the width x height grid
   bool organised() const { return height > 1; }
 };
 

@@ -9,12 +9,14 @@ namespace mms {
 
 DynamicObjects find_dynamic_objects(const Nodes& nodes, const std::vector<Instance>& instances,
                                     const FusionConfig& config) {
-  std::vector<DynamicPart> parts = find_dynamic_parts(nodes, instances, config);
+  auto [parts, loose] = find_dynamic_parts(nodes, instances, config);
   std::stable_sort(parts.begin(), parts.end(), [](const DynamicPart& a, const DynamicPart& b) {
     return a.nodes.size() > b.nodes.size();
   });
   DynamicObjects result;
   result.label.assign(nodes.size(), DynamicObjects::kNone);
+  result.loose.assign(nodes.size(), 0);
+  for (const std::size_t i : loose) result.loose[i] = 1;
   for (const DynamicPart& part : parts) {
     const auto& instance = instances[static_cast<std::size_t>(part.instance)];
     const auto& size = config.sizes[static_cast<std::size_t>(instance.object_class)];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <vector>
 
 #include "mms/core/segmentation.hpp"
@@ -17,7 +18,8 @@ struct DynamicObjects {
     int instance = 0;         ///< index of the mask that says what it is
     Eigen::AlignedBox3f box;  ///< without stray points [m]
   };
-  std::vector<int> label;  ///< object of every node, kNone for static ones
+  std::vector<int> label;           ///< object of every node, kNone for static ones
+  std::vector<std::uint8_t> loose;  ///< non-zero at masked nodes that no geometry speaks about
   std::vector<Object> objects;
 };
 

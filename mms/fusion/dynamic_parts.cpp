@@ -42,11 +42,12 @@ class PartFinder {
     for (std::size_t i = 0; i < nodes.size(); ++i) open_[i] = nodes.on_plane[i] == 0;
   }
 
-  std::vector<DynamicPart> run() {
-    step(cluster_nodes(nodes_, open_, Gap::kCoarse, config_),
-         [&](std::size_t, const ClusterVote& vote, const DynamicPart&) {
-           return is_labelled(vote) ? Verdict::kDynamic : Verdict::kMixed;
-         });
+  DynamicParts run() {
+    const Clusters coarse = cluster_nodes(nodes_, open_, Gap::kCoarse, config_);
+    find_loose(coarse);
+    step(coarse, [&](std::size_t, const ClusterVote& vote, const DynamicPart&) {
+      return is_labelled(vote) ? Verdict::kDynamic : Verdict::kMixed;
+    });
     step(cluster_nodes(nodes_, open_, Gap::kFine, config_),
          [&](std::size_t, const ClusterVote& vote, const DynamicPart& part) {
            const bool is_dynamic = is_labelled(vote) || is_partial_object(vote, part);
@@ -59,10 +60,17 @@ class PartFinder {
     step(pieces, [&](std::size_t c, const ClusterVote& vote, const DynamicPart&) {
       return is_own(vote, contacts[c]) ? Verdict::kDynamic : Verdict::kStatic;
     });
-    return std::move(found_);
+    return std::move(result_);
   }
 
  private:
+  void find_loose(const Clusters& clusters) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const bool is_apart = clusters.label[i] == Clusters::kNone;
+      if (open_[i] != 0 && nodes_.raw[i] != 0 && is_apart) result_.loose.push_back(i);
+    }
+  }
+
   /// Adds the dynamic clusters to what is found and leaves open the mixed ones.
   template <class Judge>
   void step(const Clusters& clusters, const Judge& judge) {
@@ -75,8 +83,8 @@ class PartFinder {
       if (verdict == Verdict::kMixed) {
         for (const std::size_t i : parts[c].nodes) open_[i] = 1;
       } else if (verdict == Verdict::kDynamic) {
-        found_.push_back(std::move(parts[c]));
-        found_.back().box = box_of(nodes_, found_.back());
+        parts[c].box = box_of(nodes_, parts[c]);
+        result_.parts.push_back(std::move(parts[c]));
       }
     }
   }
@@ -102,7 +110,7 @@ class PartFinder {
   const std::vector<Instance>& instances_;
   const FusionConfig& config_;
   std::vector<std::uint8_t> open_;  ///< nodes still to be decided
-  std::vector<DynamicPart> found_;
+  DynamicParts result_;
 };
 
 }  // namespace
@@ -113,9 +121,8 @@ bool fits(const Eigen::AlignedBox3f& box, const ObjectSize& size) {
   return sides[2] <= static_cast<float>(size.length) && sides[1] <= static_cast<float>(size.width);
 }
 
-std::vector<DynamicPart> find_dynamic_parts(const Nodes& nodes,
-                                            const std::vector<Instance>& instances,
-                                            const FusionConfig& config) {
+DynamicParts find_dynamic_parts(const Nodes& nodes, const std::vector<Instance>& instances,
+                                const FusionConfig& config) {
   return PartFinder(nodes, instances, config).run();
 }
 

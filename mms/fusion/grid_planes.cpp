@@ -73,6 +73,52 @@ std::vector<std::uint8_t> spread(const std::vector<std::uint8_t>& bits, int line
   return result;
 }
 
+/// Walks over the connected pieces of one plane, without recursion.
+class PlanePieces {
+ public:
+  PlanePieces(const Nodes& nodes, std::vector<std::uint8_t>& marks)
+      : nodes_(nodes), marks_(marks) {}
+
+  /// Takes off plane `bit` its pieces that masks cover by more than `max_masked_share`: the flat
+  /// side of a vehicle that stands in line with a rack is none of the rack.
+  void drop_masked(std::uint8_t bit, double max_masked_share) {
+    std::vector<std::uint8_t> open(marks_.size());
+    for (std::size_t i = 0; i < marks_.size(); ++i) open[i] = marks_[i] & bit;
+    for (std::size_t i = 0; i < marks_.size(); ++i) {
+      if (open[i] == 0) continue;
+      const std::vector<std::size_t> piece = take_piece(i, open);
+      const auto masked = std::count_if(piece.begin(), piece.end(),
+                                        [&](std::size_t n) { return nodes_.raw[n] != 0; });
+      if (static_cast<double>(masked) <= max_masked_share * static_cast<double>(piece.size()))
+        continue;
+      for (const std::size_t n : piece) marks_[n] &= static_cast<std::uint8_t>(~bit);
+    }
+  }
+
+ private:
+  /// The nodes joined to `first`, which are no longer open.
+  std::vector<std::size_t> take_piece(std::size_t first, std::vector<std::uint8_t>& open) const {
+    const auto width = static_cast<std::size_t>(nodes_.width);
+    std::vector<std::size_t> piece{first};
+    const auto take = [&](std::size_t n) {
+      if (open[n] != 0) piece.push_back(n);
+      open[n] = 0;
+    };
+    open[first] = 0;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      const std::size_t n = piece[k];
+      if (n % width > 0) take(n - 1);
+      if (n % width + 1 < width) take(n + 1);
+      if (n >= width) take(n - width);
+      if (n + width < open.size()) take(n + width);
+    }
+    return piece;
+  }
+
+  const Nodes& nodes_;
+  std::vector<std::uint8_t>& marks_;
+};
+
 }  // namespace
 
 GridPlanes find_grid_planes(const Nodes& nodes, const PlaneRemoval& config) {
@@ -82,6 +128,10 @@ GridPlanes find_grid_planes(const Nodes& nodes, const PlaneRemoval& config) {
   GridPlanes result;
   result.planes = vote_planes(nodes, patches, config);
   result.seen = mark_planes(nodes, patches, result.planes, config);
+  for (std::size_t k = 0; k < result.planes.size(); ++k) {
+    const auto bit = static_cast<std::uint8_t>(1U << k);
+    PlanePieces(nodes, result.seen).drop_masked(bit, config.max_masked_share);
+  }
   result.seen = spread(result.seen, height, width, width, 1, kReach);
   result.seen = spread(result.seen, width, height, 1, width, kReach);
   return result;

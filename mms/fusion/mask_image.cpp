@@ -62,12 +62,16 @@ cv::Mat as_mat(Image<std::uint16_t>& image) {
   return {image.height(), image.width(), CV_16UC1, image.pixels().data()};
 }
 
+cv::Mat disc(int radius) {
+  const int side = 2 * radius + 1;
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(side, side));
+}
+
 /// `raw` grown by a disc of `radius`; pixels of an instance keep its value.
-Image<std::uint16_t> dilate(Image<std::uint16_t>& raw, int radius) {
+Image<std::uint16_t> dilated(Image<std::uint16_t>& raw, int radius) {
   Image<std::uint16_t> dilated(raw.width(), raw.height());
-  const cv::Size size(2 * radius + 1, 2 * radius + 1);
   cv::Mat target = as_mat(dilated);
-  cv::dilate(as_mat(raw), target, cv::getStructuringElement(cv::MORPH_ELLIPSE, size));
+  cv::dilate(as_mat(raw), target, disc(radius));
   for (std::size_t i = 0; i < raw.size(); ++i) {
     if (raw[i] != 0) dilated[i] = raw[i];
   }
@@ -89,10 +93,15 @@ MaskImage make_mask_image(const Segmentation& segmentation, int width, int heigh
   for (const std::size_t i : drawing_order(segmentation.instances)) {
     draw(segmentation.instances[i], static_cast<std::uint16_t>(i + 1), stride, image.raw);
   }
-  const int radius = static_cast<int>(std::lround(dilation * width / stride));
-  const bool grows = radius > 0 && !segmentation.instances.empty();
-  image.dilated = grows ? dilate(image.raw, radius) : image.raw;
+  image.radius = static_cast<int>(std::lround(dilation * width / stride));
+  const bool grows = image.radius > 0 && !segmentation.instances.empty();
+  image.dilated = grows ? dilated(image.raw, image.radius) : image.raw;
   return image;
+}
+
+void dilate(Image<std::uint8_t>& image, int radius) {
+  cv::Mat mat(image.height(), image.width(), CV_8UC1, image.pixels().data());
+  cv::dilate(mat, mat, disc(radius));
 }
 
 }  // namespace mms

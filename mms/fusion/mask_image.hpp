@@ -13,6 +13,7 @@ namespace mms {
 struct MaskImage {
   Image<std::uint16_t> raw;      ///< the masks as segmented
   Image<std::uint16_t> dilated;  ///< grown by morphological dilation (III-B.1)
+  int radius = 0;                ///< of the dilation [blocks]
 };
 
 /// Draws `segmentation` on blocks of stride x stride pixels; a block is dynamic when any of its
@@ -22,5 +23,8 @@ struct MaskImage {
 /// @throws DataError when the segmentation is of another size than the image
 MaskImage make_mask_image(const Segmentation& segmentation, int width, int height, int stride,
                           double dilation);
+
+/// Grows what is not zero by a disc of `radius` pixels.
+void dilate(Image<std::uint8_t>& image, int radius);
 
 }  // namespace mms

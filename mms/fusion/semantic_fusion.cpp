@@ -29,9 +29,9 @@ void fuse_geometry(const MaskImage& mask, const std::vector<Instance>& instances
 }
 
 /// Dynamic points, and what the mask covers where there is no return to tell.
-void mark_dynamic_pixels(const MaskImage& mask, LabeledCloud& cloud) {
+void mark_dynamic_pixels(const Image<std::uint16_t>& mask, LabeledCloud& cloud) {
   for (std::size_t i = 0; i < cloud.labels.size(); ++i) {
-    const bool is_hidden = cloud.labels[i] == PointLabel::kInvalid && mask.dilated[i] != 0;
+    const bool is_hidden = cloud.labels[i] == PointLabel::kInvalid && mask[i] != 0;
     cloud.dynamic_pixels[i] = is_hidden || cloud.labels[i] == PointLabel::kDynamic ? 1 : 0;
   }
 }
@@ -53,10 +53,12 @@ LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& 
   if (segmentation.instances.empty()) return cloud;
   if (config_.mode == FusionMode::kVision) {
     label_by_mask(mask.dilated.pixels(), segmentation.instances, cloud);
+    mark_dynamic_pixels(mask.dilated, cloud);
   } else {
     fuse_geometry(mask, segmentation.instances, config_, cloud);
+    mark_dynamic_pixels(mask.raw, cloud);
+    dilate(cloud.dynamic_pixels, mask.radius);
   }
-  mark_dynamic_pixels(mask, cloud);
   return cloud;
 }
 

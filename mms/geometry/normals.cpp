@@ -36,17 +36,21 @@ std::vector<SurfacePatch> grid_patches(std::span<const Eigen::Vector3f> points, 
   std::vector<SurfacePatch> patches(points.size());
   const int height = width > 0 ? static_cast<int>(points.size()) / width : 0;
   const auto at = [&](int x, int y) { return points[static_cast<std::size_t>(y * width + x)]; };
-  const auto is_joined = [&](float a, float b) { return std::abs(a - b) <= max_edge; };
+  // Inverse depth is linear on any plane, however grazing; NaN joins nothing.
+  const auto is_joined = [&](float before, float z, float after) {
+    return std::abs(2.0F / z - 1.0F / before - 1.0F / after) * z * z <= max_edge;
+  };
   const float cells = static_cast<float>(4 * step * step);
   for (int y = step; y < height - step; ++y) {
     for (int x = step; x < width - step; ++x) {
       const Eigen::Vector3f right = at(x + step, y), left = at(x - step, y);
       const Eigen::Vector3f below = at(x, y + step), above = at(x, y - step);
-      if (!is_joined(right.z(), left.z()) || !is_joined(below.z(), above.z())) continue;
       const Eigen::Vector3f point = at(x, y);
+      if (!is_joined(left.z(), point.z(), right.z())) continue;
+      if (!is_joined(above.z(), point.z(), below.z())) continue;
       const Eigen::Vector3f cross = (right - left).cross(below - above);
       const float norm = cross.norm();
-      if (!(norm > 0.0F) || !is_joined(point.z(), right.z())) continue;
+      if (!(norm > 0.0F)) continue;
       const float sign = cross.dot(point) > 0.0F ? -1.0F : 1.0F;
       patches[static_cast<std::size_t>(y * width + x)] = {cross * (sign / norm), norm / cells};
     }

@@ -13,7 +13,8 @@ struct SurfacePatch {
 };
 
 /// Patches of an organised cloud (row-major, `width` columns) by central differences over `step`
-/// cells; unknown where a neighbour is missing or farther than `max_edge` [m] in depth.
+/// cells; unknown where a neighbour is missing or off the line of depth by more than `max_edge`
+/// [m].
 std::vector<SurfacePatch> grid_patches(std::span<const Eigen::Vector3f> points, int width, int step,
                                        float max_edge);
 

@@ -81,15 +81,45 @@ IntensityLevel half_size(const IntensityLevel& fine) {
   return level;
 }
 
+Image<std::uint8_t> half_size(const Image<std::uint8_t>& fine, const CameraIntrinsics& camera) {
+  Image<std::uint8_t> half(camera.width, camera.height);
+  for (int y = 0; y < camera.height; ++y) {
+    const std::uint8_t* a = fine.row(2 * y);
+    const std::uint8_t* b = fine.row(2 * y + 1);
+    for (int x = 0; x < camera.width; ++x) {
+      half(x, y) = a[2 * x] | a[2 * x + 1] | b[2 * x] | b[2 * x + 1];
+    }
+  }
+  return half;
+}
+
+/// Takes the depth off the pixels whose colour or gradient something dynamic has a part in.
+void keep_clear(const Image<std::uint8_t>& dynamic, Image<float>& depth) {
+  for (int y = 0; y < dynamic.height(); ++y) {
+    for (int x = 0; x < dynamic.width(); ++x) {
+      if (dynamic(x, y) == 0) continue;
+      for (int v = std::max(0, y - 1); v <= std::min(y + 1, depth.height() - 1); ++v) {
+        for (int u = std::max(0, x - 1); u <= std::min(x + 1, depth.width() - 1); ++u) {
+          depth(u, v) = 0.0F;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<IntensityLevel> build_intensity_pyramid(const LabeledCloud& cloud, int levels) {
   std::vector<IntensityLevel> pyramid;
   pyramid.push_back(finest_level(cloud));
+  Image<std::uint8_t> dynamic = cloud.dynamic_pixels;
+  keep_clear(dynamic, pyramid.back().depth);
   while (static_cast<int>(pyramid.size()) < levels) {
     const CameraIntrinsics& last = pyramid.back().camera;
     if (last.width < 2 * kMinSide || last.height < 2 * kMinSide) break;
     pyramid.push_back(half_size(pyramid.back()));
+    dynamic = half_size(dynamic, pyramid.back().camera);
+    keep_clear(dynamic, pyramid.back().depth);
   }
   return pyramid;
 }

@@ -121,6 +121,25 @@ TEST(SemanticFusion, DeskBehindASloppyMaskComesBack) {
   EXPECT_LT(dynamic_share_of(cloud, view, Thing::kDesk), 0.002);
 }
 
+TEST(SemanticFusion, AFlatSideInLineWithARackIsNoneOfTheRack) {
+  auto scene = room();
+  scene.add(Thing::kDesk, {-2.0F, -1.0F, 3.0F}, {-0.6F, 1.2F, 3.3F});
+  scene.add(Thing::kPerson, {0.0F, 0.2F, 3.0F}, {0.8F, 1.1F, 3.6F});
+  const View view = render(scene);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kDesk), 0.002);
+}
+
+TEST(SemanticFusion, WhatIsTooSmallForAClusterIsAsItsMaskSays) {
+  const auto scene = room().add(Thing::kPerson, {0.5F, -0.6F, 2.0F}, {0.54F, -0.56F, 2.04F});
+  const View view = render(scene);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
+  EXPECT_EQ(dynamic_share_of(cloud, view, Thing::kPerson), 1.0);
+  EXPECT_EQ(dynamic_share_of(cloud, view, Thing::kWall), 0.0);
+  EXPECT_TRUE(cloud.clusters.empty());
+}
+
 TEST(SemanticFusion, PersonTouchingFurnitureIsSplitOff) {
   auto scene = room_with_person();
   // Shelf boards, each too low for a plane of its own, that meet the person's side.

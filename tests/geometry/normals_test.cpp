@@ -32,6 +32,14 @@ TEST(Normals, GridPatchesOfASlantedPlane) {
   EXPECT_TRUE(patches[0].normal.isZero(0.0F));
 }
 
+TEST(Normals, GridPatchesOfAGrazedPlane) {
+  const auto points = slanted_grid(9.0F);
+  ASSERT_GT(points[10 * kWidth + 18].z() - points[10 * kWidth + 16].z(), 2.0F);
+  const auto patches = grid_patches(points, kWidth, 2, 0.5F);
+  const Eigen::Vector3f expected = Eigen::Vector3f(9.0F, 0.0F, -1.0F).normalized();
+  EXPECT_GT(patches[10 * kWidth + 16].normal.dot(expected), 0.9999F);
+}
+
 TEST(Normals, GridPatchesStopAtDepthStepsAndHoles) {
   auto points = slanted_grid(0.0F);
   points[10 * kWidth + 12] *= 1.5F;

@@ -15,6 +15,7 @@ LabeledCloud wall(const ColorOf& color_of) {
   cloud.camera = testing::box_camera();
   cloud.width = cloud.camera.width;
   cloud.height = cloud.camera.height;
+  cloud.dynamic_pixels = Image<std::uint8_t>(cloud.width, cloud.height);
   const CameraModel camera(cloud.camera);
   for (int y = 0; y < cloud.height; ++y) {
     for (int x = 0; x < cloud.width; ++x) {
@@ -74,6 +75,19 @@ TEST(IntensityPyramid, OnlyStaticPixelsHaveDepth) {
   EXPECT_NEAR(pyramid[0].depth(11, 10), 2.0F, 1e-6F);
   EXPECT_EQ(pyramid[1].depth(10, 10), 0.0F);
   EXPECT_NEAR(pyramid[1].depth(5, 5), 2.0F, 1e-6F);  // three static pixels are left
+}
+
+TEST(IntensityPyramid, WhatDynamicColoursTouchHasNoDepth) {
+  LabeledCloud cloud = wall(ramp);
+  cloud.dynamic_pixels(40, 40) = 1;
+  const auto pyramid = build_intensity_pyramid(cloud, 3);
+  for (int level = 0; level < 3; ++level) {
+    const Image<float>& depth = pyramid[static_cast<std::size_t>(level)].depth;
+    const int x = 40 >> level;
+    EXPECT_EQ(depth(x, x), 0.0F);
+    EXPECT_EQ(depth(x + 1, x - 1), 0.0F);
+    EXPECT_NEAR(depth(x + 2, x), 2.0F, 1e-6F);
+  }
 }
 
 TEST(IntensityPyramid, ABlockAtADepthEdgeTakesTheNearerSurface) {
