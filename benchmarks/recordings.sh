@@ -2,27 +2,19 @@
 # Runs the real recordings below a folder and prints one row of accuracy and speed for each setting.
 # usage: benchmarks/recordings.sh DATA/rgbd [FLAGS FOR mms run]
 set -euo pipefail
-here="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-mms="$here/build/release/mms"
+source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
 data="${1:?folder with fr1_xyz_clip, lab_crowd and desk_crowd}"
 shift
-out="$(mktemp -d)"
-trap 'rm -rf "$out"' EXIT
-
-# value FILE KEY [PATTERN]: the first number behind "KEY" in a JSON file, after PATTERN where given.
-value() { sed -n "/${3:-.}/,\$p" "$1" | grep -m1 "\"$2\"" | grep -oE '[0-9.eE+-]+,?$' | tr -d ,; }
 
 row() {
   local name="$1" fusion="$2" masks="$3"
   shift 3
-  "$mms" run "$data/$name" --segmenter "$masks" --fusion "$fusion" -o "$out/$name" "$@" \
-    > "$out/log" 2>&1 || { cat "$out/log"; return 1; }
+  quietly "$mms" run "$data/$name" --segmenter "$masks" --fusion "$fusion" -o "$out/$name" "$@"
   local json="$out/$name/metrics.json"
   printf '| %s | %s | %.2f | %.2f | %.2f | %.1f | %.1f | %.1f | %.0f | %s |\n' "$name" "$fusion" \
-    "$(awk "BEGIN{print 100*$(value "$json" ate_rmse_m)}")" \
-    "$(value "$json" atde_cm)" "$(value "$json" mtde_cm)" "$(value "$json" hz)" \
-    "$(value "$json" mean ms_per_frame)" "$(value "$json" p99 ms_per_frame)" \
-    "$(value "$json" peak_rss_mb)" "$(value "$json" lost)"
+    "$(cm "$json" ate_rmse_m)" "$(value "$json" atde_cm)" "$(value "$json" mtde_cm)" \
+    "$(value "$json" hz)" "$(value "$json" mean ms_per_frame)" \
+    "$(value "$json" p99 ms_per_frame)" "$(value "$json" peak_rss_mb)" "$(value "$json" lost)"
 }
 
 echo "| recording | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | frames/s | ms a frame | p99 [ms] | MiB | lost |"

@@ -9,6 +9,7 @@
 #include "mms/evaluation/report.hpp"
 #include "mms/io/atomic_file.hpp"
 #include "mms/io/config_yaml.hpp"
+#include "mms/io/image_io.hpp"
 #include "mms/io/pcd_io.hpp"
 #include "mms/io/ply_io.hpp"
 #include "mms/io/trajectory_io.hpp"
@@ -66,6 +67,15 @@ RunReport make_report(const std::string& data, const MapCloud& map, double voxel
   return report;
 }
 
+/// The report's pictures as files of their own.
+void write_pictures(const std::filesystem::path& folder, const RunReport& report) {
+  std::filesystem::create_directories(folder);
+  if (!report.map_view.empty()) write_png(folder / "map.png", report.map_view);
+  for (std::size_t i = 0; i < report.pictures.size(); ++i) {
+    write_png(folder / fmt::format("frame_{:02}.png", i + 1), report.pictures[i].image);
+  }
+}
+
 }  // namespace
 
 void write_outputs(const std::filesystem::path& folder, const std::string& data,
@@ -81,8 +91,9 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
   write_file(folder / "config.yaml", dump_config(config));
   write_metrics(folder / "metrics.json", log.metrics());
   write_file(folder / "timing.csv", timing_csv(log));
-  write_report_html(folder / "report.html",
-                    make_report(data, map, system.static_map().voxel_size(), log));
+  const RunReport report = make_report(data, map, system.static_map().voxel_size(), log);
+  write_report_html(folder / "report.html", report);
+  write_pictures(folder / "pictures", report);
 }
 
 void print_summary(const std::filesystem::path& folder, const RunLog& log) {

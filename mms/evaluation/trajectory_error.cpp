@@ -81,8 +81,8 @@ std::vector<MetricValue> metric_values(const TrajectoryError& error) {
           {"ate_mean_m", "ATE mean", error.ate_mean_m, "m", 6},
           {"ate_median_m", "ATE median", error.ate_median_m, "m", 6},
           {"ate_max_m", "ATE max", error.ate_max_m, "m", 6},
-          {"rpe_trans_rmse_m", "RPE translation rmse", error.rpe.trans_rmse_m, "m", 6},
-          {"rpe_rot_rmse_deg", "RPE rotation rmse", error.rpe.rot_rmse_deg, "deg", 6}};
+          {"rpe_trans_rmse_m", "drift (RPE translation rmse)", error.rpe.trans_rmse_m, "m", 6},
+          {"rpe_rot_rmse_deg", "drift (RPE rotation rmse)", error.rpe.rot_rmse_deg, "deg", 6}};
 }
 
 }  // namespace mms

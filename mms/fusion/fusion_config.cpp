@@ -50,6 +50,8 @@ void FusionConfig::visit(ConfigVisitor& v) {
            contact_share, {0.0, 1.0});
   v.number({"relabel_radius", "m", "how far a dynamic cluster relabels points, before noise"},
            relabel_radius, {0.0, 2.0});
+  v.number({"memory", "s", "how long an object stays dynamic without a mask; 0: not at all"},
+           memory, {0.0, 60.0});
   v.number({"lidar_max_range", "m", "farthest LiDAR return used"}, lidar_max_range, {1.0, 500.0});
   v.number({"lidar_voxel", "m", "voxel that thins a LiDAR scan before clustering"}, lidar_voxel,
            {0.01, 2.0});

@@ -66,6 +66,8 @@ struct FusionConfig {
   double contact_share = 0.1;   ///< of a smaller piece's nodes that may touch what it is split from
   double relabel_radius = 0.10;  ///< "close" and "nearby" of III-B.2, before noise [m]
 
+  double memory = 0.5;  ///< how long an object stays dynamic without a mask [s]
+
   double lidar_max_range = 100.0;  ///< [m]
   double lidar_noise = 0.02;       ///< one sigma of range [m]; the sensor's, not visited
   double lidar_voxel = 0.10;       ///< [m]

@@ -14,8 +14,9 @@ namespace mms {
 namespace {
 
 /// III-B.2 for an organised cloud.
-void fuse_geometry(const MaskImage& mask, const std::vector<Instance>& instances,
-                   const FusionConfig& config, LabeledCloud& cloud) {
+std::vector<DynamicObjects::Object> fuse_geometry(const MaskImage& mask,
+                                                  const std::vector<Instance>& instances,
+                                                  const FusionConfig& config, LabeledCloud& cloud) {
   const NodeGrid grid(cloud, config.cluster_stride);
   Nodes nodes = make_grid_nodes(cloud, mask, grid, config.noise);
   const GridPlanes planes = find_grid_planes(nodes, config.planes);
@@ -23,9 +24,10 @@ void fuse_geometry(const MaskImage& mask, const std::vector<Instance>& instances
     const float limit = config.planes.distance_limit(nodes.sigma[n]);
     nodes.on_plane[n] = is_on_plane(planes, n, nodes.points[n], limit) ? 1 : 0;
   }
-  const DynamicObjects objects = find_dynamic_objects(nodes, instances, config);
+  DynamicObjects objects = find_dynamic_objects(nodes, instances, config);
   relabel_grid(grid, nodes, planes, objects, mask, config, cloud);
   list_clusters(objects.objects, instances, cloud);
+  return std::move(objects.objects);
 }
 
 /// Dynamic points, and what the mask covers where there is no return to tell.
@@ -39,7 +41,7 @@ void mark_dynamic_pixels(const Image<std::uint16_t>& mask, LabeledCloud& cloud) 
 }  // namespace
 
 SemanticFusion::SemanticFusion(const FusionConfig& config)
-    : config_(config), depth_cloud_(config) {}
+    : config_(config), depth_cloud_(config), memory_(config) {}
 
 LabeledCloud SemanticFusion::fuse(const Frame& frame, const Segmentation& segmentation) {
   return frame.has_depth() ? fuse_depth(frame, segmentation) : fuse_scan(frame, segmentation);
@@ -48,17 +50,22 @@ LabeledCloud SemanticFusion::fuse(const Frame& frame, const Segmentation& segmen
 LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& segmentation) {
   LabeledCloud cloud = depth_cloud_.build(frame);
   if (config_.mode == FusionMode::kNone) return cloud;
-  const MaskImage mask = make_mask_image(segmentation, frame.depth.width(), frame.depth.height(),
-                                         config_.stride, config_.dilation);
-  if (segmentation.instances.empty()) return cloud;
+  MaskImage mask = make_mask_image(segmentation, frame.depth.width(), frame.depth.height(),
+                                   config_.stride, config_.dilation);
   if (config_.mode == FusionMode::kVision) {
     label_by_mask(mask.dilated.pixels(), segmentation.instances, cloud);
     mark_dynamic_pixels(mask.dilated, cloud);
-  } else {
-    fuse_geometry(mask, segmentation.instances, config_, cloud);
+    return cloud;
+  }
+  std::vector<Instance> instances = segmentation.instances;
+  memory_.recall(cloud, mask, instances);
+  std::vector<DynamicObjects::Object> objects;
+  if (!instances.empty()) {
+    objects = fuse_geometry(mask, instances, config_, cloud);
     mark_dynamic_pixels(mask.raw, cloud);
     dilate(cloud.dynamic_pixels, mask.radius);
   }
+  memory_.remember(cloud, objects);
   return cloud;
 }
 

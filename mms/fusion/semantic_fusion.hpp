@@ -5,11 +5,13 @@
 #include "mms/core/segmentation.hpp"
 #include "mms/fusion/depth_cloud.hpp"
 #include "mms/fusion/fusion_config.hpp"
+#include "mms/fusion/mask_memory.hpp"
 
 namespace mms {
 
 /// Divides a frame's points into static and dynamic ones (III-B) by merging the segmented masks
-/// with Euclidean clusters of the points. The same input gives the same bits.
+/// with Euclidean clusters of the points. Frames are to be given in their order: what moved is
+/// remembered for a while. The same frames give the same bits.
 class SemanticFusion {
  public:
   explicit SemanticFusion(const FusionConfig& config);
@@ -24,6 +26,7 @@ class SemanticFusion {
 
   FusionConfig config_;
   DepthCloudBuilder depth_cloud_;
+  MaskMemory memory_;
 };
 
 }  // namespace mms

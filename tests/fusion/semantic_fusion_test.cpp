@@ -93,6 +93,49 @@ TEST(SemanticFusion, MissingMaskLeavesAllStatic) {
   EXPECT_TRUE(cloud.clusters.empty());
 }
 
+/// A person seen at `seconds`, their left side at `x` [m].
+View person_at(double seconds, float x) {
+  View view = render(room_with_person(x));
+  view.frame.stamp = Timestamp(static_cast<std::int64_t>(seconds * 1e9));
+  return view;
+}
+
+TEST(SemanticFusion, AnObjectThatLosesItsMaskIsFollowedForAWhile) {
+  SemanticFusion fusion{FusionConfig{}};
+  const View masked = person_at(10.0, -0.25F);
+  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Thing::kPerson)}));
+  for (int i = 1; i <= 7; ++i) {
+    const View view = person_at(10.0 + i / 15.0, -0.25F + 0.1F * static_cast<float>(i));
+    const LabeledCloud cloud = fusion.fuse(view.frame, segmentation_of(view, {}));
+    EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.975);  // but for their soles
+    EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.002);
+    EXPECT_LT(dynamic_share_of(cloud, view, Thing::kFloor), 0.01);
+    ASSERT_EQ(cloud.clusters.size(), 1U);
+    EXPECT_EQ(cloud.clusters[0].object_class, ObjectClass::kPerson);
+  }
+  const View late = person_at(10.6, 0.6F);
+  EXPECT_EQ(dynamic_share(fusion.fuse(late.frame, segmentation_of(late, {}))), 0.0);
+}
+
+TEST(SemanticFusion, NothingIsRememberedWhereSomebodyHasLeft) {
+  SemanticFusion fusion{FusionConfig{}};
+  const View masked = person_at(10.0, -0.25F);
+  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Thing::kPerson)}));
+  View empty = render(room());
+  empty.frame.stamp = Timestamp(10'066'000'000);
+  EXPECT_EQ(dynamic_share(fusion.fuse(empty.frame, segmentation_of(empty, {}))), 0.0);
+}
+
+TEST(SemanticFusion, MasksAloneAreNotRemembered) {
+  FusionConfig config;
+  config.mode = FusionMode::kVision;
+  SemanticFusion fusion{config};
+  const View masked = person_at(10.0, -0.25F);
+  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Thing::kPerson)}));
+  const View view = person_at(10.066, -0.25F);
+  EXPECT_EQ(dynamic_share(fusion.fuse(view.frame, segmentation_of(view, {}))), 0.0);
+}
+
 TEST(SemanticFusion, OverlappingMasksAreDynamicTwice) {
   auto scene = room_with_person();
   scene.add(Thing::kOther, {0.1F, -0.6F, 3.0F}, {0.6F, 1.2F, 3.3F});

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "mms/io/files.hpp"
+#include "mms/io/image_io.hpp"
 #include "mms/io/ply_io.hpp"
 #include "mms/io/trajectory_io.hpp"
 #include "tests/io/temp_folder.hpp"
@@ -49,6 +50,8 @@ TEST(Run, WritesTheFilesOfTheContract) {
   EXPECT_GT(map.points.size(), 5000U);
   EXPECT_EQ(map.colors.size(), map.points.size());
   EXPECT_EQ(map.normals.size(), map.points.size());
+  EXPECT_FALSE(read_color(out / "pictures/map.png").empty());
+  EXPECT_FALSE(read_color(out / "pictures/frame_01.png").empty());
   expect_done(run_mms(folder.path(), {"config", "check", "out/config.yaml"}));
   expect_in("report: out/report.html", outcome.out);
   expect_in("map:    out/static_map.ply", outcome.out);

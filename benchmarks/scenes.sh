@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Simulates the warehouse's scenes, with exact masks and with imperfect ones, runs them, and prints
+# one row of accuracy for each.
+# usage: benchmarks/scenes.sh [SEED] [FLAGS FOR mms run]
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
+seed="${1:-1}"
+shift $(($# > 0 ? 1 : 0))
+
+# simulate SCENE MASKS: writes the recording to play in all modes of fusion.
+simulate() {
+  rm -rf "$out/scene"
+  quietly "$mms" simulate "$1" --seed "$seed" -o "$out/scene" \
+    --set mask_errors.enabled="$([ "$2" = exact ] && echo false || echo true)"
+}
+
+row() {
+  local scene="$1" masks="$2" fusion="$3"
+  shift 3
+  quietly "$mms" run "$out/scene" --segmenter masks --fusion "$fusion" -o "$out/run" "$@"
+  local json="$out/run/metrics.json"
+  printf '| %s | %s | %s | %.2f | %.3f | %.3f | %.1f | %.1f | %.1f | %.1f | %s |\n' "$scene" \
+    "$masks" "$fusion" "$(cm "$json" ate_rmse_m)" "$(value "$json" atde_cm)" \
+    "$(value "$json" mtde_cm)" "$(value "$json" SA)" "$(value "$json" DA)" \
+    "$(value "$json" AA)" "$(value "$json" mean ms_per_frame)" "$(value "$json" lost)"
+}
+
+echo "| scene | masks | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | SA | DA | AA | ms a frame | lost |"
+echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+for scene in warehouse_loop still_walker crowd stop_and_go corridor static fast rack_aisle; do
+  simulate "$scene" exact
+  row "$scene" exact multimodal "$@"
+done
+for scene in still_walker crowd stop_and_go; do
+  simulate "$scene" imperfect
+  for fusion in multimodal vision none; do row "$scene" imperfect "$fusion" "$@"; done
+done
