@@ -19,14 +19,14 @@ row() {
   shift 3
   quietly "$mms" run "$out/scene" --segmenter masks --fusion "$fusion" -o "$out/run" "$@"
   local json="$out/run/metrics.json"
-  printf '| %s | %s | %s | %.2f | %.3f | %.3f | %.1f | %.1f | %.1f | %.1f | %s |\n' "$scene" \
+  printf '| %s | %s | %s | %.2f | %.3f | %.3f | %.1f | %.1f | %.1f | %s |\n' "$scene" \
     "$masks" "$fusion" "$(cm "$json" ate_rmse_m)" "$(value "$json" atde_cm)" \
     "$(value "$json" mtde_cm)" "$(value "$json" SA)" "$(value "$json" DA)" \
-    "$(value "$json" AA)" "$(value "$json" mean ms_per_frame)" "$(value "$json" lost)"
+    "$(value "$json" AA)" "$(value "$json" lost)"
 }
 
-echo "| scene | masks | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | SA | DA | AA | ms a frame | lost |"
-echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+echo "| scene | masks | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | SA | DA | AA | lost |"
+echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
 for scene in warehouse_loop still_walker crowd stop_and_go corridor static fast rack_aisle; do
   simulate "$scene" exact
   row "$scene" exact multimodal "$@"

@@ -132,6 +132,24 @@ TEST(Odometry, AJumpIsNotBelieved) {
   EXPECT_EQ(odometry.estimate(jump).status, Status::kLost);
 }
 
+TEST(Odometry, AJerkIsNotBelievedOnceTheVelocityIsKnown) {
+  const auto pushed = [](double metres) {
+    FeatureCloud features = testing::exact_features(
+        BoxRoom{}, truth_at(Timestamp(50 * kMillisecond)) * motion(metres, 0, 0, 0, 0, 0), 16);
+    features.stamp = Timestamp(100 * kMillisecond);
+    return features;
+  };
+  for (const auto& [acceleration, status] :
+       {std::pair{20.0, Status::kLost}, {1000.0, Status::kTracking}}) {
+    OdometryConfig config;
+    config.max_acceleration = acceleration;
+    Odometry odometry(config, {});
+    odometry.estimate(features_at(0));
+    odometry.estimate(features_at(50));
+    EXPECT_EQ(odometry.estimate(pushed(0.2)).status, status) << acceleration;
+  }
+}
+
 TEST(Odometry, OneWallIsReportedDegenerate) {
   const auto wall_at = [](int ms) {
     FeatureCloud features = features_at(ms);
