@@ -11,6 +11,9 @@ MapTruth::MapTruth(double voxel_size, int stride)
 
 void MapTruth::add(const SimulatedFrame& simulated,
                    const Transform<World, Sensor>& T_world_sensor) {
+  for (std::size_t i = 0; i < simulated.scan.points.size(); ++i) {
+    add(simulated.scan.points[i], simulated.scan.labels[i]);
+  }
   const Frame& frame = simulated.frame;
   const ExactView& exact = simulated.exact;
   if (!frame.has_depth() || !frame.depth.same_size(exact.depth)) return;

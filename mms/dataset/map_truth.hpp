@@ -21,9 +21,7 @@ class MapTruth {
   /// @param stride      of the pixels taken, >= 1
   explicit MapTruth(double voxel_size = 0.04, int stride = 2);
 
-  /// Adds what a depth camera got a return from: the exact point, not the measured one. Frames
-  /// without depth images add nothing; who knows the labels of a scan's points adds them one by
-  /// one.
+  /// Adds what a depth camera or LiDAR got a return from: the exact point, not the measured one.
   void add(const SimulatedFrame& frame, const Transform<World, Sensor>& T_world_sensor);
 
   /// Adds a point in the world frame [m] with its label: 0 static, else 1 + id of the object.

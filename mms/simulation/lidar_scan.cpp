@@ -36,7 +36,7 @@ Echo echo_of(const Stage& stage, const Ray& ray, const RayHit& hit, const LidarS
 
 }  // namespace
 
-LidarScan scan(Stage& stage, const LidarSensor& sensor, int index, double period,
+ExactScan scan(Stage& stage, const LidarSensor& sensor, int index, double period,
                const std::function<Eigen::Isometry3d(double)>& T_building_lidar, double start,
                bool noise, std::uint64_t key) {
   const std::vector<Beam> shots = beams(sensor, index, period);
@@ -65,12 +65,14 @@ LidarScan scan(Stage& stage, const LidarSensor& sensor, int index, double period
     });
     first = last;
   }
-  LidarScan result;
+  ExactScan result;
   for (std::size_t i = 0; i < shots.size(); ++i) {
     if (echoes[i].range <= 0.0F) continue;
-    result.points.push_back(echoes[i].range * shots[i].direction);
-    result.intensity.push_back(echoes[i].intensity);
-    result.time_offset.push_back(shots[i].time_offset);
+    result.scan.points.push_back(echoes[i].range * shots[i].direction);
+    result.scan.intensity.push_back(echoes[i].intensity);
+    result.scan.time_offset.push_back(shots[i].time_offset);
+    result.points.push_back(rays[i].origin + hits[i].distance * rays[i].direction);
+    result.labels.push_back(stage.object_of(hits[i]));
   }
   return result;
 }

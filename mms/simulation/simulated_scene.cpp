@@ -166,10 +166,14 @@ SimulatedFrame SimulatedScene::render(int index) {
   frame.name = frame.stamp.to_string();
   frame.calibration = scene.calibration;
   if (scene.sensor.lidar) {
-    frame.scan = scan(
+    ExactScan exact = scan(
         scene.stage, *scene.sensor.lidar, index, 1.0 / scene.sensor.hz,
         [&](double t) { return scene.T_building_sensor(at + t); }, at, scene.config.noise,
         hash_of(key, 3));
+    frame.scan = std::move(exact.scan);
+    const Eigen::Isometry3f T = scene.T_world_building.cast<float>();
+    for (const Eigen::Vector3f& point : exact.points) result.scan.points.push_back(T * point);
+    result.scan.labels = std::move(exact.labels);
   }
   Image<Eigen::Vector3f> radiance(scene.table.width, scene.table.height, Eigen::Vector3f::Zero());
   result.exact = scene.expose(at, radiance);

@@ -17,6 +17,7 @@ namespace mms {
 struct SimulatedFrame {
   Frame frame;  ///< its mask has the exact labels: 0 static, else 1 + class id
   ExactView exact;
+  TruthCloud scan;  ///< where the scan's points really lie, in the world frame, and on what
   std::vector<ObjectTruth> objects;  ///< all of the scene, in view or not
 };
 

@@ -318,6 +318,8 @@ TEST(SimulatedScene, LidarPointsAreWhereTheirBeamsMetTheWorld) {
   const LidarScan& scan = frame.frame.scan;
   ASSERT_GT(scan.points.size(), 10000U);
   ASSERT_EQ(scan.points.size(), scan.time_offset.size());
+  ASSERT_EQ(scan.points.size(), frame.scan.points.size());
+  ASSERT_EQ(scan.points.size(), frame.scan.labels.size());
   // The floor: camera_height below the camera, so a fixed height below the LiDAR's start.
   const double floor = -(scene.config().camera_height);
   const Eigen::Isometry3d T_lidar_camera = scene.sensor().T_camera_lidar.inverse();
@@ -329,6 +331,8 @@ TEST(SimulatedScene, LidarPointsAreWhereTheirBeamsMetTheWorld) {
         scene.pose_at(when).T_world_sensor * scan.points[i].cast<double>();
     const double height = world.z() - T_lidar_camera.translation().z() - floor;
     EXPECT_GT(height, -0.35);
+    ASSERT_LT((world - frame.scan.points[i].cast<double>()).norm(), 1e-3);
+    EXPECT_EQ(frame.scan.labels[i], 0);
     on_floor += std::abs(height) < 0.35 && scan.points[i].norm() < 5.0F ? 1 : 0;
   }
   EXPECT_GT(on_floor, 500);
