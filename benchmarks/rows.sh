@@ -4,8 +4,11 @@ mms="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/mms"
 out="$(mktemp -d)"
 trap 'rm -rf "$out"' EXIT
 
-# value FILE KEY [PATTERN]: the first number behind "KEY" in a JSON file, after PATTERN where given.
-value() { sed -n "/${3:-.}/,\$p" "$1" | grep -m1 "\"$2\"" | grep -oE '[0-9.eE+-]+,?$' | tr -d ,; }
+# value FILE KEY [PATTERN]: the first number behind "KEY" in a JSON file, after PATTERN where given;
+# nan where there is none.
+value() {
+  sed -n "/${3:-.}/,\$p" "$1" | grep -m1 "\"$2\"" | grep -oE '[0-9.eE+-]+,?$' | tr -d , || echo nan
+}
 
 # cm FILE KEY: the same of a length in metres, in centimetres.
 cm() { awk -v metres="$(value "$1" "$2")" 'BEGIN { print 100 * metres }'; }

@@ -14,7 +14,7 @@ struct GeometricConfig {
   double slack = 0.5;        ///< [voxels]
   double map_sigma = 0.004;  ///< [m]
   double robust_scale = 2.0;
-  double weight = 0.7;
+  double weight = 0.5;
 
   void visit(ConfigVisitor& v);
 };

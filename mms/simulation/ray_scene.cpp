@@ -98,7 +98,7 @@ std::size_t load(std::span<const Ray> rays, RTCRay8& packet, int* valid) {
 struct RayScene::Impl {
   Device device{rtcNewDevice(nullptr)};
   Scene all;
-  std::vector<Scene> shapes;        ///< one a part
+  std::vector<Scene> shapes;        ///< of the fixed mesh, which is built only once, and the parts
   std::vector<Geometry> instances;  ///< one a part, with geometry id 1 + part in `all`
 
   Scene new_scene() const {
@@ -107,17 +107,22 @@ struct RayScene::Impl {
     return scene;
   }
 
-  void add_part(const Mesh& mesh) {
+  Geometry add_shape(const Mesh& mesh, unsigned id) {
     Scene shape = new_scene();
     rtcAttachGeometryByID(shape.get(), triangles_of(device.get(), mesh).get(), 0);
     commit(shape.get());
     Geometry instance(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
     rtcSetGeometryInstancedScene(instance.get(), shape.get());
     rtcSetGeometryTimeStepCount(instance.get(), 1);
+    rtcCommitGeometry(instance.get());
     shapes.push_back(std::move(shape));
-    instances.push_back(std::move(instance));
-    rtcAttachGeometryByID(all.get(), instances.back().get(),
-                          static_cast<unsigned>(instances.size()));
+    rtcAttachGeometryByID(all.get(), instance.get(), id);
+    return instance;
+  }
+
+  void add_part(const Mesh& mesh) {
+    const auto id = static_cast<unsigned>(1 + instances.size());
+    instances.push_back(add_shape(mesh, id));
   }
 
   void cast(RTCScene scene, std::span<const Ray> rays, std::span<RayHit> hits) const {
@@ -135,9 +140,7 @@ struct RayScene::Impl {
 
   static RayHit hit_of(const RTCRayHit8& packet, std::size_t lane) {
     if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return {};
-    const unsigned instance = packet.hit.instID[0][lane];
-    return {packet.ray.tfar[lane],
-            instance == RTC_INVALID_GEOMETRY_ID ? 0 : static_cast<std::int32_t>(instance),
+    return {packet.ray.tfar[lane], static_cast<std::int32_t>(packet.hit.instID[0][lane]),
             packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane]};
   }
 };
@@ -146,7 +149,7 @@ RayScene::RayScene(const Mesh& fixed, std::span<const Mesh* const> parts)
     : impl_(std::make_unique<Impl>()) {
   check(impl_->device.get());
   impl_->all = impl_->new_scene();
-  rtcAttachGeometryByID(impl_->all.get(), triangles_of(impl_->device.get(), fixed).get(), 0);
+  impl_->add_shape(fixed, 0);
   for (const Mesh* part : parts) impl_->add_part(*part);
   place(std::vector<Eigen::Isometry3f>(parts.size(), Eigen::Isometry3f::Identity()));
 }
