@@ -61,8 +61,8 @@ class StaticGrid {
 };
 
 /// The pixel as a candidate, or nothing where a neighbour is dynamic or on another surface, or more
-/// than a sixth of them are missing: occlusion borders, frame borders and the borders of the dynamic
-/// region. A few holes are what every depth camera leaves on dark or slanted surfaces.
+/// than a sixth of them are missing: occlusion borders, frame borders and the borders of the
+/// dynamic region. A few holes are what every depth camera leaves on dark or slanted surfaces.
 std::optional<Candidate> candidate_at(const StaticGrid& grid, int x, int y) {
   constexpr int kSide = 2 * kSmoothnessWindow / kSmoothnessStep + 1;
   constexpr int kNeighbours = kSide * kSide - 1;
