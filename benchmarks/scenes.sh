@@ -20,7 +20,9 @@ row() {
   quietly "$mms" run "$out/scene" --segmenter masks --fusion "$fusion" -o "$out/run" "$@"
   local json="$out/run/metrics.json" drift="- | -"
   # Drift from the first pose says something about a sensor that stands still.
-  [ "$scene" = still_walker ] && drift="$(value "$json" atde_cm) | $(value "$json" mtde_cm)"
+  if [ "$scene" = still_walker ]; then
+    drift="$(printf '%.3f | %.3f' "$(value "$json" atde_cm)" "$(value "$json" mtde_cm)")"
+  fi
   printf '| %s | %s | %s | %.2f | %s | %.1f | %.1f | %.1f | %s |\n' "$scene" "$masks" \
     "$fusion" "$(cm "$json" ate_rmse_m)" "$drift" "$(value "$json" SA)" "$(value "$json" DA)" \
     "$(value "$json" AA)" "$(value "$json" lost)"
