@@ -5,6 +5,7 @@
 
 #include <iterator>
 
+#include "mms/core/error.hpp"
 #include "mms/evaluation/map_picture.hpp"
 #include "mms/evaluation/report.hpp"
 #include "mms/io/atomic_file.hpp"
@@ -69,7 +70,13 @@ RunReport make_report(const std::string& data, const MapCloud& map, double voxel
 
 /// The report's pictures as files of their own.
 void write_pictures(const std::filesystem::path& folder, const RunReport& report) {
-  std::filesystem::create_directories(folder);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder)) {
+    throw FileError(folder.string(),
+                    "cannot be made a folder: " + (error ? error.message() : "it is a file"),
+                    "choose another folder with -o");
+  }
   if (!report.map_view.empty()) write_png(folder / "map.png", report.map_view);
   for (std::size_t i = 0; i < report.pictures.size(); ++i) {
     write_png(folder / fmt::format("frame_{:02}.png", i + 1), report.pictures[i].image);

@@ -35,7 +35,7 @@ class MaskMemory {
   bool is_still_there(const LabeledCloud& cloud, std::size_t pixel) const;
   std::vector<std::uint8_t> find_missing(const LabeledCloud& cloud, const MaskImage& mask) const;
 
-  const FusionConfig config_;
+  FusionConfig config_;
   std::vector<Object> objects_;
   std::vector<std::int16_t> object_of_;  ///< of every pixel, -1 for none
   std::vector<float> depth_;             ///< of every pixel [m]

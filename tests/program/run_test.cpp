@@ -185,6 +185,17 @@ TEST(Run, TheFusionOfTheCommandLineIsTheEffectiveOne) {
   expect_in("voxel_size: 0.05", effective);
 }
 
+TEST(Run, WithoutRoomForPicturesAllElseIsWritten) {
+  const TempFolder folder;
+  write_scene(folder.path() / "data", small_scene(kFrames));
+  folder.write("out/pictures", "a file");
+  const Outcome outcome = run_recording(folder);
+  EXPECT_NE(outcome.exit_code, 0);
+  expect_in("out/pictures: cannot be made a folder", outcome.err);
+  EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/report.html"));
+  EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/static_map.ply"));
+}
+
 TEST(Run, MasksMayLieElsewhere) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
