@@ -25,6 +25,7 @@ void add_eval_command(CLI::App& app) {
   add_eval_drift(*eval);
   add_eval_map(*eval);
   add_eval_residue(*eval);
+  add_eval_segmentation(*eval);
 }
 
 }  // namespace mms

@@ -12,6 +12,7 @@ void add_eval_trajectory(CLI::App& eval);
 void add_eval_drift(CLI::App& eval);
 void add_eval_map(CLI::App& eval);
 void add_eval_residue(CLI::App& eval);
+void add_eval_segmentation(CLI::App& eval);
 
 /// Adds the flag --json, which sets `json`.
 void add_json_flag(CLI::App& command, bool& json);

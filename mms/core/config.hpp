@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mms {
 
@@ -41,6 +42,9 @@ class ConfigVisitor {
   virtual void choice(const FieldInfo& info, int& index,
                       std::span<const std::string_view> choices) = 0;
 
+  /// A name or path; may be empty.
+  virtual void text(const FieldInfo& info, std::string& value) = 0;
+
   /// An enumeration whose values are 0, 1, ... in the order of `choices`.
   template <class Enum>
   void enumeration(const FieldInfo& info, Enum& value, std::span<const std::string_view> choices) {
@@ -57,7 +61,26 @@ class ConfigVisitor {
     end_group();
   }
 
+  /// Structs with a `visit` of their own, as many as the user gives.
+  template <class Item>
+  void list(const FieldInfo& info, std::vector<Item>& items) {
+    items.resize(begin_list(info, items.size()));
+    for (Item& item : items) {
+      begin_item(info);
+      item.visit(*this);
+      end_item();
+    }
+    end_list();
+  }
+
  protected:
+  /// How many items there are to be; those beyond `size` are new. A list as it is, unless a visitor
+  /// says otherwise.
+  virtual std::size_t begin_list(const FieldInfo&, std::size_t size) { return size; }
+  virtual void begin_item(const FieldInfo& info) { begin_group(info); }
+  virtual void end_item() { end_group(); }
+  virtual void end_list() {}
+
   virtual void begin_group(const FieldInfo& info) = 0;
   virtual void end_group() = 0;
 };

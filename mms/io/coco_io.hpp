@@ -13,8 +13,9 @@ namespace mms {
 struct CocoImage {
   std::int64_t id = 0;
   std::string file_name;
-  int width = 0;   ///< [px]
-  int height = 0;  ///< [px]
+  int width = 0;        ///< [px]
+  int height = 0;       ///< [px]
+  std::string split{};  ///< "train", "holdout", ...; empty where the file says nothing
 };
 
 struct CocoCategory {

@@ -85,6 +85,7 @@ class CocoReader {
     image.file_name = entry.at("file_name").text();
     image.width = static_cast<int>(entry.at("width").integer(kSize));
     image.height = static_cast<int>(entry.at("height").integer(kSize));
+    if (entry.has("split")) image.split = entry.at("split").text();
     if (!images_.emplace(image.id, dataset_.images.size()).second) fail_twice(entry, image.id);
     dataset_.images.push_back(std::move(image));
   }

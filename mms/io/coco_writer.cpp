@@ -12,10 +12,12 @@ Json json_of(const Rle& rle) {
 }
 
 Json json_of(const CocoImage& image) {
-  return {{"id", image.id},
-          {"file_name", image.file_name},
-          {"width", image.width},
-          {"height", image.height}};
+  Json json = {{"id", image.id},
+               {"file_name", image.file_name},
+               {"width", image.width},
+               {"height", image.height}};
+  if (!image.split.empty()) json["split"] = image.split;
+  return json;
 }
 
 Json json_of(const CocoCategory& category) {

@@ -63,6 +63,10 @@ class AssigningVisitor final : public ConfigVisitor {
     index = static_cast<int>(found - choices.begin());
   }
 
+  void text(const FieldInfo& info, std::string& value) override {
+    if (const std::optional<std::string> given = take(info)) value = *given;
+  }
+
   /// To be called after the visit: nothing may be left that no field took.
   void finish() const {
     if (values_.empty()) return;

@@ -59,7 +59,28 @@ class ConfigLoader final : public ConfigVisitor {
     index = static_cast<int>(found - choices.begin());
   }
 
+  void text(const FieldInfo& info, std::string& value) override {
+    const auto node = groups_.back().find(info.key);
+    if (!node) return;
+    if (!node->IsScalar()) {
+      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", a text is wanted");
+    }
+    value = node->Scalar();
+  }
+
  private:
+  std::size_t begin_list(const FieldInfo& info, std::size_t size) override {
+    std::optional<std::vector<YamlMap>> items = groups_.back().children(info.key);
+    lists_.push_back(items ? std::move(*items) : std::vector<YamlMap>());
+    if (!items) lists_.back().resize(size, groups_.back().child(info.key));
+    std::reverse(lists_.back().begin(), lists_.back().end());
+    return lists_.back().size();
+  }
+  void begin_item(const FieldInfo&) override {
+    groups_.push_back(std::move(lists_.back().back()));
+    lists_.back().pop_back();
+  }
+  void end_list() override { lists_.pop_back(); }
   void begin_group(const FieldInfo& info) override {
     groups_.push_back(groups_.back().child(info.key));
   }
@@ -69,6 +90,7 @@ class ConfigLoader final : public ConfigVisitor {
   }
 
   std::vector<YamlMap> groups_;
+  std::vector<std::vector<YamlMap>> lists_;  ///< items still to come, the next one last
 };
 
 /// Writes a line a field: "key: value  # doc [unit], allowed values".
@@ -94,6 +116,9 @@ class ConfigWriter final : public ConfigVisitor {
     }
     field(info, std::string(choices[static_cast<std::size_t>(index)]), words);
   }
+  void text(const FieldInfo& info, std::string& value) override {
+    field(info, YAML::Dump(YAML::Node(value)), "a text");
+  }
 
  private:
   void begin_group(const FieldInfo& info) override {
@@ -102,15 +127,28 @@ class ConfigWriter final : public ConfigVisitor {
     indent_ += "  ";
   }
   void end_group() override { indent_.resize(indent_.size() - 2); }
+  std::size_t begin_list(const FieldInfo& info, std::size_t size) override {
+    if (!info.doc.empty()) text_ += indent_ + "# " + std::string(info.doc) + "\n";
+    text_ += indent_ + std::string(info.key) + ":" + (size == 0 ? " []" : "") + "\n";
+    return size;
+  }
+  void begin_item(const FieldInfo&) override {
+    dash_ = true;
+    indent_ += "    ";
+  }
+  void end_item() override { indent_.resize(indent_.size() - 4); }
 
   void field(const FieldInfo& info, const std::string& value, const std::string& allowed) {
     const std::string unit = info.unit.empty() ? "" : " [" + std::string(info.unit) + "]";
-    text_ += indent_ + std::string(info.key) + ": " + value + "  # " + std::string(info.doc) +
-             unit + ", " + allowed + "\n";
+    text_ += dash_ ? indent_.substr(0, indent_.size() - 2) + "- " : indent_;
+    dash_ = false;
+    text_ += std::string(info.key) + ": " + value + "  # " + std::string(info.doc) + unit + ", " +
+             allowed + "\n";
   }
 
   std::string text_;
   std::string indent_;
+  bool dash_ = false;  ///< the next field is the first of a list's item
 };
 
 }  // namespace

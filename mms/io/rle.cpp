@@ -99,6 +99,39 @@ void check_rle(const Rle& rle) {
                               std::to_string(rle.width) + " x " + std::to_string(rle.height));
 }
 
+Rle encode_rle(const Image<std::uint8_t>& cut, int x, int y, int width, int height) {
+  if (x < 0 || y < 0 || x + cut.width() > width || y + cut.height() > height) {
+    throw DataError("mask", std::to_string(cut.width()) + "x" + std::to_string(cut.height()) +
+                                " px at (" + std::to_string(x) + ", " + std::to_string(y) +
+                                ") reaches out of its image of " + std::to_string(width) + "x" +
+                                std::to_string(height));
+  }
+  Rle rle{width, height, {}};
+  std::uint64_t end = 0;  // of the last run on the mask
+  const auto add_run = [&](std::uint64_t first, std::uint64_t length) {
+    if (first == end && !rle.counts.empty()) {
+      rle.counts.back() += static_cast<std::uint32_t>(length);
+    } else {
+      rle.counts.push_back(static_cast<std::uint32_t>(first - end));
+      rle.counts.push_back(static_cast<std::uint32_t>(length));
+    }
+    end = first + length;
+  };
+  for (int u = 0; u < cut.width(); ++u) {
+    for (int v = 0; v < cut.height();) {
+      const int first = v;
+      while (v < cut.height() && cut(u, v) != 0) ++v;
+      const std::uint64_t column =
+          static_cast<std::uint64_t>(x + u) * static_cast<unsigned>(height);
+      if (v > first)
+        add_run(column + static_cast<unsigned>(y + first), static_cast<unsigned>(v - first));
+      if (v == first) ++v;
+    }
+  }
+  if (pixels_of(rle) > end) rle.counts.push_back(static_cast<std::uint32_t>(pixels_of(rle) - end));
+  return rle;
+}
+
 Image<std::uint8_t> decode_rle(const Rle& rle) {
   check_rle(rle);
   Image<std::uint8_t> mask(rle.width, rle.height);

@@ -26,6 +26,10 @@ Rle encode_rle(const Image<std::uint8_t>& mask);
 /// Runs of the pixels that have just this value.
 Rle encode_rle(const Image<std::uint8_t>& labels, std::uint8_t value);
 
+/// Runs of a mask that was cut out of an image of width x height with its corner at (x, y).
+/// @throws DataError when it reaches out of the image.
+Rle encode_rle(const Image<std::uint8_t>& cut, int x, int y, int width, int height);
+
 /// Image with 1 on the mask and 0 elsewhere.
 /// @throws DataError when the runs do not sum up to width * height.
 Image<std::uint8_t> decode_rle(const Rle& rle);

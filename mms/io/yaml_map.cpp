@@ -92,6 +92,18 @@ YamlMap YamlMap::child(std::string_view key) {
   return {file_, path_ + std::string(key) + ".", find(key)};
 }
 
+std::optional<std::vector<YamlMap>> YamlMap::children(std::string_view key) {
+  const std::optional<YAML::Node> list = find(key);
+  if (!list) return std::nullopt;
+  if (!list->IsSequence()) fail(*list, key, "is " + shown(*list) + ", a list of groups is wanted");
+  std::vector<YamlMap> items;
+  for (const YAML::Node& item : *list) {
+    const std::string name = std::string(key) + "[" + std::to_string(items.size()) + "]";
+    items.push_back(YamlMap(file_, path_ + name + ".", item));
+  }
+  return items;
+}
+
 void YamlMap::reject_unknown() const {
   for (const auto& [name, node] : entries_) {
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;

@@ -27,6 +27,10 @@ class YamlMap {
   /// The mapping under `key`; an empty one where there is none.
   YamlMap child(std::string_view key);
 
+  /// The mappings of the list under `key`; nothing where it is not written.
+  /// @throws ConfigError when it is no list of mappings.
+  std::optional<std::vector<YamlMap>> children(std::string_view key);
+
   /// @throws ConfigError at the first key that was never asked for.
   void reject_unknown() const;
 

@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "mms/pipeline/bounded_queue.hpp"
+#include "mms/core/bounded_queue.hpp"
 
 namespace mms {
 namespace {

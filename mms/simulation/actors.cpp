@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "mms/core/random_stream.hpp"
 #include "mms/simulation/agv_model.hpp"
 #include "mms/simulation/person_model.hpp"
-#include "mms/simulation/random_stream.hpp"
 #include "mms/simulation/route.hpp"
 
 namespace mms {

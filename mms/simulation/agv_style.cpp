@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mms/simulation/hash_noise.hpp"
+#include "mms/core/hash_noise.hpp"
 
 namespace mms {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "mms/core/random_stream.hpp"
 #include "mms/simulation/fittings.hpp"
 #include "mms/simulation/mesh_shapes.hpp"
-#include "mms/simulation/random_stream.hpp"
 #include "mms/simulation/stock.hpp"
 
 namespace mms {

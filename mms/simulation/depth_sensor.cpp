@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "mms/core/hash_noise.hpp"
 #include "mms/geometry/parallel.hpp"
-#include "mms/simulation/hash_noise.hpp"
 
 namespace mms {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "mms/core/hash_noise.hpp"
 #include "mms/geometry/parallel.hpp"
-#include "mms/simulation/hash_noise.hpp"
 
 namespace mms {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "mms/simulation/hash_noise.hpp"
+#include "mms/core/hash_noise.hpp"
 
 namespace mms {
 namespace {

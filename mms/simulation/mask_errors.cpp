@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "mms/simulation/hash_noise.hpp"
+#include "mms/core/hash_noise.hpp"
 
 namespace mms {
 namespace {

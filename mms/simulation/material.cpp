@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mms/simulation/hash_noise.hpp"
+#include "mms/core/hash_noise.hpp"
 
 namespace mms {
 namespace {

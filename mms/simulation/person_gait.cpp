@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "mms/simulation/hash_noise.hpp"
+#include "mms/core/hash_noise.hpp"
 #include "mms/simulation/person_shapes.hpp"
 
 namespace mms {

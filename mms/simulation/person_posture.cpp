@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mms/simulation/hash_noise.hpp"
+#include "mms/core/hash_noise.hpp"
 #include "mms/simulation/person_parts.hpp"
 #include "mms/simulation/person_shapes.hpp"
 

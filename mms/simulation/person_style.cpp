@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "mms/simulation/hash_noise.hpp"
+#include "mms/core/hash_noise.hpp"
 
 namespace mms {
 namespace {

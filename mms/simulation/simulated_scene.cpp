@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "mms/core/error.hpp"
+#include "mms/core/hash_noise.hpp"
 #include "mms/simulation/camera_ride.hpp"
-#include "mms/simulation/hash_noise.hpp"
 #include "mms/simulation/lidar_scan.hpp"
 #include "mms/simulation/mesh_sampling.hpp"
 #include "mms/simulation/object_visibility.hpp"

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "mms/core/random_stream.hpp"
 #include "mms/simulation/mesh.hpp"
-#include "mms/simulation/random_stream.hpp"
 
 namespace mms {
 

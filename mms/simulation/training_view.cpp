@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "mms/core/random_stream.hpp"
 #include "mms/simulation/agv_model.hpp"
 #include "mms/simulation/object_visibility.hpp"
 #include "mms/simulation/person_model.hpp"
-#include "mms/simulation/random_stream.hpp"
 #include "mms/simulation/stage.hpp"
 
 namespace mms {

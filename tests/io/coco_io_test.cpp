@@ -65,6 +65,22 @@ TEST(CocoIo, RoundTrips) {
   EXPECT_EQ(read_file(folder.path() / "b.json"), read_file(path));
 }
 
+TEST(CocoIo, KeepsTheSplitOfAnImage) {
+  const TempFolder folder;
+  CocoDataset dataset = sample();
+  dataset.images[0].split = "holdout";
+  const auto path = folder.path() / "a.json";
+  write_coco(path, dataset);
+  const CocoDataset read = read_coco(path);
+  EXPECT_EQ(read.images[0].split, "holdout");
+  EXPECT_EQ(read.images[1].split, "");
+  write_coco(folder.path() / "b.json", sample());
+  EXPECT_EQ(read_file(folder.path() / "b.json").find("split"), std::string::npos);
+  expect_in("images[0].split: is a number, a text is wanted",
+            fault_of(R"({"images": [{"id": 7, "file_name": "a", "width": 4, "height": 3,)"
+                     R"("split": 3}], "categories": [], "annotations": []})"));
+}
+
 TEST(CocoIo, AnEmptyDatasetIsOne) {
   const TempFolder folder;
   write_coco(folder.path() / "a.json", {});

@@ -84,5 +84,31 @@ TEST(Rle, SaysWhatIsWrong) {
   expect_in("has a run of -1 pixels", message_of<DataError>([] { rle_from_string("O", 4, 3); }));
 }
 
+/// A cut with holes, at the image's corners and over whole columns.
+TEST(Rle, OfACutIsThatOfTheWholeImage) {
+  for (const auto& [x, y, width, height] : std::vector<std::array<int, 4>>{
+           {0, 0, 7, 5}, {2, 1, 7, 5}, {3, 0, 4, 6}, {0, 1, 7, 1}, {6, 5, 1, 1}}) {
+    Image<std::uint8_t> cut(width, height);
+    for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = (i * 7 + 3) % 5 < 3 ? 1 : 0;
+    Image<std::uint8_t> whole(9, 6);
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) whole(x + u, y + v) = cut(u, v);
+    }
+    EXPECT_EQ(encode_rle(cut, x, y, 9, 6), encode_rle(whole));
+    const Image<std::uint8_t> full(width, height, 1);
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) whole(x + u, y + v) = 1;
+    }
+    EXPECT_EQ(encode_rle(full, x, y, 9, 6), encode_rle(whole));
+  }
+  const Image<std::uint8_t> none(3, 2);
+  EXPECT_EQ(encode_rle(none, 1, 1, 9, 6), encode_rle(Image<std::uint8_t>(9, 6)));
+}
+
+TEST(Rle, ACutThatReachesOutOfItsImageIsRefused) {
+  EXPECT_THROW(encode_rle(Image<std::uint8_t>(3, 2, 1), 7, 0, 9, 6), DataError);
+  EXPECT_THROW(encode_rle(Image<std::uint8_t>(3, 2, 1), -1, 0, 9, 6), DataError);
+}
+
 }  // namespace
 }  // namespace mms

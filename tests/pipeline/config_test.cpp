@@ -35,6 +35,8 @@ class Checker : public ConfigVisitor {
     EXPECT_EQ(different.size(), choices.size()) << path(info);
   }
 
+  void text(const FieldInfo& info, std::string&) override { expect_sound(info); }
+
   const std::set<std::string>& paths() const { return paths_; }
   std::size_t open_groups() const { return groups_.size(); }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "mms/io/coco_io.hpp"
 #include "mms/io/ply_io.hpp"
 #include "mms/io/trajectory_io.hpp"
 #include "tests/io/temp_folder.hpp"
@@ -102,7 +103,7 @@ TEST(EvalMap, FaultsAreOneLine) {
 TEST(EvalResidue, OfTheScenesOwnMapIsSmall) {
   const TempFolder folder;
   const std::string still = "sim:corridor?ride=still&crossing=1&width=320&frames=12";
-  expect_done(run_mms(folder.path(), {"run", still, "-o", "out"}));
+  expect_done(run_mms(folder.path(), {"run", still, "--segmenter", "masks", "-o", "out"}));
   const auto json =
       json_of(run_mms(folder.path(), {"eval", "residue", still, "out/static_map.ply", "--json"}));
   EXPECT_EQ(keys_of(json), (Keys{"points", "seen", "residue", "residue_percent"}));
@@ -117,6 +118,98 @@ TEST(EvalResidue, FaultsAreOneLine) {
   expect_fault(run_mms(folder.path(), {"eval", "residue", "hall", "map.ply"}),
                "hall: has no depth images");
   expect_fault(run_mms(folder.path(), {"eval", "residue", "nowhere", "map.ply"}), "nowhere: ");
+}
+
+/// One person and one vehicle in two images, the first of which is for training.
+CocoDataset two_images() {
+  const Rle mask{4, 3, {3, 6, 3}};
+  CocoDataset truth;
+  truth.images = {{1, "a.png", 4, 3, "train"}, {2, "b.png", 4, 3, "holdout"}};
+  truth.categories = {{1, "person"}, {2, "agv"}};
+  truth.annotations = {coco_annotation(1, 1, 1, mask), coco_annotation(2, 2, 2, mask)};
+  return truth;
+}
+
+/// A folder with the truth, and results that have the person but not the vehicle.
+class EvalSegmentation : public ::testing::Test {
+ protected:
+  EvalSegmentation() {
+    const CocoDataset truth = two_images();
+    write_coco(folder_.path() / "truth.json", truth);
+    write_coco_results(folder_.path() / "found.json",
+                       {{1, 1, 0.9, truth.annotations[0].segmentation}});
+  }
+
+  Outcome run(const std::vector<std::string>& more, const std::string& truth = "truth.json",
+              const std::string& found = "found.json") const {
+    std::vector<std::string> arguments = {"eval", "segmentation", truth, found};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_mms(folder_.path(), arguments);
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(EvalSegmentation, JsonHasTheContractsKeys) {
+  const Keys keys = {"AP",  "AP50", "AP75",  "APs", "APm", "APl",
+                     "AR1", "AR10", "AR100", "ARs", "ARm", "ARl"};
+  const auto json = json_of(run({"--json"}));
+  Keys with_classes = keys;
+  with_classes.insert("per_class");
+  EXPECT_EQ(keys_of(json), with_classes);
+  EXPECT_EQ(keys_of(json["per_class"]), (Keys{"agv", "person"}));
+  EXPECT_EQ(keys_of(json["per_class"]["agv"]), keys);
+  EXPECT_NEAR(json["AP"], 0.5, 1e-9);
+  EXPECT_NEAR(json["per_class"]["person"]["AP"], 1.0, 1e-9);
+  EXPECT_NEAR(json["per_class"]["agv"]["AP"], 0.0, 1e-9);
+  EXPECT_TRUE(json["APl"].is_null());
+}
+
+TEST_F(EvalSegmentation, TheTableHasALineAClass) {
+  const Outcome outcome = run({});
+  expect_done(outcome);
+  expect_in("2 images with 2 objects; 1 of 1 results", outcome.out);
+  expect_in("\nperson  1.000  1.000  1.000  1.000    n/a", outcome.out);
+  expect_in("\nagv     0.000", outcome.out);
+  expect_in("\nall     0.500", outcome.out);
+}
+
+TEST_F(EvalSegmentation, OneClassOrSplitAlone) {
+  const auto person = json_of(run({"--json", "--category", "person"}));
+  EXPECT_EQ(keys_of(person["per_class"]), (Keys{"person"}));
+  EXPECT_NEAR(person["AP"], 1.0, 1e-9);
+  const auto holdout = json_of(run({"--json", "--split", "holdout"}));
+  EXPECT_NEAR(holdout["AP"], 0.0, 1e-9);
+  EXPECT_TRUE(holdout["per_class"]["person"]["AP"].is_null());
+}
+
+TEST_F(EvalSegmentation, WrongNamesAreOneLine) {
+  expect_fault(run({"--category", "cat"}),
+               "truth.json: has no class 'cat' (its classes are: agv, person)");
+  expect_fault(run({"--split", "test"}),
+               "truth.json: has no images of the split 'test' (its splits are: holdout, train)");
+}
+
+TEST_F(EvalSegmentation, BrokenFilesAreOneLine) {
+  folder_.write("cut.json", R"([{"image_id": 1)");
+  folder_.write("empty.json", "");
+  folder_.write("number.json", "[3]");
+  folder_.write("stranger.json", R"([{"image_id": 9, "category_id": 1, "score": 0.5,)"
+                                 R"("segmentation": {"size": [3, 4], "counts": [12]}}])");
+  folder_.write("turned.json", R"([{"image_id": 1, "category_id": 1, "score": 0.5,)"
+                               R"("segmentation": {"size": [4, 3], "counts": [12]}}])");
+  const auto fault = [&](const std::string& found, const std::string& part) {
+    expect_fault(run({}, "truth.json", found), part);
+  };
+  fault("missing.json", "missing.json: ");
+  fault("cut.json", "cut.json: is no JSON: parse error");
+  fault("empty.json", "empty.json: is no JSON: parse error");
+  fault("number.json", "number.json: [0]: is a number, an object is wanted");
+  fault("truth.json", "truth.json: is no list of results");
+  fault("stranger.json", "stranger.json: [0].image_id: is 9, there is no such image");
+  fault("turned.json", "turned.json: [0].segmentation: is of 3 x 4 px, its image 1 of 4 x 3 px");
+  expect_fault(run({}, "cut.json"), "cut.json: is no JSON: parse error");
+  expect_fault(run({}, "found.json"), "found.json: is a list, as results are");
 }
 
 /// The reference implementations' values for the shared trajectories.
@@ -177,6 +270,25 @@ TEST(EvalGold, Freiburg3WalkingXyz) {
                0.013790642,
                0.012320494,
                0.057617119});
+}
+
+TEST(EvalGold, CocoMasks) {
+  const fs::path shared = fs::path(MMS_SOURCE_DIR) / "../shared/data/coco_eval";
+  if (!fs::exists(shared)) GTEST_SKIP() << "no shared data in ../shared/data";
+  const TempFolder folder;
+  const auto json = json_of(
+      run_mms(folder.path(), {"eval", "segmentation", shared / "instances_val2014_100.json",
+                              shared / "instances_val2014_fakesegm100_results.json", "--json"}));
+  const std::map<std::string, double> gold = {
+      {"AP", 0.3195452758576433},  {"AP50", 0.5622883972521636},  {"AP75", 0.29892653412086784},
+      {"APs", 0.3873740315997838}, {"APm", 0.31018272403369485},  {"APl", 0.3269339071005138},
+      {"AR1", 0.2682297225711534}, {"AR10", 0.41544868114906375}, {"AR100", 0.4168394992198818},
+      {"ARs", 0.4694498622754236}, {"ARm", 0.37675922666197265},  {"ARl", 0.3814715099715099}};
+  for (const auto& [key, value] : gold) EXPECT_NEAR(json[key], value, 1e-9) << key;
+  const auto& person = json["per_class"]["person"];
+  EXPECT_NEAR(person["AP"], 0.2698816207265341, 1e-9);
+  EXPECT_NEAR(person["AP50"], 0.6131378135415071, 1e-9);
+  EXPECT_NEAR(person["AP75"], 0.17882861007060288, 1e-9);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "mms/simulation/hash_noise.hpp"
+#include "mms/core/hash_noise.hpp"
 #include "mms/simulation/sensor_preset.hpp"
 
 namespace mms {

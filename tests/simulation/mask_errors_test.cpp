@@ -267,6 +267,7 @@ class KeyVisitor : public ConfigVisitor {
   void choice(const FieldInfo& info, int&, std::span<const std::string_view>) override {
     keys.emplace_back(info.key);
   }
+  void text(const FieldInfo& info, std::string&) override { keys.emplace_back(info.key); }
 
  protected:
   void begin_group(const FieldInfo&) override {}

@@ -1,4 +1,4 @@
-#include "mms/pipeline/bounded_queue.hpp"
+#include "mms/core/bounded_queue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "mms/simulation/hash_noise.hpp"
+#include "mms/core/hash_noise.hpp"
 
 namespace mms {
 

@@ -1,0 +1,101 @@
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "mms/core/error.hpp"
+#include "mms/io/atomic_file.hpp"
+#include "mms/io/half_float.hpp"
+#include "mms/io/safetensors.hpp"
+#include "mms/io/safetensors_header.hpp"
+
+namespace mms {
+namespace {
+
+std::size_t step_of(TensorType type) {
+  return type == TensorType::kFloat32 ? sizeof(float) : sizeof(std::uint16_t);
+}
+
+template <class Unsigned>
+void append_little_endian(Unsigned value, std::vector<std::uint8_t>& bytes) {
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
+    bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  }
+}
+
+void check_tensor(const std::string& name, const WeightTensor& tensor, const std::string& where) {
+  if (name == kSafetensorsMetadata) {
+    throw DataError(where, "a tensor may not be called '" + name + "'");
+  }
+  std::int64_t count = 1;
+  for (const std::int64_t side : tensor.shape) {
+    if (side < 0 || __builtin_mul_overflow(count, side, &count)) count = -1;
+    if (count < 0) break;
+  }
+  if (count == static_cast<std::int64_t>(tensor.values.size())) return;
+  throw DataError(where, "tensor '" + name + "' has " + std::to_string(tensor.values.size()) +
+                             " values, which is not the product of its shape");
+}
+
+/// Places the tensors one after another and describes them; padded with spaces to whole words.
+std::string describe(const Weights& weights, TensorType type, const std::string& where) {
+  const std::size_t step = step_of(type);
+  nlohmann::ordered_json header = nlohmann::ordered_json::object();
+  if (!weights.metadata.empty()) header[std::string(kSafetensorsMetadata)] = weights.metadata;
+  std::size_t end = 0;
+  for (const auto& [name, tensor] : weights.tensors) {
+    check_tensor(name, tensor, where);
+    const std::size_t begin = end;
+    end += tensor.values.size() * step;
+    header[name] = {{"dtype", type == TensorType::kFloat32 ? "F32" : "F16"},
+                    {"shape", tensor.shape},
+                    {"data_offsets", {begin, end}}};
+  }
+  try {
+    std::string text = header.dump();
+    text.append((kSafetensorsLength - text.size() % kSafetensorsLength) % kSafetensorsLength, ' ');
+    return text;
+  } catch (const nlohmann::json::exception&) {
+    throw DataError(where, "a tensor's name or a text of the metadata is no UTF-8");
+  }
+}
+
+void append_value(float value, TensorType type, const std::string& name, std::size_t index,
+                  const std::string& where, std::vector<std::uint8_t>& bytes) {
+  if (type == TensorType::kFloat32) {
+    if (!std::isfinite(value)) {
+      fail_value(where, name, index, value, std::numeric_limits<float>::max());
+    }
+    append_little_endian(std::bit_cast<std::uint32_t>(value), bytes);
+  } else {
+    constexpr double kLargestHalf = 65504.0;
+    const std::optional<std::uint16_t> half = half_from_float(value);
+    if (!half) fail_value(where, name, index, value, kLargestHalf);
+    append_little_endian(*half, bytes);
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_safetensors(const Weights& weights, TensorType type,
+                                             const std::string& where) {
+  const std::string header = describe(weights, type, where);
+  std::size_t size = kSafetensorsLength + header.size();
+  for (const auto& [name, tensor] : weights.tensors) size += tensor.values.size() * step_of(type);
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(size);
+  append_little_endian<std::uint64_t>(header.size(), bytes);
+  bytes.insert(bytes.end(), header.begin(), header.end());
+  for (const auto& [name, tensor] : weights.tensors) {
+    for (std::size_t i = 0; i < tensor.values.size(); ++i) {
+      append_value(tensor.values[i], type, name, i, where, bytes);
+    }
+  }
+  return bytes;
+}
+
+void write_safetensors(const std::filesystem::path& path, const Weights& weights, TensorType type) {
+  write_file(path, encode_safetensors(weights, type, path.string()));
+}
+
+}  // namespace mms

@@ -1,0 +1,74 @@
+#include "mms/evaluation/mask_iou.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/evaluation/coco_cases.hpp"
+
+namespace mms {
+namespace {
+
+Image<std::uint8_t> random_mask(std::mt19937& random, double share) {
+  std::bernoulli_distribution on(share);
+  Image<std::uint8_t> mask(13, 7);
+  for (std::uint8_t& pixel : mask.pixels()) pixel = on(random) ? 1 : 0;
+  return mask;
+}
+
+TEST(MaskIou, CountsThePixelsOfRandomMasks) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 300; ++i) {
+    const auto a = random_mask(random, 0.1 * (i % 11));
+    const auto b = random_mask(random, 0.1 * (i % 7));
+    std::uint64_t common = 0;
+    std::uint64_t either = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      common += a[k] & b[k];
+      either += a[k] | b[k];
+    }
+    const Rle runs_a = encode_rle(a);
+    const Rle runs_b = encode_rle(b);
+    EXPECT_EQ(mask_intersection(runs_a, runs_b), common);
+    const double iou =
+        either == 0 ? 0.0 : static_cast<double>(common) / static_cast<double>(either);
+    EXPECT_EQ(mask_iou(MeasuredMask(runs_a), MeasuredMask(runs_b), false), iou);
+  }
+}
+
+TEST(MaskIou, OfACrowdIsTheShareOfTheDetection) {
+  const Rle detection = test::box(0, 0, 10, 10);
+  const Rle crowd = test::box(0, 5, 100, 50);
+  const MeasuredMask a(detection);
+  const MeasuredMask b(crowd);
+  EXPECT_EQ(mask_iou(a, b, true), 0.5);
+  EXPECT_EQ(mask_iou(a, b, false), 50.0 / 5050.0);
+}
+
+TEST(MaskIou, MasksThatOnlyTouchHaveNone) {
+  const Rle a = test::box(0, 0, 10, 10);
+  const Rle right = test::box(10, 0, 10, 10);
+  const Rle below = test::box(0, 10, 10, 10);
+  EXPECT_EQ(mask_iou(MeasuredMask(a), MeasuredMask(right), false), 0.0);
+  EXPECT_EQ(mask_iou(MeasuredMask(a), MeasuredMask(below), true), 0.0);
+}
+
+TEST(MaskIou, RunsOfLengthZeroMakeNoDifference) {
+  const Rle plain{2, 4, {1, 5, 2}};
+  const Rle odd{2, 4, {0, 0, 1, 3, 0, 2, 0, 0, 2}};
+  EXPECT_EQ(mask_intersection(odd, odd), 5U);
+  EXPECT_EQ(mask_intersection(plain, odd), 5U);
+  EXPECT_EQ(mask_iou(MeasuredMask(plain), MeasuredMask(odd), false), 1.0);
+}
+
+TEST(MaskIou, EmptyMasksHaveNone) {
+  const Rle empty = test::box(0, 0, 0, 0);
+  const Rle all = test::box(0, 0, 100, 100);
+  const Rle nothing;
+  EXPECT_EQ(mask_iou(MeasuredMask(empty), MeasuredMask(empty), false), 0.0);
+  EXPECT_EQ(mask_iou(MeasuredMask(empty), MeasuredMask(all), true), 0.0);
+  EXPECT_EQ(mask_intersection(nothing, nothing), 0U);
+}
+
+}  // namespace
+}  // namespace mms

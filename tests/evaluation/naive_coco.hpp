@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "mms/evaluation/segmentation_scores.hpp"
+#include "mms/io/coco_io.hpp"
+
+namespace mms::test {
+
+/// COCO's evaluation of all classes and images once more, written down as pycocotools has it: pixel
+/// by pixel, array by array, with nothing left out or kept for later.
+SegmentationScores naive_scores(const CocoDataset& truth, const std::vector<CocoResult>& results);
+
+}  // namespace mms::test

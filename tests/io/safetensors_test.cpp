@@ -1,0 +1,331 @@
+#include "mms/io/safetensors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "mms/core/error.hpp"
+#include "mms/io/files.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using testing::expect_in;
+using testing::message_of;
+using testing::TempFolder;
+
+std::string length_bytes(std::uint64_t length) {
+  std::string bytes;
+  for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(length >> shift);
+  return bytes;
+}
+
+/// A file of a header and its data.
+std::string file_of(const std::string& header, const std::string& data = "") {
+  return length_bytes(header.size()) + header + data;
+}
+
+Weights parse(const std::string& bytes) {
+  return parse_safetensors({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                           "net.safetensors");
+}
+
+std::string fault_of(const std::string& bytes) {
+  const std::string message = message_of<DataError>([&] { parse(bytes); });
+  EXPECT_TRUE(message.starts_with("net.safetensors: ")) << message;
+  return message;
+}
+
+std::string entry(const std::string& dtype, const std::string& shape, const std::string& offsets,
+                  const std::string& more = "") {
+  return R"({"dtype": ")" + dtype + R"(", "shape": )" + shape + R"(, "data_offsets": )" + offsets +
+         more + "}";
+}
+
+/// A file with the one tensor "a".
+std::string file_with(const std::string& tensor, const std::string& data = "") {
+  return file_of(R"({"a": )" + tensor + "}", data);
+}
+
+const std::string kFour(4, '\0');
+const std::string kEight(8, '\0');
+
+Weights sample() {
+  Weights weights;
+  weights.metadata = {{"format", "pt"}, {"note", "a \"quoted\" ä"}};
+  weights.tensors["conv.weight"] = {{2, 1, 3}, {0.1F, -0.0F, 1e-45F, 6e4F, -1.5F, 1e-30F}};
+  weights.tensors["a.scale"] = {{}, {2.5F}};
+  weights.tensors["empty"] = {{0, 4}, {}};
+  return weights;
+}
+
+void expect_same_bits(const Weights& actual, const Weights& wanted) {
+  EXPECT_EQ(actual, wanted);
+  for (const auto& [name, tensor] : wanted.tensors) {  // == takes -0 for 0
+    for (std::size_t i = 0; i < tensor.values.size(); ++i) {
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(actual.tensors.at(name).values[i]),
+                std::bit_cast<std::uint32_t>(tensor.values[i]));
+    }
+  }
+}
+
+TEST(Safetensors, RoundTripsToTheBit) {
+  const TempFolder folder;
+  const auto path = folder.path() / "a.safetensors";
+  write_safetensors(path, sample());
+  expect_same_bits(read_safetensors(path), sample());
+  write_safetensors(folder.path() / "b.safetensors", read_safetensors(path));
+  EXPECT_EQ(read_file(folder.path() / "b.safetensors"), read_file(path));
+}
+
+TEST(Safetensors, WritesTheFormat) {
+  const TempFolder folder;
+  write_safetensors(folder.path() / "a", {{}, {{"b", {{1}, {1.0F}}}, {"a", {{}, {-2.0F}}}}});
+  const std::string header = R"({"a":{"dtype":"F32","shape":[],"data_offsets":[0,4]},)"
+                             R"("b":{"dtype":"F32","shape":[1],"data_offsets":[4,8]}})";
+  const std::string padding((8 - header.size() % 8) % 8, ' ');
+  EXPECT_EQ(read_file(folder.path() / "a"),
+            file_of(header + padding, std::string("\0\0\0\xC0\0\0\x80\x3F", 8)));
+}
+
+TEST(Safetensors, AnEmptyNetworkIsOne) {
+  EXPECT_EQ(encode_safetensors({}, TensorType::kFloat32, "").size(), 16U);
+  EXPECT_EQ(parse(file_of("{}")), Weights());
+}
+
+TEST(Safetensors, SixteenBitsHalveAndRound) {
+  Weights weights;
+  weights.tensors["a"] = {{2, 2}, {1.0F + 0x1p-11F, 1.0F + 3 * 0x1p-11F, 3 * 0x1p-25F, -65519.0F}};
+  const TempFolder folder;
+  write_safetensors(folder.path() / "a", weights, TensorType::kFloat16);
+  const WeightTensor read = read_safetensors(folder.path() / "a").tensors.at("a");
+  EXPECT_EQ(read.values, (std::vector{1.0F, 1.0F + 0x1p-9F, 0x1p-23F, -65504.0F}));
+  const auto whole = encode_safetensors(weights, TensorType::kFloat32, "");
+  const auto half = encode_safetensors(weights, TensorType::kFloat16, "");
+  EXPECT_LT(half.size(), whole.size());
+}
+
+TEST(Safetensors, ReadsEveryType) {
+  struct Case {
+    const char* type;
+    std::string data;
+    float value;
+  };
+  const std::vector<Case> cases = {{"F32", std::string("\0\0\xA0\xBF", 4), -1.25F},
+                                   {"F16", std::string("\x55\x35", 2), 0.333251953125F},
+                                   {"BF16", std::string("\x49\xC0", 2), -3.140625F},
+                                   {"F64", std::string("\0\0\0\0\0\0\xF4\xBF", 8), -1.25F},
+                                   {"I64", std::string("\xFE\xFF\xFF\xFF\xFF\xFF\xFF\xFF"), -2.0F},
+                                   {"I32", std::string("\x07\0\0\x80", 4), -2147483641.0F}};
+  for (const Case& c : cases) {
+    const std::string offsets = "[0, " + std::to_string(c.data.size()) + "]";
+    EXPECT_EQ(parse(file_with(entry(c.type, "[]", offsets), c.data)).tensors.at("a"),
+              (WeightTensor{{}, {c.value}}))
+        << c.type;
+  }
+}
+
+TEST(Safetensors, TensorsMayLieInAnyOrder) {
+  const Weights weights = parse(file_of(R"({"z": )" + entry("F32", "[1]", "[0, 4]") + R"(, "e": )" +
+                                            entry("F32", "[0]", "[4, 4]") + R"(, "a": )" +
+                                            entry("F16", "[1]", "[4, 6]") + "}   ",
+                                        std::string("\0\0\x80\x3F\0\x40", 6)));
+  EXPECT_EQ(weights.tensors.at("z").values, std::vector{1.0F});
+  EXPECT_EQ(weights.tensors.at("a").values, std::vector{2.0F});
+  EXPECT_TRUE(weights.tensors.at("e").values.empty());
+}
+
+TEST(Safetensors, NamesWhatIsMissingOfAFile) {
+  const TempFolder folder;
+  expect_in("there is no such file",
+            message_of<FileError>([&] { read_safetensors(folder.path() / "none"); }));
+  EXPECT_TRUE(message_of<DataError>([&] {
+                read_safetensors(folder.write("a", "abc"));
+              }).starts_with((folder.path() / "a").string() + ": is truncated: 5 of its 8 bytes"));
+  expect_in("is truncated: 8 of its 8 bytes are missing", fault_of(""));
+  const std::string whole = file_with(entry("F32", "[2]", "[0, 8]"), kEight);
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    expect_in("is truncated: ", fault_of(whole.substr(0, size)));
+  }
+  expect_in("is truncated: 3 of its " + std::to_string(whole.size()) + " bytes are missing",
+            fault_of(whole.substr(0, whole.size() - 3)));
+  expect_in("has 1 bytes after its last tensor", fault_of(whole + " "));
+  expect_in("has 4 bytes after its last tensor", fault_of(file_of("{}", kFour)));
+}
+
+TEST(Safetensors, RefusesAnAbsurdLength) {
+  expect_in("its header would be of 100000001 bytes, allowed is up to 100000000",
+            fault_of(length_bytes(100'000'001) + "{}"));
+  expect_in("its header would be of 18446744073709551615 bytes",
+            fault_of(length_bytes(~std::uint64_t{0}) + "{}"));
+  expect_in("is truncated: 99999998 of its 100000008 bytes are missing",
+            fault_of(length_bytes(100'000'000) + "{}"));
+  expect_in("is it a safetensors file? a .pth has to be converted",  // a zip, as PyTorch writes
+            fault_of("PK\x03\x04\x14\x08\x08\x08 archive/data.pkl"));
+}
+
+TEST(Safetensors, RefusesWhatIsNoObject) {
+  expect_in("its header does not begin with '{'", fault_of(file_of("")));
+  expect_in("its header does not begin with '{'", fault_of(file_of("[1]")));
+  expect_in("its header does not begin with '{'", fault_of(file_of(" {}")));
+  expect_in("its header is no JSON: parse error at line 1, column 2", fault_of(file_of("{")));
+  expect_in("its header is no JSON: parse error", fault_of(file_of("{} {}")));
+  expect_in("its header is no JSON: parse error", fault_of(file_of("{\"\xFF\": 1}")));
+  expect_in("a: is a number, an object is wanted", fault_of(file_with("3")));
+  expect_in("a: is a list, an object is wanted", fault_of(file_with("[1]")));
+  expect_in("a: is a null, an object is wanted", fault_of(file_with("null")));
+}
+
+TEST(Safetensors, RefusesNamesThatAreThereTwice) {
+  const std::string tensor = entry("F32", "[0]", "[0, 0]");
+  expect_in("has the name 'a' twice", fault_of(file_of(R"({"a": )" + tensor + R"(, "b": )" +
+                                                       tensor + R"(, "a": )" + tensor + "}")));
+  expect_in("has the name 'dtype' twice",
+            fault_of(file_with(entry("F32", "[0]", "[0, 0]", R"(, "dtype": "F16")"))));
+  expect_in("has the name 'x' twice",
+            fault_of(file_of(R"({"__metadata__": {"x": "1", "x": "2"}})")));
+  EXPECT_EQ(
+      parse(file_of(R"({"dtype": )" + tensor + R"(, "shape": )" + tensor + "}")).tensors.size(),
+      2U);
+}
+
+TEST(Safetensors, RefusesNesting) {
+  for (const auto& [open, close] :
+       std::vector<std::pair<std::string, std::string>>{{"[", "]"}, {R"({"a": )", "}"}}) {
+    std::string bomb = R"({"a": )";
+    for (int i = 0; i < 1'000'000; ++i) bomb += open;
+    expect_in("its header is nested more than 3 deep", fault_of(file_of(bomb)));
+    expect_in("its header is nested more than 3 deep",
+              fault_of(file_with(open + open + open + "1" + close + close + close)));
+  }
+  expect_in("nested more than 3", fault_of(file_with(entry("F32", "[[1]]", "[0, 4]"), kFour)));
+}
+
+TEST(Safetensors, NamesTheEntryThatIsWrong) {
+  const auto fault = [](const std::string& dtype, const std::string& shape,
+                        const std::string& offsets, const std::string& more = "") {
+    return fault_of(file_with(entry(dtype, shape, offsets, more), kEight));
+  };
+  expect_in("a.dtype: is 'I8', allowed are F32, F16, BF16, F64, I64, I32", fault("I8", "[]", "[]"));
+  expect_in("a: has no key 'dtype'", fault_of(file_with("{}")));
+  expect_in("a.dtype: is a number", fault_of(file_with(R"({"dtype": 1})")));
+  expect_in("a: has no key 'shape'", fault_of(file_with(R"({"dtype": "F32"})")));
+  expect_in("a: has no key 'data_offsets'",
+            fault_of(file_with(R"({"dtype": "F32", "shape": []})")));
+  expect_in("a: has the unknown key 'stride', allowed are dtype, shape, data_offsets",
+            fault("F32", "[2]", "[0, 8]", R"(, "stride": [1])"));
+  expect_in("a.shape: is a number, a list is wanted", fault("F32", "2", "[0, 8]"));
+  expect_in("a.shape[1]: is -2, allowed is 0 to 9e+18", fault("F32", "[1, -2]", "[0, 8]"));
+  expect_in("a.shape[0]: is a string, a number is wanted", fault("F32", R"(["2"])", "[0, 8]"));
+  expect_in("has the floating-point number 2, allowed are whole numbers",
+            fault("F32", "[2.0]", "[0, 8]"));
+  expect_in("has the floating-point number 1e+20, allowed are whole numbers below 2^63",
+            fault("F32", "[100000000000000000000]", "[0, 8]"));
+  expect_in("a.shape[0]: is 1.844", fault("F32", "[18446744073709551615]", "[0, 8]"));
+  expect_in("a.shape: is of more bytes than 64 bits count",
+            fault("F32", "[4611686018427387904]", "[0, 0]"));
+  expect_in("a.shape: is of more bytes than 64 bits count",
+            fault("F32", "[4294967296, 4294967296, 0]", "[0, 0]"));
+  expect_in("a.data_offsets: has 1 numbers", fault("F32", "[2]", "[8]"));
+  expect_in("a.data_offsets: end at byte 0, before they begin at byte 8",
+            fault("F32", "[2]", "[8, 0]"));
+  expect_in("a.data_offsets[0]: is -8, allowed is 0 to 9e+18", fault("F32", "[2]", "[-8, 0]"));
+  expect_in("a.data_offsets: hold 8 bytes, shape and dtype make 12", fault("F32", "[3]", "[0, 8]"));
+  expect_in("a.data_offsets: hold 8 bytes, shape and dtype make 16", fault("F64", "[2]", "[0, 8]"));
+}
+
+TEST(Safetensors, RefusesDataOfNobodyAndOfTwo) {
+  const auto two = [](const std::string& first, const std::string& second) {
+    return fault_of(file_of(
+        R"({"a": )" + entry("F32", "[1]", first) + R"(, "b": )" + entry("F32", "[1]", second) + "}",
+        kEight));
+  };
+  expect_in("tensor 'b' begins at byte 2 of the data, where byte 4 is the first that is free",
+            two("[0, 4]", "[2, 6]"));
+  expect_in("tensor 'b' begins at byte 0 of the data", two("[0, 4]", "[0, 4]"));
+  expect_in("no tensor has the 4 bytes of data before 'b'", two("[0, 4]", "[8, 12]"));
+  expect_in("no tensor has the 2 bytes of data before 'a'", two("[2, 6]", "[6, 10]"));
+  expect_in("is truncated: 4 of its", fault_of(file_with(entry("F32", "[3]", "[0, 12]"), kEight)));
+  expect_in("is truncated: 8000000000000000000 of its",  // and nothing of that size is allocated
+            fault_of(file_with(entry("F64", "[1000000000000000000]", "[0, 8000000000000000000]"))));
+}
+
+TEST(Safetensors, RefusesMetadataThatIsNoText) {
+  expect_in("__metadata__.epoch: is a number, a text is wanted",
+            fault_of(file_of(R"({"__metadata__": {"epoch": 3}})")));
+  expect_in("__metadata__: is no object of texts", fault_of(file_of(R"({"__metadata__": ["x"]})")));
+  expect_in("__metadata__: is no object of texts", fault_of(file_of(R"({"__metadata__": null})")));
+}
+
+TEST(Safetensors, RefusesValuesThatAreNoFloats) {
+  const auto second = [](const std::string& type, const std::string& bits) {
+    const std::string offsets = "[0, " + std::to_string(2 * bits.size()) + "]";
+    return fault_of(file_with(entry(type, "[2]", offsets), std::string(bits.size(), '\0') + bits));
+  };
+  expect_in("tensor 'a': value 1 is nan, allowed is -3.40", second("F32", {"\0\0\xC0\x7F", 4}));
+  expect_in("tensor 'a': value 1 is -inf", second("F32", {"\0\0\x80\xFF", 4}));
+  expect_in("tensor 'a': value 1 is inf", second("F16", {"\0\x7C", 2}));
+  expect_in("tensor 'a': value 1 is nan", second("BF16", {"\xC0\x7F", 2}));
+  expect_in("tensor 'a': value 1 is 1e+300",
+            second("F64", {"\x9C\x75\x00\x88\x3C\xE4\x37\x7E", 8}));
+}
+
+TEST(Safetensors, WritesNothingThatItWouldNotRead) {
+  const TempFolder folder;
+  const auto path = folder.path() / "net";
+  const auto fault = [&](const std::string& name, const WeightTensor& tensor, TensorType type) {
+    Weights weights;
+    weights.tensors[name] = tensor;
+    const auto message = message_of<DataError>([&] { write_safetensors(path, weights, type); });
+    EXPECT_TRUE(message.starts_with(path.string() + ": ")) << message;
+    EXPECT_TRUE(list_folder(folder.path()).empty());
+    return message;
+  };
+  expect_in("tensor 'a': value 1 is 65520, allowed is -65504 to 65504",
+            fault("a", {{2}, {1.0F, 65520.0F}}, TensorType::kFloat16));
+  expect_in("tensor 'a': value 0 is nan", fault("a", {{1}, {std::nanf("")}}, TensorType::kFloat16));
+  expect_in("tensor 'a': value 0 is -inf",
+            fault("a", {{1}, {-std::numeric_limits<float>::infinity()}}, TensorType::kFloat32));
+  expect_in("tensor 'a' has 3 values, which is not the product of its shape",
+            fault("a", {{2, 2}, {1, 2, 3}}, TensorType::kFloat32));
+  expect_in("tensor 'a' has 1 values", fault("a", {{-1, -1}, {1}}, TensorType::kFloat32));
+  expect_in("tensor 'a' has 0 values",
+            fault("a", {{1LL << 32, 1LL << 32}, {}}, TensorType::kFloat32));
+  expect_in("a tensor may not be called '__metadata__'",
+            fault("__metadata__", {{}, {1}}, TensorType::kFloat32));
+  expect_in("is no UTF-8", fault("\xFF", {{}, {1}}, TensorType::kFloat32));
+}
+
+TEST(Safetensors, OneWrongByteIsNeverWorseThanADataError) {
+  const auto bytes = encode_safetensors(sample(), TensorType::kFloat16, "");
+  const std::string whole(bytes.begin(), bytes.end());
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    for (const char wrong : {'\0', '\xFF', '"', '9', '-', '[', '}', ' ', ',', '\x7C'}) {
+      std::string changed = whole;
+      changed[at] = wrong;
+      try {
+        parse(changed);
+      } catch (const DataError&) {
+        continue;  // anything else fails the test
+      }
+    }
+  }
+}
+
+TEST(Safetensors, ReadsTheSharedFile) {
+  const auto path = std::filesystem::path(MMS_SOURCE_DIR) /
+                    "../shared/data/weights/resnet18_imagenet_partial.safetensors";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";
+  const Weights weights = read_safetensors(path);
+  EXPECT_EQ(weights.tensors.size(), 38U);
+  EXPECT_EQ(weights.metadata.at("format"), "pt");
+  const WeightTensor& stem = weights.tensors.at("conv1.weight");
+  EXPECT_EQ(stem.shape, (std::vector<std::int64_t>{64, 3, 7, 7}));
+  EXPECT_EQ(stem.values.size(), 9408U);
+}
+
+}  // namespace
+}  // namespace mms
