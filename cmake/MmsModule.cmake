@@ -24,11 +24,15 @@ endif()
 
 set_property(GLOBAL PROPERTY MMS_MODULES "")
 
-# mms_module(NAME [PUBLIC lib...] [PRIVATE lib...]): the target mms_NAME (alias mms::NAME) of all
-# sources in mms/NAME; a module of headers alone becomes an interface library.
+# mms_module(NAME [FOLDER dir] [PUBLIC lib...] [PRIVATE lib...]): the target mms_NAME (alias
+# mms::NAME) of all sources in mms/NAME, or in mms/FOLDER; one of headers alone becomes an interface
+# library.
 function(mms_module name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/mms/${name}/*.cpp)
+  cmake_parse_arguments(ARG "" "FOLDER" "PUBLIC;PRIVATE" ${ARGN})
+  if(NOT ARG_FOLDER)
+    set(ARG_FOLDER ${name})
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/mms/${ARG_FOLDER}/*.cpp)
   if(sources)
     add_library(mms_${name} STATIC ${sources})
     set(scope PUBLIC)

@@ -8,10 +8,15 @@
 #include "config_command.hpp"
 #include "doctor_command.hpp"
 #include "eval_command.hpp"
+#include "import_command.hpp"
 #include "info_command.hpp"
 #include "mms/core/error.hpp"
 #include "run_command.hpp"
+#include "segment_command.hpp"
 #include "simulate_command.hpp"
+#ifdef MMS_WITH_TORCH
+#include "train_command.hpp"
+#endif
 #include "usage.hpp"
 
 namespace {
@@ -36,6 +41,11 @@ int main(int argc, char** argv) {
   mms::add_run_command(app);
   mms::add_eval_command(app);
   mms::add_simulate_command(app);
+  mms::add_segment_command(app);
+  mms::add_import_command(app);
+#ifdef MMS_WITH_TORCH
+  mms::add_train_command(app);
+#endif
   mms::add_info_command(app);
   mms::add_config_command(app);
   mms::add_doctor_command(app);

@@ -14,8 +14,10 @@ class RateProgress {
   explicit RateProgress(std::string what) : what_(std::move(what)) {}
 
   /// @param fresh  how many of `done` were done since the start, and not before
-  void show(int done, int total, int fresh);
+  /// @param note   what to say behind it
+  void show(int done, int total, int fresh, const std::string& note = "");
   void show(int done, int total) { show(done, total, done); }
+  void say(const std::string& message) { status_.warn(message); }
   void finish() { status_.finish(); }
 
   double seconds() const;  ///< since the start

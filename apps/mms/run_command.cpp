@@ -18,6 +18,7 @@
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/segmentation/mask_segmenter.hpp"
 #include "mms/segmentation/none_segmenter.hpp"
+#include "network_detector.hpp"
 #include "progress.hpp"
 #include "result_folder.hpp"
 #include "run_log.hpp"
@@ -42,14 +43,15 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source)
   return config;
 }
 
-std::unique_ptr<Segmenter> make_segmenter(const RunOptions& options, const FrameSource& source) {
-  const bool has_masks = source.has_masks();
-  if (options.segmenter == "masks" && !has_masks) {
+std::unique_ptr<Segmenter> make_segmenter(const RunOptions& options, const SystemConfig& config,
+                                          const FrameSource& source) {
+  if (options.segmenter == "none") return std::make_unique<NoneSegmenter>();
+  if (options.segmenter == "network") return make_network_segmenter(config.segmentation);
+  if (!source.has_masks()) {
     throw DataError(options.data, "has no masks",
                     "put label images into its masks/ folder, give --masks DIR, or choose "
-                    "--segmenter none");
+                    "--segmenter network or none");
   }
-  if (options.segmenter == "none" || !has_masks) return std::make_unique<NoneSegmenter>();
   return std::make_unique<MaskSegmenter>();
 }
 
@@ -90,12 +92,12 @@ void run(const RunOptions& options) {
       options.data, {.masks = options.masks, .load_masks = options.segmenter != "none"});
   const SystemConfig config = load_settings(options, *source);
   check_range(options, *source);
-  SlamSystem system(config, make_segmenter(options, *source));
+  SlamSystem system(config, make_segmenter(options, config, *source));
   const ResultFolder folder(options.output, options.data);
 
   Progress progress(std::min(options.frames, source->size() - options.start));
   source->on_warning([&](const std::string& message) { progress.warn(message); });
-  RunLog log(source->ground_truth());
+  RunLog log(source->ground_truth(), options.segmenter == "network");
   const InterruptGuard interrupt;
   AsyncPipeline pipeline(threads_of(options));
   pipeline.run(system, limited(*source, options), [&](const Processed& processed) {
@@ -130,10 +132,10 @@ void add_run_command(CLI::App& app) {
                       "folder for the results (default: results/<time>_<name>)");
   command
       ->add_option("--segmenter", options->segmenter,
-                   "where masks of people and vehicles come from; auto: the recording's masks if "
-                   "it has any")
-      ->check(CLI::IsMember({"auto", "masks", "none"}))
-      ->capture_default_str();
+                   "where masks of people and vehicles come from: a network, the recording's "
+                   "masks/ (or --masks), or nowhere")
+      ->check(CLI::IsMember({"network", "masks", "none"}))
+      ->default_str("network, or masks with --masks");
   command->add_option("--masks", options->masks, "folder of label images named like the frames");
   command
       ->add_option("--fusion", options->fusion,
@@ -151,7 +153,11 @@ void add_run_command(CLI::App& app) {
       ->add_option("--threads", options->threads,
                    "threads to use (default: one a core); the results are the same for any number")
       ->check(CLI::Range(1, 256));
-  command->callback([options] { run(*options); });
+  command->callback([options] {
+    if (options->segmenter.empty())
+      options->segmenter = options->masks.empty() ? "network" : "masks";
+    run(*options);
+  });
 }
 
 }  // namespace mms

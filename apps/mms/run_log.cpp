@@ -38,7 +38,8 @@ double LoggedFrame::stages_ms() const {
   return std::accumulate(stage_ms.begin(), stage_ms.end(), read_ms);
 }
 
-RunLog::RunLog(Trajectory truth) : truth_(std::move(truth)) {}
+RunLog::RunLog(Trajectory truth, bool compare_masks)
+    : truth_(std::move(truth)), compare_masks_(compare_masks) {}
 
 void RunLog::add(const Processed& processed) {
   const FrameResult& result = processed.result;
@@ -50,6 +51,9 @@ void RunLog::add(const Processed& processed) {
                      processed.read_ms, interval.count(), result.stage_ms});
   has_image_ = has_image_ || result.cloud.organised();
   keep_picture(processed);
+  if (!compare_masks_ || processed.frame.mask.empty()) return;
+  if (!metrics_.masks) metrics_.masks.emplace();
+  metrics_.masks->add(processed.frame.mask, result.cloud);
 }
 
 void RunLog::keep_picture(const Processed& processed) {

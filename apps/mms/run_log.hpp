@@ -32,7 +32,8 @@ struct LoggedFrame {
 /// Collects what a run's files are written from.
 class RunLog {
  public:
-  explicit RunLog(Trajectory truth);
+  /// @param compare_masks  whether the frames' masks are truth, and not what the run went by
+  RunLog(Trajectory truth, bool compare_masks);
 
   void add(const Processed& processed);
 
@@ -65,6 +66,7 @@ class RunLog {
   std::vector<ReportPicture> pictures_;
   std::size_t picture_stride_ = 1;
   bool has_image_ = false;
+  bool compare_masks_ = false;
   RunMetrics metrics_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();

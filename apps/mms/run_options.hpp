@@ -12,10 +12,9 @@ struct RunOptions {
   std::string data = "sim:warehouse_loop";
   std::filesystem::path config;  ///< empty: the defaults
   std::filesystem::path output;  ///< empty: results/<time>_<name>
-  std::string segmenter =
-      "auto";                   ///< "masks", "none", or "auto": masks where the recording has any
-  std::filesystem::path masks;  ///< empty: the recording's own
-  std::string fusion;           ///< empty: as the config says
+  std::string segmenter;         ///< "network", "masks" or "none"
+  std::filesystem::path masks;   ///< empty: the recording's own
+  std::string fusion;            ///< empty: as the config says
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::size_t start = 0;
   bool realtime = false;

@@ -53,6 +53,7 @@ std::string to_json(const RunMetrics& metrics) {
   if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
   if (metrics.drift) object["drift"] = json_object(metric_values(*metrics.drift));
   if (metrics.map) object["map"] = json_object(metric_values(*metrics.map));
+  if (metrics.masks) object["masks"] = json_object(metric_values(*metrics.masks));
   return object.dump(2) + "\n";
 }
 
@@ -82,6 +83,7 @@ std::vector<MetricValue> metric_values(const RunMetrics& metrics) {
     std::erase_if(map, [](const MetricValue& item) { return item.key == "HA"; });
     append(values, map);
   }
+  if (metrics.masks) append(values, metric_values(*metrics.masks));
   return values;
 }
 

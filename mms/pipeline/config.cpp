@@ -6,6 +6,7 @@ void SystemConfig::visit(ConfigVisitor& v) {
   v.group({"depth_noise", "", "the depth camera's noise, used by every module"}, depth_noise);
   v.number({"lidar_noise", "m", "one sigma of LiDAR range, used by every module"}, lidar_noise,
            {1e-4, 0.5});
+  v.group({"segmentation", "", "people and vehicles in the picture (III-A)"}, segmentation);
   v.group({"fusion", "", "masks and geometry into static and dynamic points (III-B)"}, fusion);
   v.group({"features", "", "edge and planar features (III-C.1)"}, features);
   v.group({"odometry", "", "data association and pose (III-C.2, III-C.3)"}, odometry);

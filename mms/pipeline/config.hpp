@@ -8,6 +8,7 @@
 #include "mms/mapping/dynamic_map.hpp"
 #include "mms/mapping/keyframe_selector.hpp"
 #include "mms/mapping/static_map.hpp"
+#include "mms/segmentation/segmentation_config.hpp"
 
 namespace mms {
 
@@ -15,7 +16,8 @@ namespace mms {
 /// meaning.
 struct SystemConfig {
   DepthNoise depth_noise;
-  double lidar_noise = 0.02;  ///< one sigma of range [m]
+  double lidar_noise = 0.02;        ///< one sigma of range [m]
+  SegmentationConfig segmentation;  ///< of the segmenter that the program makes
   FusionConfig fusion;
   FeatureConfig features;
   OdometryConfig odometry;

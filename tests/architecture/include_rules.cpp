@@ -96,6 +96,7 @@ const Arrows& arrows() {
       {"fusion", {"core", "geometry"}},
       {"localization", {"core", "geometry"}},
       {"mapping", {"core", "geometry"}},
+      {"training", {"core", "geometry", "io", "segmentation", "evaluation"}},
       {"pipeline", {"core", "geometry", "segmentation", "fusion", "localization", "mapping"}},
       {"io", {"core", "geometry"}},
       {"simulation", {"core", "geometry"}},

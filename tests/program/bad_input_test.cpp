@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 using namespace testing;  // NOLINT: helpers of the tests
 
 Outcome run_data(const TempFolder& folder) {
-  return run_mms(folder.path(), {"run", "data", "-o", "out"});
+  const std::string masks = own_masks(folder.path() / "data");
+  return run_mms(folder.path(), {"run", "data", "--segmenter", masks, "-o", "out"});
 }
 
 /// Expects a run of data/ that skipped some frames, saying why in one warning each.
@@ -192,16 +193,18 @@ TEST(BadInput, OutputThatCannotBeWritten) {
   const TempFolder folder;
   folder.write("occupied", "a file");
   const std::string small = "sim:corridor?width=320&frames=2";
-  expect_fault(run_mms(folder.path(), {"run", small, "-o", "occupied"}),
+  expect_fault(run_mms(folder.path(), {"run", small, "--segmenter", "masks", "-o", "occupied"}),
                "occupied: cannot be made a folder");
-  expect_fault(run_mms(folder.path(), {"run", small, "-o", "occupied/below"}),
-               "occupied/below: cannot be made a folder");
+  expect_fault(
+      run_mms(folder.path(), {"run", small, "--segmenter", "masks", "-o", "occupied/below"}),
+      "occupied/below: cannot be made a folder");
 }
 
 TEST(BadInput, AResultThatCannotBeReplaced) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "out/metrics.json/in_the_way");
-  expect_fault(run_mms(folder.path(), {"run", "sim:corridor?width=320&frames=2", "-o", "out"}),
+  expect_fault(run_mms(folder.path(), {"run", "sim:corridor?width=320&frames=2", "--segmenter",
+                                       "masks", "-o", "out"}),
                "out/metrics.json: cannot be written");
 }
 

@@ -17,9 +17,13 @@ using Words = std::vector<std::string>;
 const std::map<Words, Words> kCommands = {
     {{}, {"run", "eval", "simulate", "info", "config", "doctor", "--version"}},
     {{"run"},
-     {"DATA", "-c,--config", "-o,--output", "--segmenter", "masks", "none", "--masks", "--fusion",
-      "multimodal", "vision", "--frames", "--start", "--realtime", "--threads"}},
-    {{"eval"}, {"trajectory", "drift", "map", "residue"}},
+     {"DATA", "-c,--config", "-o,--output", "--segmenter", "network", "masks", "none", "--masks",
+      "--fusion", "multimodal", "vision", "--frames", "--start", "--realtime", "--threads"}},
+    {{"eval"}, {"trajectory", "drift", "map", "residue", "segmentation"}},
+    {{"segment"},
+     {"DATA", "-o,--output", "-c,--config", "--weights", "--annotations", "--split", "--limit",
+      "--threads", "--json-only"}},
+    {{"import"}, {"CHECKPOINT", "-o,--output", "--classes", "--half"}},
     {{"eval", "trajectory"},
      {"REFERENCE", "ESTIMATE", "--json", "--max-difference", "--rpe-delta", "--rpe-unit"}},
     {{"eval", "drift"}, {"ESTIMATE", "--json"}},
@@ -58,9 +62,10 @@ TEST(CommandLine, VersionIsOneLine) {
 TEST(CommandLine, WrongWordsAreUsageFaultsThatNameThem) {
   const TempFolder folder;
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
-  expect_usage_fault(run({}), "a command is wanted: run, eval, simulate, info, config or doctor");
+  expect_usage_fault(run({}), "a command is wanted: run, eval, simulate, segment, import, ");
   expect_usage_fault(run({"rum"}), "'rum'");
-  expect_usage_fault(run({"eval"}), "a command is wanted: trajectory, drift, map or residue");
+  expect_usage_fault(run({"eval"}),
+                     "a command is wanted: trajectory, drift, map, residue or segmentation");
   expect_usage_fault(run({"eval", "trajektory", "a", "b"}), "'trajektory'");
   expect_usage_fault(run({"run", "--frmes", "3"}), "--frmes");
   expect_usage_fault(run({"run", "one", "two"}), "two");

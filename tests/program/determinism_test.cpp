@@ -13,9 +13,11 @@ using namespace testing;  // NOLINT: helpers of the tests
 /// Runs data/ with 1, 2, 2 and 4 threads and expects the same bytes each time.
 void expect_same_bytes(const TempFolder& folder) {
   const std::vector<std::string> threads = {"1", "2", "2", "4"};
+  const std::string masks = own_masks(folder.path() / "data");
   for (std::size_t i = 0; i < threads.size(); ++i) {
     const std::string out = "out" + std::to_string(i);
-    expect_done(run_mms(folder.path(), {"run", "data", "-o", out, "--threads", threads[i]}));
+    expect_done(run_mms(folder.path(),
+                        {"run", "data", "--segmenter", masks, "-o", out, "--threads", threads[i]}));
     for (const char* file : {"trajectory.tum", "static_map.ply", "objects.json"}) {
       const bool same =
           read_file(folder.path() / "out0" / file) == read_file(folder.path() / out / file);

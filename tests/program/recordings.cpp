@@ -127,4 +127,8 @@ std::set<std::string> keys_of(const nlohmann::json& object) {
   return keys;
 }
 
+std::string own_masks(const std::filesystem::path& data) {
+  return std::filesystem::exists(data / "masks") ? "masks" : "none";
+}
+
 }  // namespace mms::testing

@@ -32,4 +32,7 @@ nlohmann::json json_file(const std::filesystem::path& path);
 
 std::set<std::string> keys_of(const nlohmann::json& object);
 
+/// The --segmenter that gives a recording's own masks, if it has any: "masks" or "none".
+std::string own_masks(const std::filesystem::path& data);
+
 }  // namespace mms::testing

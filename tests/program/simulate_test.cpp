@@ -31,7 +31,7 @@ TEST(Simulate, WritesARecordingThatRuns) {
                            "static_truth.ply", "map_truth.ply", "scene.yaml"}) {
     EXPECT_TRUE(fs::is_regular_file(folder.path() / "data" / file)) << file;
   }
-  expect_done(run_mms(folder.path(), {"run", "data", "-o", "out"}));
+  expect_done(run_mms(folder.path(), {"run", "data", "--segmenter", "masks", "-o", "out"}));
   const auto metrics = json_file(folder.path() / "out/metrics.json");
   EXPECT_EQ(keys_of(metrics["map"]), (std::set<std::string>{"SA", "DA", "AA", "HA"}));
   expect_in("SA (static points kept)", read_file(folder.path() / "out/report.html"));
@@ -84,7 +84,8 @@ TEST(Simulate, SaysWhatIsWrong) {
 
 TEST(Simulate, PlaysWithoutFiles) {
   const TempFolder folder;
-  expect_done(run_mms(folder.path(), {"run", "sim:still_walker?frames=3&width=160", "-o", "out"}));
+  expect_done(run_mms(folder.path(), {"run", "sim:still_walker?frames=3&width=160", "--segmenter",
+                                      "masks", "-o", "out"}));
   const auto metrics = json_file(folder.path() / "out/metrics.json");
   EXPECT_EQ(metrics["frames"], 3);
   EXPECT_TRUE(metrics.contains("map"));
@@ -94,7 +95,8 @@ TEST(Simulate, ADamagedTrueMapCostsOnlyTheComparison) {
   const TempFolder folder;
   expect_done(simulate(folder, {"-o", "data"}));
   folder.write("data/map_truth.ply", "ply\n");
-  const Outcome outcome = run_mms(folder.path(), {"run", "data", "-o", "out"});
+  const Outcome outcome =
+      run_mms(folder.path(), {"run", "data", "--segmenter", "masks", "-o", "out"});
   expect_done(outcome);
   EXPECT_EQ(lines_with(outcome, "warning: the map is not evaluated: data/map_truth.ply"), 1);
   EXPECT_FALSE(json_file(folder.path() / "out/metrics.json").contains("map"));

@@ -1,0 +1,57 @@
+#include "network_detector.hpp"
+
+#include "mms/core/error.hpp"
+#include "mms/io/safetensors.hpp"
+#include "mms/segmentation/model.hpp"
+#include "mms/segmentation/onnx/onnx_detector.hpp"
+#ifdef MMS_WITH_TORCH
+#include "mms/segmentation/network/torch_detector.hpp"
+#endif
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFileName = "weights/nano.safetensors";
+
+#ifdef MMS_WITH_TORCH
+std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig& config) {
+  const std::string name = path.string();
+  return std::make_unique<network::TorchDetector>(unpack_model(read_safetensors(path), name), name,
+                                                  config.decoder, config.threads);
+}
+#else
+std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig&) {
+  throw Error(path.string(), "needs libtorch, which this program was built without",
+              "build with -DMMS_WITH_TORCH=ON, or use --segmenter masks or none");
+}
+#endif
+
+}  // namespace
+
+fs::path default_weights() {
+  std::error_code fault;
+  const fs::path program = fs::read_symlink("/proc/self/exe", fault);
+  const fs::path folder = program.parent_path();
+  for (const fs::path& base : {folder / "../share/mms", folder / "../.."}) {
+    if (fs::exists(base / kFileName)) return fs::weakly_canonical(base / kFileName);
+  }
+  throw FileError(kFileName, "is neither in share/mms/ beside the program nor in its source tree",
+                  "name a weights file under segmentation.weights in the settings, or use "
+                  "--segmenter masks or none");
+}
+
+std::unique_ptr<Detector> make_detector(const SegmentationConfig& config) {
+  const fs::path path = config.weights.empty() ? default_weights() : fs::path(config.weights);
+  if (path.extension() == ".onnx") {
+    return std::make_unique<OnnxDetector>(path, config.onnx, config.threads);
+  }
+  return make_solo(path, config);
+}
+
+std::unique_ptr<Segmenter> make_network_segmenter(const SegmentationConfig& config) {
+  return std::make_unique<NetworkSegmenter>(make_detector(config), config.objects);
+}
+
+}  // namespace mms

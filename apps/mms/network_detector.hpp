@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "mms/segmentation/detector.hpp"
+#include "mms/segmentation/segmentation_config.hpp"
+#include "mms/segmentation/segmenter.hpp"
+
+namespace mms {
+
+/// The network that the program comes with: below its folder when installed, in the source tree
+/// when built there. @throws FileError when it is in neither place.
+std::filesystem::path default_weights();
+
+/// The network of the settings: our safetensors, or an ONNX model with YOLO's outputs.
+/// @throws FileError, DataError when the file cannot be read or holds no such network; Error when
+///         the program was built without what it takes.
+std::unique_ptr<Detector> make_detector(const SegmentationConfig& config);
+
+std::unique_ptr<Segmenter> make_network_segmenter(const SegmentationConfig& config);
+
+}  // namespace mms

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace mms {
+
+/// Adds `mms train`.
+void add_train_command(CLI::App& app);
+
+}  // namespace mms

@@ -1,0 +1,10 @@
+# libtorch as the target mms_torch: its headers as those of the system, and without its compiler
+# flags. Debian's package is found by itself; another with -DCMAKE_PREFIX_PATH=.../libtorch.
+find_package(Torch QUIET)
+if(NOT Torch_FOUND)
+  message(FATAL_ERROR "libtorch was not found: install libtorch-dev, give CMAKE_PREFIX_PATH, or "
+                      "build without the network with -DMMS_WITH_TORCH=OFF")
+endif()
+add_library(mms_torch INTERFACE)
+target_include_directories(mms_torch SYSTEM INTERFACE ${TORCH_INCLUDE_DIRS})
+target_link_libraries(mms_torch INTERFACE ${TORCH_LIBRARIES})

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+
+#include "mms/segmentation/layer_shapes.hpp"
+#include "mms/segmentation/network_config.hpp"
+
+namespace mms {
+
+/// How many residual blocks the four stages of a ResNet have, and of which kind.
+struct ResnetLayout {
+  int depth = 50;  ///< layers, as in ResNet-50
+  std::array<int, 4> blocks{};
+  bool bottleneck = false;  ///< 1x1, 3x3, 1x1 instead of two 3x3
+};
+
+/// The ResNets that a network may have: of 18, 34 and 50 layers.
+const std::array<ResnetLayout, 3>& resnet_layouts();
+
+/// Adds a backbone's tensors, which begin with `prefix`: torchvision's names, and DetectoRS' where
+/// it has SAC.
+/// @param feedback  channels of the pyramid that are fed back into stages 2 to 4; 0: none
+void add_backbone(const BackboneConfig& config, const std::string& prefix, std::int64_t feedback,
+                  LayerShapes& layers);
+
+/// Channels of C2 to C5.
+std::array<std::int64_t, 4> backbone_channels(const BackboneConfig& config);
+
+}  // namespace mms

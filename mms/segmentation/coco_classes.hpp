@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mms {
+
+/// Names of COCO's 80 classes, in the order in which networks number them.
+const std::vector<std::string>& coco_classes();
+
+}  // namespace mms

@@ -1,0 +1,179 @@
+#include "mms/segmentation/network/conv_layers.hpp"
+
+#include <torch/nn/functional.h>
+#include <torch/nn/init.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mms/segmentation/network/deformable_conv.hpp"
+
+namespace mms::network {
+namespace {
+
+namespace nn = torch::nn;
+
+constexpr double kVarianceFloor = 1e-5;
+constexpr std::int64_t kLargeDilation = 3;
+constexpr std::int64_t kGroups = 32;
+
+torch::Tensor kaiming_weight(const ConvShape& shape) {
+  torch::Tensor weight = torch::empty({shape.out, shape.in, shape.kernel, shape.kernel});
+  nn::init::kaiming_normal_(weight, 0.0, torch::kFanOut, torch::kReLU);
+  return weight;
+}
+
+/// The mean over each output channel, and how far its weights spread: (out, 1, 1, 1) both.
+std::pair<torch::Tensor, torch::Tensor> channel_statistics(const torch::Tensor& weight) {
+  const torch::Tensor flat = weight.flatten(1);
+  const torch::Tensor mean = flat.mean(1).view({-1, 1, 1, 1});
+  const torch::Tensor variance = flat.var(1, /*unbiased=*/true).view({-1, 1, 1, 1});
+  return {mean, (variance + kVarianceFloor).sqrt()};
+}
+
+torch::Tensor add_context(const torch::Tensor& x, nn::Conv2d& context) {
+  return x + context(torch::adaptive_avg_pool2d(x, {1, 1}));
+}
+
+}  // namespace
+
+torch::Tensor standardise_weight(const torch::Tensor& weight, const torch::Tensor& gamma,
+                                 const torch::Tensor& beta) {
+  const auto [mean, deviation] = channel_statistics(weight);
+  return gamma * ((weight - mean) / deviation) + beta;
+}
+
+std::pair<torch::Tensor, torch::Tensor> folded_weight(const torch::Tensor& weight,
+                                                      nn::BatchNorm2dImpl& norm) {
+  const torch::NoGradGuard no_grad;
+  const torch::Tensor scale = norm.weight / (norm.running_var + norm.options.eps()).sqrt();
+  return {weight * scale.view({-1, 1, 1, 1}), norm.bias - norm.running_mean * scale};
+}
+
+nn::Conv2d biased_conv(const ConvShape& shape, std::int64_t dilation) {
+  return nn::Conv2d(nn::Conv2dOptions(shape.in, shape.out, shape.kernel)
+                        .stride(shape.stride)
+                        .padding(dilation * (shape.kernel / 2))
+                        .dilation(dilation));
+}
+
+void zero_init(nn::Conv2d& conv) {
+  nn::init::zeros_(conv->weight);
+  nn::init::zeros_(conv->bias);
+}
+
+BackboneConvImpl::BackboneConvImpl(const ConvShape& shape, bool standardised) : shape_(shape) {
+  weight_ = register_parameter("weight", kaiming_weight(shape));
+  if (!standardised) return;
+  const auto [mean, deviation] = channel_statistics(weight_.detach());
+  gamma_ = register_buffer("weight_gamma", deviation.clone());
+  beta_ = register_buffer("weight_beta", mean.clone());
+}
+
+torch::Tensor BackboneConvImpl::effective_weight() const {
+  return gamma_.defined() ? standardise_weight(weight_, gamma_, beta_) : weight_;
+}
+
+void BackboneConvImpl::fold(nn::BatchNorm2dImpl& norm) {
+  const auto [weight, bias] = folded_weight(effective_weight(), norm);
+  weight_.set_data(weight);
+  gamma_ = torch::Tensor();
+  bias_ = register_buffer("folded_bias", bias);
+}
+
+torch::Tensor BackboneConvImpl::forward(const torch::Tensor& x) {
+  return torch::conv2d(x, effective_weight(), bias_, shape_.stride, shape_.kernel / 2);
+}
+
+SwitchableConvImpl::SwitchableConvImpl(const ConvShape& shape, bool deformable) : shape_(shape) {
+  weight_ = register_parameter("weight", kaiming_weight(shape));
+  const auto [mean, deviation] = channel_statistics(weight_.detach());
+  gamma_ = register_buffer("weight_gamma", deviation.clone());
+  beta_ = register_buffer("weight_beta", mean.clone());
+  difference_ = register_parameter("weight_diff", torch::zeros_like(weight_));
+  switch_ = register_module(
+      "switch", biased_conv({.in = shape.in, .out = 1, .kernel = 1, .stride = shape.stride}));
+  nn::init::zeros_(switch_->weight);
+  nn::init::ones_(switch_->bias);
+  pre_context_ =
+      register_module("pre_context", biased_conv({.in = shape.in, .out = shape.in, .kernel = 1}));
+  post_context_ = register_module("post_context",
+                                  biased_conv({.in = shape.out, .out = shape.out, .kernel = 1}));
+  zero_init(pre_context_);
+  zero_init(post_context_);
+  if (!deformable) return;
+  const ConvShape offsets = {.in = shape.in, .out = 18, .stride = shape.stride};
+  offset_small_ = register_module("offset_s", biased_conv(offsets));
+  offset_large_ = register_module("offset_l", biased_conv(offsets));
+  zero_init(offset_small_);
+  zero_init(offset_large_);
+}
+
+torch::Tensor SwitchableConvImpl::small_weight() const {
+  return folded_.defined() ? folded_ : standardise_weight(weight_, gamma_, beta_);
+}
+
+void SwitchableConvImpl::fold() {
+  const torch::NoGradGuard no_grad;
+  folded_ = register_buffer("folded_weight", small_weight());
+}
+
+torch::Tensor SwitchableConvImpl::convolve(const torch::Tensor& x, const torch::Tensor& weight,
+                                           nn::Conv2d& offset, const torch::Tensor& pooled,
+                                           std::int64_t dilation) {
+  if (offset.is_empty()) return torch::conv2d(x, weight, {}, shape_.stride, dilation, dilation);
+  return deformable_conv(x, offset(pooled), weight, shape_.stride, dilation);
+}
+
+torch::Tensor SwitchableConvImpl::forward(const torch::Tensor& input) {
+  const torch::Tensor x = add_context(input, pre_context_);
+  const torch::Tensor pooled = torch::avg_pool2d(torch::reflection_pad2d(x, {2, 2, 2, 2}), 5, 1);
+  const torch::Tensor mix = switch_(pooled);
+  const torch::Tensor weight = small_weight();
+  const torch::Tensor small = convolve(x, weight, offset_small_, pooled, 1);
+  const torch::Tensor large =
+      convolve(x, weight + difference_, offset_large_, pooled, kLargeDilation);
+  return add_context(mix * small + (1 - mix) * large, post_context_);
+}
+
+HeadUnitImpl::HeadUnitImpl(const ConvShape& shape, HeadNorm norm) {
+  conv_ = register_module("conv", nn::Conv2d(nn::Conv2dOptions(shape.in, shape.out, shape.kernel)
+                                                 .stride(shape.stride)
+                                                 .padding(shape.kernel / 2)
+                                                 .bias(false)));
+  nn::init::kaiming_normal_(conv_->weight, 0.0, torch::kFanOut, torch::kReLU);
+  if (norm == HeadNorm::kBatch) {
+    batch_norm_ = register_module("bn", nn::BatchNorm2d(shape.out));
+  } else {
+    const std::int64_t groups = std::gcd(kGroups, shape.out);
+    group_norm_ = register_module("gn", nn::GroupNorm(groups, shape.out));
+  }
+}
+
+void HeadUnitImpl::fold() {
+  if (batch_norm_.is_empty()) return;
+  const auto [weight, bias] = folded_weight(conv_->weight, *batch_norm_);
+  conv_->weight.set_data(weight);
+  conv_->bias = register_buffer("folded_bias", bias);
+  batch_norm_ = nullptr;
+}
+
+torch::Tensor HeadUnitImpl::forward(const torch::Tensor& x) {
+  torch::Tensor y = conv_(x);
+  if (!batch_norm_.is_empty()) y = batch_norm_(y);
+  if (!group_norm_.is_empty()) y = group_norm_(y);
+  return torch::relu(y);
+}
+
+PlainUnitImpl::PlainUnitImpl(const ConvShape& shape) {
+  conv_ = register_module("conv", biased_conv(shape));
+  nn::init::xavier_uniform_(conv_->weight);
+  nn::init::zeros_(conv_->bias);
+}
+
+torch::Tensor PlainUnitImpl::forward(const torch::Tensor& x) {
+  return conv_(x);
+}
+
+}  // namespace mms::network

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <torch/nn/modules/batchnorm.h>
+#include <torch/nn/modules/conv.h>
+#include <torch/nn/modules/normalization.h>
+
+#include <utility>
+
+#include "mms/segmentation/network_config.hpp"
+
+namespace mms::network {
+
+/// Where and how a square kernel is laid over a map.
+struct ConvShape {
+  std::int64_t in = 0;      ///< channels
+  std::int64_t out = 0;     ///< channels
+  std::int64_t kernel = 3;  ///< [px]
+  std::int64_t stride = 1;  ///< [px]; padding keeps the size at stride 1
+};
+
+/// W' = gamma (W - mean) / std + beta per output channel, with the unbiased variance (DetectoRS'
+/// adaptive weight standardisation, mmcv ConvAWS2d). gamma and beta are (out, 1, 1, 1).
+torch::Tensor standardise_weight(const torch::Tensor& weight, const torch::Tensor& gamma,
+                                 const torch::Tensor& beta);
+
+/// Convolution of the backbone: no bias; weight standardised where the network has SAC.
+class BackboneConvImpl : public torch::nn::Module {
+ public:
+  BackboneConvImpl(const ConvShape& shape, bool standardised);
+  torch::Tensor forward(const torch::Tensor& x);
+  /// The weight that is convolved with.
+  torch::Tensor effective_weight() const;
+  /// Takes the batch norm that follows into weight and bias, for inference: the norm is to be left
+  /// out from then on.
+  void fold(torch::nn::BatchNorm2dImpl& norm);
+  bool folded() const { return bias_.defined(); }
+
+ private:
+  ConvShape shape_;
+  torch::Tensor weight_;
+  torch::Tensor gamma_;  ///< undefined when not standardised
+  torch::Tensor beta_;
+  torch::Tensor bias_;  ///< of the folded norm; undefined before
+};
+TORCH_MODULE(BackboneConv);
+
+/// Switchable atrous convolution (DetectoRS): a 3x3 convolution at dilation 1 and one at 3, mixed
+/// per position by a switch, between two global contexts.
+class SwitchableConvImpl : public torch::nn::Module {
+ public:
+  SwitchableConvImpl(const ConvShape& shape, bool deformable);
+  torch::Tensor forward(const torch::Tensor& input);
+  /// Standardises the weights once and for all, for inference.
+  void fold();
+
+ private:
+  torch::Tensor small_weight() const;
+  torch::Tensor convolve(const torch::Tensor& x, const torch::Tensor& weight,
+                         torch::nn::Conv2d& offset, const torch::Tensor& pooled,
+                         std::int64_t dilation);
+
+  ConvShape shape_;
+  torch::Tensor weight_;
+  torch::Tensor gamma_;
+  torch::Tensor beta_;
+  torch::Tensor difference_;  ///< of the dilated weight to the other
+  torch::nn::Conv2d switch_{nullptr};
+  torch::nn::Conv2d pre_context_{nullptr};
+  torch::nn::Conv2d post_context_{nullptr};
+  torch::nn::Conv2d offset_small_{nullptr};  ///< null when not deformable
+  torch::nn::Conv2d offset_large_{nullptr};
+  torch::Tensor folded_;  ///< the standardised weight; undefined before `fold`
+};
+TORCH_MODULE(SwitchableConv);
+
+/// 3x3 or 1x1 convolution without bias, norm, ReLU: the unit of the heads.
+class HeadUnitImpl : public torch::nn::Module {
+ public:
+  HeadUnitImpl(const ConvShape& shape, HeadNorm norm);
+  torch::Tensor forward(const torch::Tensor& x);
+  /// Takes a batch norm into the convolution, for inference.
+  void fold();
+
+ private:
+  torch::nn::Conv2d conv_{nullptr};
+  torch::nn::GroupNorm group_norm_{nullptr};
+  torch::nn::BatchNorm2d batch_norm_{nullptr};
+};
+TORCH_MODULE(HeadUnit);
+
+/// Convolution with bias and nothing else, kept one level down as `conv` (names of MMDetection).
+class PlainUnitImpl : public torch::nn::Module {
+ public:
+  explicit PlainUnitImpl(const ConvShape& shape);
+  torch::Tensor forward(const torch::Tensor& x);
+
+ private:
+  torch::nn::Conv2d conv_{nullptr};
+};
+TORCH_MODULE(PlainUnit);
+
+/// Weight and bias of a convolution with the batch norm after it.
+std::pair<torch::Tensor, torch::Tensor> folded_weight(const torch::Tensor& weight,
+                                                      torch::nn::BatchNorm2dImpl& norm);
+
+/// Convolution with bias that keeps the size, for any dilation.
+torch::nn::Conv2d biased_conv(const ConvShape& shape, std::int64_t dilation = 1);
+
+/// Sets weight and bias to 0.
+void zero_init(torch::nn::Conv2d& conv);
+
+}  // namespace mms::network

@@ -1,0 +1,39 @@
+#include "mms/segmentation/network/inference.hpp"
+
+#include "mms/segmentation/prepared_image.hpp"
+
+namespace mms::network {
+namespace {
+
+const float* plain(torch::Tensor& tensor) {
+  tensor = tensor.to(torch::kCPU, torch::kFloat).contiguous(at::MemoryFormat::Contiguous);
+  return tensor.data_ptr<float>();
+}
+
+}  // namespace
+
+HeadMaps head_maps(HeadOutput& output) {
+  HeadMaps maps;
+  for (std::size_t i = 0; i < output.categories.size(); ++i) {
+    maps.categories[i] = plain(output.categories[i]);
+    maps.kernels[i] = plain(output.kernels[i]);
+  }
+  maps.mask_features = plain(output.mask_features);
+  maps.mask_height = static_cast<int>(output.mask_features.size(2));
+  maps.mask_width = static_cast<int>(output.mask_features.size(3));
+  return maps;
+}
+
+std::vector<Detection> detect(SoloNetwork& network, const Image<Rgb>& image,
+                              const DecoderConfig& config) {
+  const torch::NoGradGuard no_grad;
+  PreparedImage prepared = prepare_image(image, network->config());
+  const torch::Tensor input =
+      torch::from_blob(prepared.planes.data(), {1, 3, prepared.height, prepared.width},
+                       torch::kFloat)
+          .to(network->parameters().front().device());
+  HeadOutput output = network->forward(input);
+  return decode(head_maps(output), network->config(), prepared, config);
+}
+
+}  // namespace mms::network

@@ -1,0 +1,37 @@
+#include "mms/segmentation/network/mixed_precision.hpp"
+
+#include <ATen/autocast_mode.h>
+#include <torch/version.h>
+
+namespace mms::network {
+namespace {
+
+// torch 2 names the device; torch 1 has a function a device.
+void switch_autocast(torch::DeviceType device, bool on) {
+#if TORCH_VERSION_MAJOR >= 2
+  at::autocast::set_autocast_enabled(device, on);
+  at::autocast::set_autocast_dtype(device, torch::kBFloat16);
+#else
+  if (device == torch::kCUDA) {
+    at::autocast::set_enabled(on);
+    at::autocast::set_autocast_gpu_dtype(torch::kBFloat16);
+  } else {
+    at::autocast::set_cpu_enabled(on);
+    at::autocast::set_autocast_cpu_dtype(torch::kBFloat16);
+  }
+#endif
+}
+
+}  // namespace
+
+MixedPrecision::MixedPrecision(bool on, torch::DeviceType device) : on_(on), device_(device) {
+  if (on_) switch_autocast(device_, true);
+}
+
+MixedPrecision::~MixedPrecision() {
+  if (!on_) return;
+  switch_autocast(device_, false);
+  at::autocast::clear_cache();
+}
+
+}  // namespace mms::network

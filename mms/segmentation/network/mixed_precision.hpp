@@ -1,0 +1,21 @@
+#pragma once
+
+#include <torch/types.h>
+
+namespace mms::network {
+
+/// While one lives, convolutions and matrix products of the device run in bfloat16 where that is
+/// sound (torch's autocast).
+class MixedPrecision {
+ public:
+  MixedPrecision(bool on, torch::DeviceType device);
+  ~MixedPrecision();
+  MixedPrecision(const MixedPrecision&) = delete;
+  MixedPrecision& operator=(const MixedPrecision&) = delete;
+
+ private:
+  bool on_ = false;
+  torch::DeviceType device_;
+};
+
+}  // namespace mms::network

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <torch/nn/modules/container/modulelist.h>
+
+#include <array>
+
+#include "mms/segmentation/network/neck.hpp"
+
+namespace mms::network {
+
+/// What SOLOv2's head says of a batch of images.
+struct HeadOutput {
+  /// Logits of the categories, (B, classes, S, S) for each level's grid of S x S cells.
+  std::array<torch::Tensor, HeadConfig::kLevels> categories;
+  /// Kernels of the masks, (B, E, S, S).
+  std::array<torch::Tensor, HeadConfig::kLevels> kernels;
+  /// (B, E, H/4, W/4), not negative: a mask's logits are its kernel times these.
+  torch::Tensor mask_features;
+};
+
+/// One map for all masks of an image, from P2 to P5.
+class MaskFeatureHeadImpl : public torch::nn::Module {
+ public:
+  MaskFeatureHeadImpl(const HeadConfig& config, std::int64_t in);
+  torch::Tensor forward(const Pyramid& pyramid);
+
+ private:
+  torch::nn::ModuleList levels_;  ///< Sequentials of units
+  HeadUnit prediction_{nullptr};
+};
+TORCH_MODULE(MaskFeatureHead);
+
+/// Kernel, category and mask-feature branches of SOLOv2; weights shared by all levels.
+class SoloHeadImpl : public torch::nn::Module {
+ public:
+  SoloHeadImpl(const HeadConfig& config, std::int64_t in, std::int64_t classes);
+  HeadOutput forward(const Pyramid& pyramid);
+
+ private:
+  torch::Tensor tower(torch::nn::ModuleList& units, torch::Tensor x);
+
+  HeadConfig config_;
+  torch::nn::ModuleList kernel_tower_;
+  torch::nn::ModuleList category_tower_;  ///< empty when the tower is shared
+  torch::nn::Conv2d category_{nullptr};
+  torch::nn::Conv2d kernel_{nullptr};
+  MaskFeatureHead mask_features_{nullptr};
+};
+TORCH_MODULE(SoloHead);
+
+/// Two channels (B, 2, H, W): x and y from -1 in the first pixel to 1 in the last.
+torch::Tensor coordinate_channels(const torch::Tensor& like);
+
+}  // namespace mms::network

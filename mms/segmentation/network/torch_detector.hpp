@@ -1,0 +1,28 @@
+#pragma once
+
+#include "mms/segmentation/detector.hpp"
+#include "mms/segmentation/model.hpp"
+#include "mms/segmentation/network/solo_network.hpp"
+
+namespace mms::network {
+
+/// A trained network on libtorch: on the GPU where there is one, else on the CPU in float32 with
+/// batch norm folded into the convolutions.
+class TorchDetector : public Detector {
+ public:
+  /// @param where    what errors call the model, as its file's name
+  /// @param threads  of libtorch, for the whole program; 0: one a core
+  /// @throws DataError when the weights do not fit the network.
+  TorchDetector(const SegmentationModel& model, const std::string& where,
+                const DecoderConfig& config, int threads);
+
+  std::vector<Detection> detect(const Image<Rgb>& image) override;
+  const std::vector<std::string>& classes() const override { return classes_; }
+
+ private:
+  SoloNetwork network_;
+  std::vector<std::string> classes_;
+  DecoderConfig config_;
+};
+
+}  // namespace mms::network

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <opencv2/dnn/dnn.hpp>
+#include <string>
+#include <vector>
+
+namespace mms::onnx {
+
+/// An ONNX model in OpenCV's DNN module, on the CPU. OpenCV's faults become DataErrors with the
+/// reason in them.
+class OpencvNetwork {
+ public:
+  /// @param bytes          of the file
+  /// @param where          what errors call the file
+  /// @param width, height  of the pictures [px]
+  /// @throws DataError when OpenCV cannot read the model or it does not take such pictures.
+  OpencvNetwork(const std::string& bytes, const std::string& where, int width, int height);
+
+  /// The model's outputs, each contiguous float32; valid until the next call.
+  /// @param input  1 x 3 x height x width, float32
+  /// @throws DataError when OpenCV cannot run the model.
+  std::vector<cv::Mat> forward(const cv::Mat& input);
+
+ private:
+  std::string where_;
+  cv::dnn::Net network_;
+  std::vector<std::string> outputs_;
+};
+
+}  // namespace mms::onnx

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "mms/segmentation/onnx/letterbox.hpp"
+#include "mms/segmentation/onnx/yolo_boxes.hpp"
+#include "mms/segmentation/solo_decoder.hpp"
+
+namespace mms::onnx {
+
+/// Masks that every object's mask is a weighted sum of.
+struct Prototypes {
+  const float* values = nullptr;  ///< count x height x width, over the whole input of the network
+  int width = 0;                  ///< [px]
+  int height = 0;
+};
+
+/// The mask of a box at the size of the picture: sigmoid of the weighted sum of the prototypes,
+/// bilinear between their pixels, object where it exceeds one half and the pixel's centre is in the
+/// box; cropped. An empty mask when nothing does.
+/// @param coefficients  a weight for each prototype
+Detection mask_in_box(const YoloBox& box, const std::vector<float>& coefficients,
+                      const Prototypes& prototypes, const Letterbox& letterbox);
+
+}  // namespace mms::onnx

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mms/core/config.hpp"
+#include "mms/core/image.hpp"
+#include "mms/segmentation/network_config.hpp"
+#include "mms/segmentation/prepared_image.hpp"
+
+namespace mms {
+
+/// One image's output of the head, contiguous float32.
+struct HeadMaps {
+  std::array<const float*, HeadConfig::kLevels> categories{};  ///< logits, classes x S x S
+  std::array<const float*, HeadConfig::kLevels> kernels{};     ///< E x S x S
+  const float* mask_features = nullptr;                        ///< E x mask_height x mask_width
+  int mask_width = 0;                                          ///< a quarter of the input's [px]
+  int mask_height = 0;
+};
+
+/// One object found.
+struct Detection {
+  int category = 0;          ///< index of its class
+  float score = 0.0F;        ///< in [0, 1]
+  int x = 0;                 ///< left column of `mask` in the image [px]
+  int y = 0;                 ///< top row [px]
+  Image<std::uint8_t> mask;  ///< cropped to the object: 1 on it
+};
+
+/// Which masks of the head are kept.
+struct DecoderConfig {
+  double candidate_score = 0.1;  ///< smallest probability of a cell's category
+  double score = 0.05;           ///< smallest score after matrix NMS
+  int candidates = 500;          ///< at most, before matrix NMS
+  int instances = 100;           ///< at most, after it
+
+  void visit(ConfigVisitor& v);
+};
+
+/// Turns the head's maps into objects (SOLOv2's inference: point NMS, dynamic convolution,
+/// maskness, matrix NMS), best first, with masks at the size of the picture.
+std::vector<Detection> decode(const HeadMaps& maps, const NetworkConfig& network,
+                              const PreparedImage& prepared, const DecoderConfig& config);
+
+}  // namespace mms

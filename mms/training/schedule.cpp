@@ -1,0 +1,28 @@
+#include "mms/training/schedule.hpp"
+
+#include <algorithm>
+
+namespace mms {
+
+int total_steps(const ScheduleConfig& schedule) {
+  return (schedule.images + schedule.batch - 1) / schedule.batch;
+}
+
+double learning_rate_at(const ScheduleConfig& schedule, int step) {
+  constexpr double kFirst = 0.01;  // of the peak
+  constexpr double kDrop = 0.1;
+  double rate = schedule.learning_rate;
+  if (step < schedule.warm_up) {
+    return rate * (kFirst + (1.0 - kFirst) * step / schedule.warm_up);
+  }
+  const double done = static_cast<double>(step) / total_steps(schedule);
+  if (done >= schedule.first_drop) rate *= kDrop;
+  if (done >= schedule.second_drop) rate *= kDrop;
+  return rate;
+}
+
+double ema_decay_at(const ScheduleConfig& schedule, int step) {
+  return std::min(schedule.ema, (1.0 + step) / (10.0 + step));
+}
+
+}  // namespace mms

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include "mms/io/coco_io.hpp"
+#include "mms/io/files.hpp"
+#include "mms/io/image_io.hpp"
+#include "mms/io/safetensors.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/program/program.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;  // NOLINT: helpers of the tests
+
+constexpr const char* kWeights = MMS_SOURCE_DIR "/weights/nano.safetensors";
+
+TEST(Segment, FindsThePeopleOfTheSimulation) {
+  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  const Outcome outcome = run_mms(folder.path(), {"segment", "sim:crowd?frames=3", "-o", "out"});
+  expect_done(outcome);
+  expect_in("out: 3 pictures, ", outcome.out);
+  const CocoDataset images = read_coco(folder.path() / "out/images.json");
+  ASSERT_EQ(images.images.size(), 3U);
+  const std::vector<CocoResult> results = read_coco_results(folder.path() / "out/results.json");
+  for (const CocoImage& image : images.images) {
+    double best = 0.0;
+    for (const CocoResult& result : results) {
+      if (result.image_id == image.id && result.category_id == 1) {
+        best = std::max(best, result.score);
+      }
+    }
+    EXPECT_GT(best, 0.3) << image.file_name;
+    const Image<std::uint8_t> mask = read_mask(folder.path() / "out/masks" / image.file_name);
+    EXPECT_EQ(mask.width(), image.width);
+    EXPECT_GT(std::count(mask.pixels().begin(), mask.pixels().end(), 1), 500);
+  }
+  EXPECT_EQ(list_folder(folder.path() / "out/overlays").size(), 3U);
+}
+
+TEST(Segment, KeepsTheIdsOfACocoFile) {
+  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  fs::create_directories(folder.path() / "data");
+  CocoDataset dataset;
+  dataset.categories = {{1, "person"}};
+  for (const int id : {7, 9}) {
+    const std::string name = std::to_string(id) + ".png";
+    write_png(folder.path() / "data" / name, Image<Rgb>(160, 120, Rgb{90, 90, 90}));
+    dataset.images.push_back({.id = id,
+                              .file_name = name,
+                              .width = 160,
+                              .height = 120,
+                              .split = id == 7 ? "train" : "holdout"});
+  }
+  write_coco(folder.path() / "truth.json", dataset);
+  expect_done(run_mms(folder.path(), {"segment", "data", "--annotations", "truth.json", "--split",
+                                      "holdout", "--json-only", "-o", "out"}));
+  const CocoDataset images = read_coco(folder.path() / "out/images.json");
+  ASSERT_EQ(images.images.size(), 1U);
+  EXPECT_EQ(images.images[0].id, 9);
+  EXPECT_FALSE(fs::exists(folder.path() / "out/masks"));
+}
+
+/// `mms segment` with a weights file of these bytes.
+Outcome segment_with(const TempFolder& folder, const std::string& bytes) {
+  folder.write("bad.safetensors", bytes);
+  write_png(folder.path() / "picture.png", Image<Rgb>(64, 48));
+  return run_mms(folder.path(),
+                 {"segment", "picture.png", "--weights", "bad.safetensors", "-o", "out"});
+}
+
+TEST(Segment, DamagedWeightsAreOneLine) {
+  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  const std::string good = read_file(kWeights);
+  expect_fault(segment_with(folder, ""), "bad.safetensors: ");
+  expect_fault(segment_with(folder, good.substr(0, 100)), "bad.safetensors: ");
+  expect_fault(segment_with(folder, good.substr(0, good.size() - 7)), "bad.safetensors: ");
+  expect_fault(segment_with(folder, std::string(64, '\xff')), "bad.safetensors: ");
+  expect_fault(segment_with(folder, "<html>not found</html>"), "bad.safetensors: ");
+}
+
+TEST(Segment, WeightsOfAnotherNetworkAreOneLine) {
+  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  Weights weights = read_safetensors(kWeights);
+  weights.tensors.erase("neck.fpn_convs.1.conv.weight");
+  write_safetensors(folder.path() / "made.safetensors", weights);
+  expect_fault(segment_with(folder, read_file(folder.path() / "made.safetensors")),
+               "lacks the network's tensor neck.fpn_convs.1.conv.weight");
+  weights.metadata.clear();
+  write_safetensors(folder.path() / "made.safetensors", weights);
+  expect_fault(segment_with(folder, read_file(folder.path() / "made.safetensors")),
+               "does not say what network it is for");
+}
+
+TEST(Segment, MissingThingsAreOneLine) {
+  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  expect_fault(run_mms(folder.path(), {"segment", "none", "-o", "out"}),
+               "none: there is no such recording");
+  write_png(folder.path() / "picture.png", Image<Rgb>(64, 48));
+  expect_fault(run_mms(folder.path(),
+                       {"segment", "picture.png", "--weights", "no.safetensors", "-o", "out"}),
+               "no.safetensors: ");
+  folder.write("broken.json", "{\"images\": [");
+  expect_fault(
+      run_mms(folder.path(), {"segment", ".", "--annotations", "broken.json", "-o", "out"}),
+      "broken.json: ");
+}
+
+TEST(Import, SaysWhatACheckpointLacks) {
+  const TempFolder folder;
+  Weights weights;
+  weights.tensors["conv1.weight"] = {{1}, {0.0F}};
+  write_safetensors(folder.path() / "other.safetensors", weights);
+  expect_fault(run_mms(folder.path(), {"import", "other.safetensors", "-o", "out.safetensors"}),
+               "other.safetensors: ");
+  EXPECT_FALSE(fs::exists(folder.path() / "out.safetensors"));
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "mms/io/files.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/program/program.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;  // NOLINT: helpers of the tests
+
+constexpr const char* kConfig = R"(
+network: {long_side: 128, short_side: 96, head: {grid_density: 0.4, object_scale: 20}}
+data:
+  - {annotations: data/annotations.json}
+  - {annotations: data/annotations.json, repeat: 0.5}
+validation:
+  - {annotations: data/annotations.json}
+half_precision: false
+schedule: {images: 8, batch: 2, warm_up: 2}
+)";
+
+/// The whole way of a user: images of the simulator, a short training, its weights in use.
+TEST(Train, GivesWeightsThatSegment) {
+  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  expect_done(run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
+  folder.write("train.yaml", kConfig);
+  const Outcome outcome = run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"});
+  expect_done(outcome);
+  expect_in("weights: out/weights.safetensors", outcome.out);
+  for (const char* file : {"checkpoint.pt", "log.json", "report.html", "config.yaml"}) {
+    EXPECT_TRUE(fs::is_regular_file(folder.path() / "out" / file)) << file;
+  }
+  expect_done(run_mms(folder.path(), {"segment", "data/images", "--weights",
+                                      "out/weights.safetensors", "-o", "found"}));
+  expect_done(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}));  // has ended
+}
+
+TEST(Train, FaultsAreOneLine) {
+  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  folder.write("train.yaml", "data:\n  - {annotations: none.json, splitt: x}\n");
+  expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
+               "train.yaml:2: unknown key 'data[0].splitt' (did you mean 'split'?)");
+  folder.write("train.yaml", "data: {annotations: none.json}\n");
+  expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
+               "train.yaml:1: data is a group, a list of groups is wanted");
+  folder.write("train.yaml", "data:\n  - {annotations: none.json}\n");
+  expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}), "none.json: ");
+  folder.write("train.yaml", "network: {size: huge}\n");
+  expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
+               "network.size is 'huge', allowed is one of nano, r18, r50");
+}
+
+}  // namespace
+}  // namespace mms

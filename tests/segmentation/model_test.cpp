@@ -1,0 +1,52 @@
+#include "mms/segmentation/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using testing::expect_in;
+using testing::message_of;
+
+SegmentationModel some_model() {
+  SegmentationModel model;
+  model.network = NetworkConfig::preset(NetworkSize::kR18, NetworkVariant::kDetectors);
+  model.network.head.object_scale = 41.5;
+  model.classes = {"person", "agv"};
+  model.weights.tensors["a"] = {{2}, {1.0F, 2.0F}};
+  return model;
+}
+
+TEST(Model, SaysItselfWhatItIs) {
+  const SegmentationModel model = some_model();
+  const SegmentationModel back = unpack_model(pack_model(model), "file");
+  EXPECT_EQ(back.classes, model.classes);
+  EXPECT_EQ(back.network.variant, NetworkVariant::kDetectors);
+  EXPECT_EQ(back.network.backbone.sac, SacMode::kPlain);
+  EXPECT_EQ(back.network.head.object_scale, 41.5);
+  EXPECT_EQ(back.weights.tensors, model.weights.tensors);
+  EXPECT_EQ(pack_model(back), pack_model(model));
+}
+
+std::string fault_of(const std::string& key, const std::string& value) {
+  Weights packed = pack_model(some_model());
+  packed.metadata[key] = value;
+  return message_of<DataError>([&] { unpack_model(packed, "file"); });
+}
+
+TEST(Model, FaultsAreNamed) {
+  expect_in("file: does not say what network it is for: no 'network.size'",
+            message_of<DataError>([] { unpack_model({}, "file"); }));
+  expect_in("network.head.norm is 'x', wanted is one of gn, bn",
+            fault_of("network.head.norm", "x"));
+  expect_in("network.neck.channels is '-5', wanted is a whole number in [8, 512]",
+            fault_of("network.neck.channels", "-5"));
+  expect_in("network.head.tower_depth is '2x'", fault_of("network.head.tower_depth", "2x"));
+  expect_in("names 3 classes, but its network has 2", fault_of("classes", "a,b,c"));
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,148 @@
+#include "mms/training/augmentation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/training/samples.hpp"
+
+namespace mms {
+namespace {
+
+using testing::box_object;
+using testing::sample_of;
+
+constexpr AugmentationConfig kUnchanged = {.scale_min = 1.0, .scale_max = 1.0, .flip = 0.0};
+
+TEST(Jitter, AtScaleOneNothingMoves) {
+  RandomStream random(1);
+  const Sample sample = sample_of(64, 48, {box_object(1, 10, 12, 20, 16)});
+  const Sample same = jittered(sample, 64, 48, kUnchanged, random);
+  EXPECT_EQ(same.image.pixels(), sample.image.pixels());
+  ASSERT_EQ(same.objects.size(), 1U);
+  EXPECT_EQ(same.objects[0].category, 1);
+  EXPECT_EQ(same.objects[0].x, 10);
+  EXPECT_EQ(same.objects[0].y, 12);
+  EXPECT_EQ(same.objects[0].mask.pixels(), sample.objects[0].mask.pixels());
+}
+
+TEST(Jitter, MasksFollowTheMirroredPicture) {
+  RandomStream random(1);
+  AugmentationConfig config = kUnchanged;
+  config.flip = 1.0;
+  const Sample sample = sample_of(64, 48, {box_object(0, 10, 12, 20, 16)});
+  const Sample mirrored = jittered(sample, 64, 48, config, random);
+  EXPECT_EQ(mirrored.image(0, 5), sample.image(63, 5));
+  ASSERT_EQ(mirrored.objects.size(), 1U);
+  EXPECT_EQ(mirrored.objects[0].x, 64 - 10 - 20);
+  EXPECT_EQ(mirrored.objects[0].y, 12);
+}
+
+TEST(Jitter, SmallerPicturesArePadded) {
+  RandomStream random(1);
+  AugmentationConfig config = kUnchanged;
+  config.scale_min = config.scale_max = 0.5;
+  const Sample small =
+      jittered(sample_of(64, 48, {box_object(0, 10, 12, 20, 16)}), 64, 48, config, random);
+  EXPECT_EQ(small.width, 32);
+  EXPECT_EQ(small.height, 24);
+  EXPECT_EQ(small.image(40, 30), Rgb{});
+  ASSERT_EQ(small.objects.size(), 1U);
+  EXPECT_EQ(small.objects[0].x, 5);
+  EXPECT_EQ(small.objects[0].mask.width(), 10);
+  EXPECT_EQ(small.objects[0].mask.height(), 8);
+}
+
+/// Whatever is cut away, the mask stays on its pixels: red and green tell where they come from.
+TEST(Jitter, MasksStayOnTheirPixelsWhenALargerPictureIsCut) {
+  AugmentationConfig config = kUnchanged;
+  config.scale_min = config.scale_max = 2.0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RandomStream random(seed);
+    const Sample large =
+        jittered(sample_of(64, 48, {box_object(0, 20, 14, 24, 20)}), 64, 48, config, random);
+    for (const ObjectMask& object : large.objects) {
+      const Rgb corner = large.image(object.x + 1, object.y + 1);
+      const Rgb last =
+          large.image(object.x + object.mask.width() - 2, object.y + object.mask.height() - 2);
+      EXPECT_GE(corner.r, 19);
+      EXPECT_GE(corner.g, 13);
+      EXPECT_LE(last.r, 44);
+      EXPECT_LE(last.g, 34);
+    }
+  }
+}
+
+TEST(Jitter, ObjectsThatAreCutAwayAreDropped) {
+  AugmentationConfig config = kUnchanged;
+  config.scale_min = config.scale_max = 4.0;
+  int kept = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    RandomStream random(seed);
+    kept += static_cast<int>(
+        jittered(sample_of(64, 48, {box_object(0, 0, 0, 6, 6)}), 64, 48, config, random)
+            .objects.size());
+  }
+  EXPECT_GT(kept, 0);
+  EXPECT_LT(kept, 30);
+}
+
+/// Pasting takes any number of objects, each set of a size alike; here 0 or 1, so try seeds.
+Sample pasted(std::vector<ObjectMask> below, const ObjectMask& above, bool wanted) {
+  for (std::uint64_t seed = 0;; ++seed) {
+    RandomStream random(seed);
+    Sample target = sample_of(64, 48, below);
+    Sample source = sample_of(64, 48, {above});
+    for (Rgb& pixel : source.image.pixels()) pixel = {1, 2, 3};
+    paste_objects(target, source, random);
+    if ((target.image(above.x, above.y) == Rgb{1, 2, 3}) == wanted) return target;
+  }
+}
+
+TEST(CopyPaste, CutsTheMasksBelow) {
+  const Sample sample = pasted({box_object(0, 4, 4, 30, 30)}, box_object(1, 20, 10, 30, 10), true);
+  ASSERT_EQ(sample.objects.size(), 2U);
+  EXPECT_EQ(sample.objects[1].category, 1);
+  EXPECT_EQ(mask_area(sample.objects[1].mask), 300);
+  EXPECT_EQ(mask_area(sample.objects[0].mask), 900 - 14 * 10);
+  EXPECT_EQ(sample.objects[0].mask(20, 10), 0);  // under it
+  EXPECT_EQ(sample.image(20, 10), (Rgb{1, 2, 3}));
+  EXPECT_EQ(sample.image(19, 10), (Rgb{19, 10, 77}));
+}
+
+TEST(CopyPaste, HiddenObjectsAreDropped) {
+  const Sample sample = pasted({box_object(0, 10, 10, 10, 10)}, box_object(1, 8, 8, 14, 14), true);
+  ASSERT_EQ(sample.objects.size(), 1U);
+  EXPECT_EQ(sample.objects[0].category, 1);
+}
+
+TEST(CopyPaste, MayPasteNothing) {
+  const Sample sample = pasted({box_object(0, 10, 10, 10, 10)}, box_object(1, 8, 8, 14, 14), false);
+  ASSERT_EQ(sample.objects.size(), 1U);
+  EXPECT_EQ(sample.objects[0].category, 0);
+}
+
+TEST(ColorChanges, LeaveTheObjectsAndCanBeSwitchedOff) {
+  RandomStream random(3);
+  const Sample sample = sample_of(64, 48, {box_object(0, 10, 10, 10, 10)});
+  Sample same = sample;
+  change_colors(same, {.color = 0, .blur = 0, .noise = 0, .grey = 0}, random);
+  EXPECT_EQ(same.image.pixels(), sample.image.pixels());
+  Sample changed = sample;
+  change_colors(changed, {.color = 1, .blur = 1, .noise = 1, .grey = 0}, random);
+  EXPECT_NE(changed.image.pixels(), sample.image.pixels());
+  EXPECT_EQ(changed.objects[0].mask.pixels(), sample.objects[0].mask.pixels());
+}
+
+TEST(ColorChanges, GreyHasNoColour) {
+  RandomStream random(3);
+  Sample sample = sample_of(64, 48);
+  change_colors(sample, {.color = 0, .blur = 0, .noise = 0, .grey = 1}, random);
+  for (const Rgb& pixel : sample.image.pixels()) {
+    EXPECT_NEAR(pixel.r, pixel.g, 1);
+    EXPECT_NEAR(pixel.b, pixel.g, 1);
+  }
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,81 @@
+#include "mms/training/losses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mms/segmentation/network/solo_network.hpp"
+#include "tests/training/samples.hpp"
+
+namespace mms {
+namespace {
+
+using testing::box_object;
+using testing::sample_of;
+
+TEST(DiceLoss, IsClosedForm) {
+  const torch::Tensor p = torch::tensor({0.5F, 1.0F, 0.0F, 0.25F}).view({1, 4});
+  const torch::Tensor q = torch::tensor({1.0F, 1.0F, 0.0F, 0.0F}).view({1, 4});
+  const double expected = 1 - 2 * 1.5 / (0.25 + 1.0 + 0.0625 + 2.0 + 0.002);
+  EXPECT_NEAR(dice_loss(p, q).item<double>(), expected, 1e-6);
+}
+
+TEST(DiceLoss, OfAPerfectMaskIsNearZeroAndOfADisjointOneOne) {
+  const torch::Tensor a = torch::tensor({1.0F, 1.0F, 0.0F, 0.0F}).view({1, 4});
+  EXPECT_NEAR(dice_loss(a, a).item<double>(), 0.0, 1e-3);
+  EXPECT_NEAR(dice_loss(a, 1 - a).item<double>(), 1.0, 1e-6);
+}
+
+TEST(FocalLoss, IsClosedForm) {
+  const torch::Tensor logits = torch::tensor({0.0F, 2.0F, -1.0F, 30.0F});
+  const torch::Tensor target = torch::tensor({1.0F, 0.0F, 1.0F, 1.0F});
+  const torch::Tensor loss = focal_loss(logits, target);
+  const auto p = [](double x) { return 1 / (1 + std::exp(-x)); };
+  EXPECT_NEAR(loss[0].item<double>(), -0.25 * 0.25 * std::log(0.5), 1e-6);
+  EXPECT_NEAR(loss[1].item<double>(), -0.75 * p(2) * p(2) * std::log(1 - p(2)), 1e-5);
+  EXPECT_NEAR(loss[2].item<double>(), -0.25 * std::pow(1 - p(-1), 2) * std::log(p(-1)), 1e-5);
+  EXPECT_NEAR(loss[3].item<double>(), 0.0, 1e-9);
+}
+
+/// A head's output in which every cell says the same.
+network::HeadOutput constant_output(const HeadConfig& head, float logit) {
+  network::HeadOutput output;
+  const auto grids = head.grids();
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    output.categories[i] = torch::full({1, 2, grids[i], grids[i]}, logit);
+    output.kernels[i] = torch::zeros({1, head.kernel_channels, grids[i], grids[i]});
+  }
+  output.mask_features = torch::zeros({1, head.kernel_channels, 64, 80});
+  return output;
+}
+
+TEST(SoloLoss, WithoutObjectsIsThatOfTheBackground) {
+  const HeadConfig head = NetworkConfig().head;
+  const ImageTargets targets = assign_targets(sample_of(320, 256), head);
+  const SoloLoss loss = solo_loss(constant_output(head, 0.0F), {targets});
+  double cells = 0.0;
+  for (const int side : head.grids()) cells += 2.0 * side * side;
+  EXPECT_NEAR(loss.category.item<double>(), cells * 0.75 * 0.25 * std::log(2.0), 1e-2);
+  EXPECT_EQ(loss.mask.item<double>(), 0.0);
+}
+
+TEST(SoloLoss, CrowdsCountNothing) {
+  const HeadConfig head = NetworkConfig().head;
+  ObjectMask crowd = box_object(0, 0, 0, 320, 256);
+  crowd.crowd = true;
+  const ImageTargets targets = assign_targets(sample_of(320, 256, {crowd}), head);
+  EXPECT_EQ(solo_loss(constant_output(head, 3.0F), {targets}).category.item<double>(), 0.0);
+}
+
+/// Every pair's mask is 0.5 everywhere, its object a box: the dice of the two.
+TEST(SoloLoss, OfTheMasksIsTheMeanOverThePairs) {
+  const HeadConfig head = NetworkConfig().head;
+  const ImageTargets targets =
+      assign_targets(sample_of(320, 256, {box_object(1, 80, 40, 160, 160)}), head);
+  const SoloLoss loss = solo_loss(constant_output(head, 0.0F), {targets});
+  const double area = 40 * 40;
+  EXPECT_NEAR(loss.mask.item<double>(), 1 - area / (0.25 * 64 * 80 + area + 0.002), 1e-5);
+}
+
+}  // namespace
+}  // namespace mms
