@@ -8,6 +8,11 @@
 #include <vector>
 
 #include "mms/dataset/open_dataset.hpp"
+#include "mms/io/config_yaml.hpp"
+#include "mms/io/safetensors.hpp"
+#include "mms/segmentation/model.hpp"
+#include "mms/segmentation/operation_count.hpp"
+#include "mms/segmentation/prepared_image.hpp"
 
 namespace mms {
 namespace {
@@ -37,7 +42,24 @@ void print_frame_checks(const InfoOptions& options, std::size_t size) {
   }
 }
 
+/// What a weights file is, and what it costs for a camera's usual picture.
+void print_model(const std::string& path) {
+  SegmentationModel model = unpack_model(read_safetensors(path), path);
+  const NetworkConfig& network = model.network;
+  std::string names;
+  for (const std::string& name : model.classes) names += (names.empty() ? "" : ", ") + name;
+  const PreparedImage input = prepare_image(Image<Rgb>(640, 480), network);
+  fmt::print("segmentation network of the classes {}\n", names);
+  fmt::print("{:.2f} million parameters\n",
+             1e-6 * static_cast<double>(network_parameters(network)));
+  fmt::print("{:.2f} GFLOP for a picture of 640x480 (input {}x{})\n",
+             1e-9 * static_cast<double>(network_operations(network, input.width, input.height)),
+             input.width, input.height);
+  fmt::print("{}", dump_config(network));
+}
+
 void print_info(const InfoOptions& options) {
+  if (options.data.ends_with(".safetensors")) return print_model(options.data);
   const auto source = open_dataset(options.data, {.masks = options.masks});
   for (const std::string& line : source->describe()) fmt::print("{}\n", line);
   source->on_warning([](const std::string& message) { fmt::print("warning: {}\n", message); });
@@ -48,8 +70,11 @@ void print_info(const InfoOptions& options) {
 
 void add_info_command(CLI::App& app) {
   const auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = app.add_subcommand("info", "Show what a recording holds");
-  command->add_option("DATA", options->data, "folder of the recording, or sim:SCENE")->required();
+  CLI::App* command = app.add_subcommand("info", "Show what a recording or a weights file holds");
+  command
+      ->add_option("DATA", options->data,
+                   "folder of the recording, sim:SCENE, or weights.safetensors")
+      ->required();
   command->add_option("--masks", options->masks, "folder of label images named like the frames");
   command->callback([options] { print_info(*options); });
 }

@@ -1,7 +1,6 @@
 #include "run_log.hpp"
 
 #include <fmt/core.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <numeric>
@@ -9,6 +8,7 @@
 
 #include "mms/evaluation/alignment.hpp"
 #include "overlay.hpp"
+#include "peak_memory.hpp"
 
 namespace mms {
 namespace {
@@ -16,13 +16,6 @@ namespace {
 constexpr std::size_t kMaxPictures = 8;
 constexpr std::size_t kMinPosesForError = 3;
 constexpr double kStandsStill = 1.0;  ///< largest movement of a sensor that stands still [cm]
-
-/// Largest memory the process has held so far [MiB].
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB
-}
 
 template <class Value>
 std::vector<double> column(const std::vector<LoggedFrame>& frames, const Value& value) {

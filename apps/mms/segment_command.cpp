@@ -17,6 +17,7 @@
 #include "mms/io/image_io.hpp"
 #include "mms/pipeline/config.hpp"
 #include "network_detector.hpp"
+#include "peak_memory.hpp"
 #include "picture_source.hpp"
 #include "rate_progress.hpp"
 
@@ -141,9 +142,9 @@ void segment(const SegmentArguments& arguments) {
                     "the warnings above say why");
   }
   outputs.finish();
-  fmt::print("{}: {} pictures, {} objects of score {} or more, {:.1f} ms a picture\n",
+  fmt::print("{}: {} pictures, {} objects of score {} or more, {:.1f} ms a picture, {:.0f} MiB\n",
              arguments.output.string(), outputs.pictures(), outputs.objects(), config.objects.score,
-             1e3 * seconds / static_cast<double>(outputs.pictures()));
+             1e3 * seconds / static_cast<double>(outputs.pictures()), peak_memory_mb());
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+#include <gtest/gtest.h>
+
+#include "tests/io/temp_folder.hpp"
+#include "tests/program/program.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+
+TEST(Info, TellsWhatAWeightsFileIs) {
+  const TempFolder folder;
+  const Outcome outcome =
+      run_mms(folder.path(), {"info", MMS_SOURCE_DIR "/weights/nano.safetensors"});
+  expect_done(outcome);
+  expect_in("segmentation network of the classes person, agv", outcome.out);
+  expect_in("GFLOP for a picture of 640x480 (input 320x256)", outcome.out);
+  expect_in("size: nano", outcome.out);
+}
+
+TEST(Info, BrokenWeightsAreOneLine) {
+  const TempFolder folder;
+  folder.write("broken.safetensors", "none");
+  expect_fault(run_mms(folder.path(), {"info", "broken.safetensors"}), "broken.safetensors: ");
+}
+
+}  // namespace
+}  // namespace mms
