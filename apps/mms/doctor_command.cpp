@@ -14,6 +14,7 @@
 #include "mms/io/atomic_file.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/segmentation/mask_segmenter.hpp"
+#include "network_detector.hpp"
 
 namespace mms {
 namespace {
@@ -52,6 +53,27 @@ std::string trial_run() {
   return "";
 }
 
+/// Segments a simulated frame with the network that the program comes with.
+std::string network_trial() {
+  if (!has_networks()) {
+    fmt::print("{:<44} built without libtorch\n", "network");
+    return "";
+  }
+  try {
+    const std::unique_ptr<Detector> detector = make_detector({});
+    const auto frame = open_dataset("sim:crowd?frames=1")->next();
+    detector->detect(frame->color);  // the first picture prepares the others
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t objects = detector->detect(frame->color).size();
+    const std::chrono::duration<double, std::milli> elapsed =
+        std::chrono::steady_clock::now() - start;
+    fmt::print("{:<44} {:.1f} ms a picture, one thread\n", "speed of the network", elapsed.count());
+    return objects > 0 ? "" : "found nobody in a crowd";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 std::string write_trial() {
   try {
     const std::filesystem::path probe = "mms-doctor-probe";
@@ -70,8 +92,10 @@ void add_doctor_command(CLI::App& app) {
   command->callback([] {
     print_machine();
     const bool tracked = check("tracking in a simulated warehouse", trial_run());
+    const bool segmented = check("finding people with the network", network_trial());
     const bool writable = check("writing to the working directory", write_trial());
-    if (!tracked || !writable) throw Error("doctor", "a check failed", "see the lines above");
+    if (!tracked || !segmented || !writable)
+      throw Error("doctor", "a check failed", "see the lines above");
   });
 }
 

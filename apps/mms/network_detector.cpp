@@ -16,12 +16,16 @@ namespace fs = std::filesystem;
 constexpr const char* kFileName = "weights/nano.safetensors";
 
 #ifdef MMS_WITH_TORCH
+constexpr bool kWithTorch = true;
+
 std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig& config) {
   const std::string name = path.string();
   return std::make_unique<network::TorchDetector>(unpack_model(read_safetensors(path), name), name,
                                                   config.decoder, config.threads);
 }
 #else
+constexpr bool kWithTorch = false;
+
 std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig&) {
   throw Error(path.string(), "needs libtorch, which this program was built without",
               "build with -DMMS_WITH_TORCH=ON, or use --segmenter masks or none");
@@ -40,6 +44,10 @@ fs::path default_weights() {
   throw FileError(kFileName, "is neither in share/mms/ beside the program nor in its source tree",
                   "name a weights file under segmentation.weights in the settings, or use "
                   "--segmenter masks or none");
+}
+
+bool has_networks() {
+  return kWithTorch;
 }
 
 std::unique_ptr<Detector> make_detector(const SegmentationConfig& config) {
