@@ -11,14 +11,16 @@ row() {
   shift 3
   quietly "$mms" run "$data/$name" --segmenter "$masks" --fusion "$fusion" -o "$out/$name" "$@"
   local json="$out/$name/metrics.json"
-  printf '| %s | %s | %.2f | %.2f | %.2f | %.1f | %.1f | %.1f | %.0f | %s |\n' "$name" "$fusion" \
+  printf '| %s | %s | %s | %.2f | %.2f | %.2f | %.1f | %.1f | %.1f | %.0f | %s |\n' "$name" \
+    "$masks" "$fusion" \
     "$(cm "$json" ate_rmse_m)" "$(value "$json" atde_cm)" "$(value "$json" mtde_cm)" \
     "$(value "$json" hz)" "$(value "$json" mean ms_per_frame)" \
     "$(value "$json" p99 ms_per_frame)" "$(value "$json" peak_rss_mb)" "$(value "$json" lost)"
 }
 
-echo "| recording | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | frames/s | ms a frame | p99 [ms] | MiB | lost |"
-echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+echo "| recording | masks | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | frames/s | ms a frame | p99 [ms] | MiB | lost |"
+echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
 row fr1_xyz_clip none none "$@"
 for fusion in multimodal vision none; do row lab_crowd "$fusion" masks "$@"; done
 for fusion in multimodal vision none; do row desk_crowd "$fusion" masks "$@"; done
+for name in fr1_xyz_clip lab_crowd desk_crowd; do row "$name" multimodal network "$@"; done

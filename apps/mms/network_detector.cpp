@@ -1,5 +1,7 @@
 #include "network_detector.hpp"
 
+#include <algorithm>
+
 #include "mms/core/error.hpp"
 #include "mms/io/safetensors.hpp"
 #include "mms/segmentation/model.hpp"
@@ -59,7 +61,9 @@ std::unique_ptr<Detector> make_detector(const SegmentationConfig& config) {
 }
 
 std::unique_ptr<Segmenter> make_network_segmenter(const SegmentationConfig& config) {
-  return std::make_unique<NetworkSegmenter>(make_detector(config), config.objects);
+  SegmentationConfig wanted = config;  // masks that count for nothing need not be made
+  wanted.decoder.score = std::max(wanted.decoder.score, config.objects.score);
+  return std::make_unique<NetworkSegmenter>(make_detector(wanted), config.objects);
 }
 
 }  // namespace mms

@@ -26,13 +26,6 @@ torch::Device choose_device(const TrainingConfig& config) {
   return cuda ? torch::Device(torch::kCUDA) : torch::Device(torch::kCPU);
 }
 
-/// Convolutions in half precision are fastest with the channels last.
-void put_channels_last(torch::nn::Module& module) {
-  for (torch::Tensor& p : module.parameters()) {
-    if (p.dim() == 4) p.set_data(p.data().contiguous(at::MemoryFormat::ChannelsLast));
-  }
-}
-
 void prepare_backbones(network::SoloNetwork& network, const ScheduleConfig& schedule) {
   for (network::Backbone& backbone : network->backbones()) {
     backbone->freeze(schedule.frozen_stages);
@@ -85,7 +78,7 @@ Trainer::Trainer(const TrainingConfig& config)
   prepare_backbones(network_, config.schedule);
   network_->to(device_);
   average_->to(device_);
-  put_channels_last(*network_);
+  network::put_channels_last(*network_);
   average_->eval();
   network::load_weights(*average_, network::to_weights(*network_), "a copy of the network");
   optimizer_ = make_optimizer(network_, config.schedule);
@@ -168,7 +161,7 @@ void Trainer::load(const std::filesystem::path& path) {
     throw DataError(path.string(), "is no checkpoint of this network",
                     std::string("torch says: ") + error.what_without_backtrace());
   }
-  put_channels_last(*network_);
+  network::put_channels_last(*network_);
 }
 
 }  // namespace mms

@@ -1,5 +1,7 @@
 #include "mms/segmentation/network/inference.hpp"
 
+#include <c10/core/InferenceMode.h>
+
 #include "mms/segmentation/prepared_image.hpp"
 
 namespace mms::network {
@@ -26,12 +28,13 @@ HeadMaps head_maps(HeadOutput& output) {
 
 std::vector<Detection> detect(SoloNetwork& network, const Image<Rgb>& image,
                               const DecoderConfig& config) {
-  const torch::NoGradGuard no_grad;
+  const c10::InferenceMode inference;
   PreparedImage prepared = prepare_image(image, network->config());
   const torch::Tensor input =
       torch::from_blob(prepared.planes.data(), {1, 3, prepared.height, prepared.width},
                        torch::kFloat)
-          .to(network->parameters().front().device());
+          .to(network->parameters().front().device())
+          .contiguous(at::MemoryFormat::ChannelsLast);
   HeadOutput output = network->forward(input);
   return decode(head_maps(output), network->config(), prepared, config);
 }

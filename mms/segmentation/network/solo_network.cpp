@@ -56,6 +56,12 @@ void SoloNetworkImpl::fold() {
   }
 }
 
+void put_channels_last(torch::nn::Module& module) {
+  for (torch::Tensor& p : module.parameters()) {
+    if (p.dim() == 4) p.set_data(p.data().contiguous(at::MemoryFormat::ChannelsLast));
+  }
+}
+
 std::map<std::string, torch::Tensor> named_tensors(torch::nn::Module& module) {
   std::map<std::string, torch::Tensor> tensors;
   for (const auto& item : module.named_parameters()) tensors[item.key()] = item.value();

@@ -30,6 +30,9 @@ class SoloNetworkImpl : public torch::nn::Module {
 };
 TORCH_MODULE(SoloNetwork);
 
+/// Lays the convolutions' weights out with the channels last, which oneDNN is fastest with.
+void put_channels_last(torch::nn::Module& module);
+
 /// All parameters and statistics by name.
 std::map<std::string, torch::Tensor> named_tensors(torch::nn::Module& module);
 

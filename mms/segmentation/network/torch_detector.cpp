@@ -18,6 +18,7 @@ TorchDetector::TorchDetector(const SegmentationModel& model, const std::string& 
   load_weights(*network_, model.weights, where);
   network_->eval();
   network_->fold();
+  put_channels_last(*network_);
   if (torch::cuda::is_available()) network_->to(torch::kCUDA);
 }
 
