@@ -17,16 +17,17 @@ class Axis {
   }
 
   struct Place {
-    int low = 0;
-    int high = 0;
+    std::size_t low = 0;
+    std::size_t high = 0;
     float share = 0.0F;  ///< of `high`
   };
 
   Place place(int pixel) const {
     const float at = (static_cast<float>(pixel) + 0.5F) * step_ - 0.5F;
     const float within = std::clamp(at, 0.0F, static_cast<float>(mask_ - 1));
-    const int low = static_cast<int>(within);
-    return {low, std::min(low + 1, mask_ - 1), within - static_cast<float>(low)};
+    const auto low = static_cast<std::size_t>(within);
+    const std::size_t high = std::min(low + 1, static_cast<std::size_t>(mask_ - 1));
+    return {low, high, within - static_cast<float>(low)};
   }
 
   /// Pixels whose value may depend on the mask pixels first..last: inclusive range.
@@ -50,30 +51,33 @@ struct Box {
   int bottom = -1;
 };
 
-/// Box of the values above the threshold.
-Box bounds(const std::vector<float>& soft, int width) {
-  const int height = static_cast<int>(soft.size()) / width;
+/// Box of the values that count, in rows of `width`.
+template <class Value, class Counts>
+Box bounds(const std::vector<Value>& values, int width, const Counts& counts) {
+  const int height = static_cast<int>(values.size()) / width;
   Box box{width, -1, height, -1};
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (soft[static_cast<std::size_t>(y * width + x)] <= kThreshold) continue;
-      box = {std::min(box.left, x), std::max(box.right, x), std::min(box.top, y),
-             std::max(box.bottom, y)};
-    }
+    const Value* row = values.data() + y * width;
+    const auto left = static_cast<int>(std::find_if(row, row + width, counts) - row);
+    if (left == width) continue;
+    int right = width - 1;
+    while (!counts(row[right])) --right;
+    box = {std::min(box.left, left), std::max(box.right, right), std::min(box.top, y), y};
   }
   return box;
 }
 
+/// The mask between two of its rows.
+void mix_rows(const std::vector<float>& soft, const Axis::Place& place, std::vector<float>& row) {
+  const float* low = soft.data() + place.low * row.size();
+  const float* high = soft.data() + place.high * row.size();
+  for (std::size_t x = 0; x < row.size(); ++x) row[x] = low[x] + place.share * (high[x] - low[x]);
+}
+
 /// Crops a detection to the rows and columns that its mask is in.
 Detection cropped(Detection loose) {
-  Box box{loose.mask.width(), -1, loose.mask.height(), -1};
-  for (int y = 0; y < loose.mask.height(); ++y) {
-    for (int x = 0; x < loose.mask.width(); ++x) {
-      if (loose.mask(x, y) == 0) continue;
-      box = {std::min(box.left, x), std::max(box.right, x), std::min(box.top, y),
-             std::max(box.bottom, y)};
-    }
-  }
+  const Box box = bounds(loose.mask.pixels(), loose.mask.width(),
+                         [](std::uint8_t value) { return value != 0; });
   if (box.right < box.left) return {};
   Detection tight;
   tight.x = loose.x + box.left;
@@ -89,7 +93,8 @@ Detection cropped(Detection loose) {
 
 Detection enlarged_mask(const std::vector<float>& soft, int mask_width,
                         const PreparedImage& prepared) {
-  const Box box = bounds(soft, mask_width);
+  const Box box =
+      bounds(soft, mask_width, [](float probability) { return probability > kThreshold; });
   if (box.right < box.left) return {};
   const int mask_height = static_cast<int>(soft.size()) / mask_width;
   const Axis columns(prepared.image_width, prepared.valid_width, mask_width);
@@ -103,16 +108,13 @@ Detection enlarged_mask(const std::vector<float>& soft, int mask_width,
   loose.mask = {right - left + 1, bottom - top + 1};
   std::vector<Axis::Place> places;
   for (int x = left; x <= right; ++x) places.push_back(columns.place(x));
+  std::vector<float> row(static_cast<std::size_t>(mask_width));
   for (int y = top; y <= bottom; ++y) {
-    const Axis::Place v = rows.place(y);
-    const float* low = soft.data() + v.low * mask_width;
-    const float* high = soft.data() + v.high * mask_width;
+    mix_rows(soft, rows.place(y), row);
     std::uint8_t* out = loose.mask.row(y - top);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Axis::Place& u = places[i];
-      const float a = low[u.low] + u.share * (low[u.high] - low[u.low]);
-      const float b = high[u.low] + u.share * (high[u.high] - high[u.low]);
-      out[i] = a + v.share * (b - a) > kThreshold ? 1 : 0;
+      out[i] = row[u.low] + u.share * (row[u.high] - row[u.low]) > kThreshold ? 1 : 0;
     }
   }
   return cropped(std::move(loose));

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "mms/segmentation/network/convolve.hpp"
+
 namespace mms::network {
 namespace {
 
@@ -73,15 +75,15 @@ torch::Tensor ResidualBlockImpl::skip(const torch::Tensor& x) {
 }
 
 torch::Tensor ResidualBlockImpl::residual(const torch::Tensor& x) {
-  torch::Tensor y = torch::relu(normalised_conv(conv1_, bn1_, x));
+  torch::Tensor y = normalised_conv(conv1_, bn1_, x).relu_();
   y = conv2_.is_empty() ? bn2_(switchable2_(y)) : normalised_conv(conv2_, bn2_, y);
-  return conv3_.is_empty() ? y : normalised_conv(conv3_, bn3_, torch::relu(y));
+  return conv3_.is_empty() ? y : normalised_conv(conv3_, bn3_, y.relu_());
 }
 
 torch::Tensor ResidualBlockImpl::forward(const torch::Tensor& x, const torch::Tensor& feedback) {
   torch::Tensor sum = residual(x) + skip(x);
-  if (feedback.defined()) sum = sum + rfp_conv_(feedback);
-  return torch::relu(sum);
+  if (feedback.defined()) sum = sum + convolve(feedback, rfp_conv_);
+  return sum.relu_();
 }
 
 BackboneImpl::BackboneImpl(const BackboneConfig& config, std::int64_t feedback) {
@@ -114,7 +116,7 @@ BackboneImpl::BackboneImpl(const BackboneConfig& config, std::int64_t feedback) 
 
 BackboneImpl::Features BackboneImpl::forward(
     const torch::Tensor& image, const std::array<torch::Tensor, kStages - 1>& feedback) {
-  torch::Tensor x = torch::max_pool2d(torch::relu(normalised_conv(conv1_, bn1_, image)), 3, 2, 1);
+  torch::Tensor x = torch::max_pool2d(normalised_conv(conv1_, bn1_, image).relu_(), 3, 2, 1);
   Features features;
   for (std::size_t i = 0; i < kStages; ++i) {
     bool first = true;

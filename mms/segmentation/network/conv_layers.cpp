@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mms/segmentation/network/convolve.hpp"
 #include "mms/segmentation/network/deformable_conv.hpp"
 
 namespace mms::network {
@@ -33,7 +34,7 @@ std::pair<torch::Tensor, torch::Tensor> channel_statistics(const torch::Tensor& 
 }
 
 torch::Tensor add_context(const torch::Tensor& x, nn::Conv2d& context) {
-  return x + context(torch::adaptive_avg_pool2d(x, {1, 1}));
+  return x + convolve(torch::adaptive_avg_pool2d(x, {1, 1}), context);
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ void BackboneConvImpl::fold(nn::BatchNorm2dImpl& norm) {
 }
 
 torch::Tensor BackboneConvImpl::forward(const torch::Tensor& x) {
-  return torch::conv2d(x, effective_weight(), bias_, shape_.stride, shape_.kernel / 2);
+  return convolve(x, effective_weight(), bias_, shape_.stride);
 }
 
 SwitchableConvImpl::SwitchableConvImpl(const ConvShape& shape, bool deformable) : shape_(shape) {
@@ -119,21 +120,21 @@ void SwitchableConvImpl::fold() {
   folded_ = register_buffer("folded_weight", small_weight());
 }
 
-torch::Tensor SwitchableConvImpl::convolve(const torch::Tensor& x, const torch::Tensor& weight,
-                                           nn::Conv2d& offset, const torch::Tensor& pooled,
-                                           std::int64_t dilation) {
-  if (offset.is_empty()) return torch::conv2d(x, weight, {}, shape_.stride, dilation, dilation);
-  return deformable_conv(x, offset(pooled), weight, shape_.stride, dilation);
+torch::Tensor SwitchableConvImpl::convolve_at(const torch::Tensor& x, const torch::Tensor& weight,
+                                              nn::Conv2d& offset, const torch::Tensor& pooled,
+                                              std::int64_t dilation) {
+  if (offset.is_empty()) return convolve(x, weight, {}, shape_.stride, dilation);
+  return deformable_conv(x, convolve(pooled, offset), weight, shape_.stride, dilation);
 }
 
 torch::Tensor SwitchableConvImpl::forward(const torch::Tensor& input) {
   const torch::Tensor x = add_context(input, pre_context_);
   const torch::Tensor pooled = torch::avg_pool2d(torch::reflection_pad2d(x, {2, 2, 2, 2}), 5, 1);
-  const torch::Tensor mix = switch_(pooled);
+  const torch::Tensor mix = convolve(pooled, switch_);
   const torch::Tensor weight = small_weight();
-  const torch::Tensor small = convolve(x, weight, offset_small_, pooled, 1);
+  const torch::Tensor small = convolve_at(x, weight, offset_small_, pooled, 1);
   const torch::Tensor large =
-      convolve(x, weight + difference_, offset_large_, pooled, kLargeDilation);
+      convolve_at(x, weight + difference_, offset_large_, pooled, kLargeDilation);
   return add_context(mix * small + (1 - mix) * large, post_context_);
 }
 
@@ -160,10 +161,10 @@ void HeadUnitImpl::fold() {
 }
 
 torch::Tensor HeadUnitImpl::forward(const torch::Tensor& x) {
-  torch::Tensor y = conv_(x);
+  torch::Tensor y = convolve(x, conv_);
   if (!batch_norm_.is_empty()) y = batch_norm_(y);
   if (!group_norm_.is_empty()) y = group_norm_(y);
-  return torch::relu(y);
+  return y.relu_();
 }
 
 PlainUnitImpl::PlainUnitImpl(const ConvShape& shape) {
@@ -173,7 +174,7 @@ PlainUnitImpl::PlainUnitImpl(const ConvShape& shape) {
 }
 
 torch::Tensor PlainUnitImpl::forward(const torch::Tensor& x) {
-  return conv_(x);
+  return convolve(x, conv_);
 }
 
 }  // namespace mms::network

@@ -55,9 +55,9 @@ class SwitchableConvImpl : public torch::nn::Module {
 
  private:
   torch::Tensor small_weight() const;
-  torch::Tensor convolve(const torch::Tensor& x, const torch::Tensor& weight,
-                         torch::nn::Conv2d& offset, const torch::Tensor& pooled,
-                         std::int64_t dilation);
+  torch::Tensor convolve_at(const torch::Tensor& x, const torch::Tensor& weight,
+                            torch::nn::Conv2d& offset, const torch::Tensor& pooled,
+                            std::int64_t dilation);
 
   ConvShape shape_;
   torch::Tensor weight_;

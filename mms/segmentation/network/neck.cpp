@@ -4,6 +4,8 @@
 
 #include <tuple>
 
+#include "mms/segmentation/network/convolve.hpp"
+
 namespace mms::network {
 namespace {
 
@@ -39,8 +41,9 @@ torch::Tensor AsppImpl::forward(const torch::Tensor& x) {
   std::vector<torch::Tensor> parts;
   for (std::size_t i = 0; i < branches_->size(); ++i) {
     const bool global = i + 1 == branches_->size();
+    nn::Conv2d branch(branches_->ptr<nn::Conv2dImpl>(i));
     const torch::Tensor input = global ? torch::adaptive_avg_pool2d(x, {1, 1}) : x;
-    const torch::Tensor y = torch::relu(branches_->ptr<nn::Conv2dImpl>(i)->forward(input));
+    const torch::Tensor y = convolve(input, branch).relu_();
     parts.push_back(global ? y.expand({-1, -1, x.size(2), x.size(3)}) : y);
   }
   return torch::cat(parts, 1);
@@ -87,7 +90,7 @@ Pyramid NeckImpl::look_again(const torch::Tensor& image, const Pyramid& first) {
       build(second_backbone()->forward(image, {aspp_(first[1]), aspp_(first[2]), aspp_(first[3])}));
   Pyramid fused;
   for (std::size_t i = 0; i < fused.size(); ++i) {
-    const torch::Tensor weight = torch::sigmoid(fusion_(again[i]));
+    const torch::Tensor weight = torch::sigmoid(convolve(again[i], fusion_));
     fused[i] = weight * again[i] + (1 - weight) * first[i];
   }
   return fused;

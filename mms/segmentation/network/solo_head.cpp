@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "mms/segmentation/network/convolve.hpp"
+
 namespace mms::network {
 namespace {
 
@@ -128,8 +130,8 @@ HeadOutput SoloHeadImpl::forward(const Pyramid& pyramid) {
     const torch::Tensor for_categories =
         config_.shared_tower ? for_kernels
                              : tower(category_tower_, cells.narrow(1, 0, cells.size(1) - 2));
-    output.kernels[i] = kernel_(for_kernels);
-    output.categories[i] = category_(for_categories);
+    output.kernels[i] = convolve(for_kernels, kernel_);
+    output.categories[i] = convolve(for_categories, category_);
   }
   return output;
 }
