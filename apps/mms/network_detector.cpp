@@ -40,7 +40,7 @@ fs::path default_weights() {
   std::error_code fault;
   const fs::path program = fs::read_symlink("/proc/self/exe", fault);
   const fs::path folder = program.parent_path();
-  for (const fs::path& base : {folder / "../share/mms", folder / "../.."}) {
+  for (const fs::path& base : {folder / "../share/mms", folder / "../..", folder / ".."}) {
     if (fs::exists(base / kFileName)) return fs::weakly_canonical(base / kFileName);
   }
   throw FileError(kFileName, "is neither in share/mms/ beside the program nor in its source tree",

@@ -77,11 +77,14 @@ std::unique_ptr<PictureSource> open_pictures(const std::string& where,
   if (fs::is_regular_file(where) && is_picture(where)) {
     return std::make_unique<PictureFiles>(std::vector<PictureFile>{{1, where}}, warning);
   }
-  if (fs::is_directory(where)) {
-    std::vector<PictureFile> files = pictures_of(where);
-    if (!files.empty()) return std::make_unique<PictureFiles>(std::move(files), warning);
+  try {  // recordings first: some have their depth images beside the pictures
+    return std::make_unique<RecordedPictures>(where, warning);
+  } catch (const DataError&) {
+    std::vector<PictureFile> files;
+    if (fs::is_directory(where)) files = pictures_of(where);
+    if (files.empty()) throw;
+    return std::make_unique<PictureFiles>(std::move(files), warning);
   }
-  return std::make_unique<RecordedPictures>(where, warning);
 }
 
 std::unique_ptr<PictureSource> open_annotated(const fs::path& annotations, const fs::path& folder,

@@ -60,6 +60,9 @@ std::vector<DataImage> annotated_images(const TrainingData& set,
 
 std::vector<DataImage> list_images(const TrainingData& set,
                                    const std::vector<std::string>& classes) {
+  if (set.annotations.empty() && set.images.empty()) {
+    throw ConfigError("data", "has a set with neither annotations nor images", "name one of them");
+  }
   std::vector<DataImage> images =
       set.annotations.empty() ? folder_images(set.images) : annotated_images(set, classes);
   if (set.limit > 0) images.resize(std::min(images.size(), static_cast<std::size_t>(set.limit)));

@@ -175,6 +175,8 @@ bool TrainingRun::validate() {
           {images_seen(), set.name(), scores.name, scores.scores.ap, scores.scores.ap50});
     }
   }
+  // A training that had ended is measured once more when it is started again.
+  std::erase_if(log_.aps, [&](const ApPoint& point) { return point.images == images_seen(); });
   log_.aps.insert(log_.aps.end(), event.aps.begin(), event.aps.end());
   write_results();
   return tell(event);

@@ -2,8 +2,10 @@
 
 #include <torch/nn/functional.h>
 
+#include <string>
 #include <tuple>
 
+#include "mms/core/error.hpp"
 #include "mms/segmentation/network/convolve.hpp"
 
 namespace mms::network {
@@ -59,6 +61,10 @@ NeckImpl::NeckImpl(const NeckConfig& config, const BackboneConfig& backbone,
   register_module("lateral_convs", lateral_);
   register_module("fpn_convs", output_);
   if (!config.recursive) return;
+  if (width % 4 != 0) {
+    throw ConfigError("network.neck.channels", "is " + std::to_string(width),
+                      "a recursive pyramid needs a multiple of 4: its ASPP has four parts");
+  }
   second_->push_back(Backbone(backbone, width));
   register_module("rfp_modules", second_);
   aspp_ = register_module("rfp_aspp", Aspp(width));

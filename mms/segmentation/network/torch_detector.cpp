@@ -23,6 +23,7 @@ TorchDetector::TorchDetector(const SegmentationModel& model, const std::string& 
 }
 
 std::vector<Detection> TorchDetector::detect(const Image<Rgb>& image) {
+  at::init_num_threads();  // a thread's number of threads is its own; frames may come in any
   return network::detect(network_, image, config_);
 }
 
