@@ -11,6 +11,7 @@
 #include "import_command.hpp"
 #include "info_command.hpp"
 #include "mms/core/error.hpp"
+#include "quantize_command.hpp"
 #include "run_command.hpp"
 #include "segment_command.hpp"
 #include "simulate_command.hpp"
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
   mms::add_eval_command(app);
   mms::add_simulate_command(app);
   mms::add_segment_command(app);
+  mms::add_quantize_command(app);
   mms::add_import_command(app);
 #ifdef MMS_WITH_TORCH
   mms::add_train_command(app);

@@ -4,6 +4,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/io/safetensors.hpp"
+#include "mms/segmentation/engine/engine_detector.hpp"
 #include "mms/segmentation/model.hpp"
 #include "mms/segmentation/onnx/onnx_detector.hpp"
 #ifdef MMS_WITH_TORCH
@@ -20,19 +21,52 @@ constexpr const char* kFileName = "weights/nano.safetensors";
 #ifdef MMS_WITH_TORCH
 constexpr bool kWithTorch = true;
 
-std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig& config) {
-  const std::string name = path.string();
-  return std::make_unique<network::TorchDetector>(unpack_model(read_safetensors(path), name), name,
-                                                  config.decoder, config.threads);
+bool has_gpu() {
+  return network::has_gpu();
+}
+
+std::unique_ptr<Detector> make_torch_detector(const SegmentationModel& model,
+                                              const std::string& where,
+                                              const SegmentationConfig& config) {
+  return std::make_unique<network::TorchDetector>(model, where, config.decoder, config.threads);
 }
 #else
 constexpr bool kWithTorch = false;
 
-std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig&) {
-  throw Error(path.string(), "needs libtorch, which this program was built without",
-              "build with -DMMS_WITH_TORCH=ON, or use --segmenter masks or none");
+bool has_gpu() {
+  return false;
+}
+
+std::unique_ptr<Detector> make_torch_detector(const SegmentationModel&, const std::string& where,
+                                              const SegmentationConfig&) {
+  throw Error(where, "is to be computed by libtorch, which this program was built without",
+              "build with -DMMS_WITH_TORCH=ON, or take segmentation.backend: auto");
 }
 #endif
+
+bool wants_torch(const SegmentationModel& model, const SegmentationConfig& config) {
+  if (config.backend != NetworkBackend::kAuto) return config.backend == NetworkBackend::kLibtorch;
+  const bool deformable = model.network.backbone.sac == SacMode::kDeformable;
+  return kWithTorch && (deformable || has_gpu());
+}
+
+engine::Quantization quantization_of(const SegmentationModel& model, const std::string& where,
+                                     NetworkPrecision precision) {
+  if (precision == NetworkPrecision::kFloat32) return {};
+  engine::Quantization quantization = engine::unpack_quantization(model.weights, where);
+  if (precision == NetworkPrecision::kAuto || !quantization.ranges.empty()) return quantization;
+  throw DataError(where, "is not quantized, but segmentation.precision is int8",
+                  "calibrate it with mms quantize");
+}
+
+std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig& config) {
+  const std::string where = path.string();
+  SegmentationModel model = unpack_model(read_safetensors(path), where);
+  if (wants_torch(model, config)) return make_torch_detector(model, where, config);
+  engine::Quantization quantization = quantization_of(model, where, config.precision);
+  return std::make_unique<engine::EngineDetector>(std::move(model), where, std::move(quantization),
+                                                  config.decoder, config.threads);
+}
 
 }  // namespace
 

@@ -24,10 +24,11 @@ Weights read_safetensors(const std::filesystem::path& path);
 Weights parse_safetensors(std::span<const std::uint8_t> bytes, const std::string& where);
 
 /// Writes a safetensors file, whole or not at all, with the tensors in the order of their names.
-/// 32 bits keep every value; 16 bits round to the nearest, ties to even.
+/// 32 bits keep every value; 16 bits round to the nearest, ties to even, and a tensor with values
+/// too large for them is written with 32.
 /// @throws FileError when it cannot be written; DataError naming tensor and value when a number is
-///         not finite or too large for 16 bits, when values and shape do not fit each other, or for
-///         a name that safetensors forbids.
+///         not finite, when values and shape do not fit each other, or for a name that safetensors
+///         forbids.
 void write_safetensors(const std::filesystem::path& path, const Weights& weights,
                        TensorType type = TensorType::kFloat32);
 

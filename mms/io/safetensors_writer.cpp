@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -14,6 +15,14 @@ namespace {
 
 std::size_t step_of(TensorType type) {
   return type == TensorType::kFloat32 ? sizeof(float) : sizeof(std::uint16_t);
+}
+
+/// float32 for a tensor with values that float16 cannot hold.
+TensorType type_of(const WeightTensor& tensor, TensorType wanted) {
+  const bool fits = std::all_of(tensor.values.begin(), tensor.values.end(), [](float value) {
+    return !std::isfinite(value) || half_from_float(value).has_value();
+  });
+  return fits ? wanted : TensorType::kFloat32;
 }
 
 template <class Unsigned>
@@ -39,15 +48,15 @@ void check_tensor(const std::string& name, const WeightTensor& tensor, const std
 
 /// Places the tensors one after another and describes them; padded with spaces to whole words.
 std::string describe(const Weights& weights, TensorType type, const std::string& where) {
-  const std::size_t step = step_of(type);
   nlohmann::ordered_json header = nlohmann::ordered_json::object();
   if (!weights.metadata.empty()) header[std::string(kSafetensorsMetadata)] = weights.metadata;
   std::size_t end = 0;
   for (const auto& [name, tensor] : weights.tensors) {
     check_tensor(name, tensor, where);
     const std::size_t begin = end;
-    end += tensor.values.size() * step;
-    header[name] = {{"dtype", type == TensorType::kFloat32 ? "F32" : "F16"},
+    const TensorType own = type_of(tensor, type);
+    end += tensor.values.size() * step_of(own);
+    header[name] = {{"dtype", own == TensorType::kFloat32 ? "F32" : "F16"},
                     {"shape", tensor.shape},
                     {"data_offsets", {begin, end}}};
   }
@@ -80,15 +89,13 @@ void append_value(float value, TensorType type, const std::string& name, std::si
 std::vector<std::uint8_t> encode_safetensors(const Weights& weights, TensorType type,
                                              const std::string& where) {
   const std::string header = describe(weights, type, where);
-  std::size_t size = kSafetensorsLength + header.size();
-  for (const auto& [name, tensor] : weights.tensors) size += tensor.values.size() * step_of(type);
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(size);
   append_little_endian<std::uint64_t>(header.size(), bytes);
   bytes.insert(bytes.end(), header.begin(), header.end());
   for (const auto& [name, tensor] : weights.tensors) {
+    const TensorType own = type_of(tensor, type);
     for (std::size_t i = 0; i < tensor.values.size(); ++i) {
-      append_value(tensor.values[i], type, name, i, where, bytes);
+      append_value(tensor.values[i], own, name, i, where, bytes);
     }
   }
   return bytes;

@@ -17,17 +17,16 @@ class Axis {
   }
 
   struct Place {
-    std::size_t low = 0;
-    std::size_t high = 0;
+    int low = 0;
+    int high = 0;
     float share = 0.0F;  ///< of `high`
   };
 
-  Place place(int pixel) const {
-    const float at = (static_cast<float>(pixel) + 0.5F) * step_ - 0.5F;
-    const float within = std::clamp(at, 0.0F, static_cast<float>(mask_ - 1));
-    const auto low = static_cast<std::size_t>(within);
-    const std::size_t high = std::min(low + 1, static_cast<std::size_t>(mask_ - 1));
-    return {low, high, within - static_cast<float>(low)};
+  /// Of the pixels first..last.
+  std::vector<Place> places(int first, int last) const {
+    std::vector<Place> all;
+    for (int pixel = first; pixel <= last; ++pixel) all.push_back(place(pixel));
+    return all;
   }
 
   /// Pixels whose value may depend on the mask pixels first..last: inclusive range.
@@ -39,6 +38,13 @@ class Axis {
   }
 
  private:
+  Place place(int pixel) const {
+    const float at = (static_cast<float>(pixel) + 0.5F) * step_ - 0.5F;
+    const float within = std::clamp(at, 0.0F, static_cast<float>(mask_ - 1));
+    const int low = static_cast<int>(within);
+    return {low, std::min(low + 1, mask_ - 1), within - static_cast<float>(low)};
+  }
+
   int picture_ = 0;
   int mask_ = 0;
   float step_ = 0.0F;
@@ -54,28 +60,57 @@ struct Box {
 /// Box of the values that count, in rows of `width`.
 template <class Value, class Counts>
 Box bounds(const std::vector<Value>& values, int width, const Counts& counts) {
-  const int height = static_cast<int>(values.size()) / width;
-  Box box{width, -1, height, -1};
-  for (int y = 0; y < height; ++y) {
-    const Value* row = values.data() + y * width;
-    const auto left = static_cast<int>(std::find_if(row, row + width, counts) - row);
-    if (left == width) continue;
+  const auto row_of = [&](int y) { return values.data() + static_cast<std::ptrdiff_t>(y) * width; };
+  const auto has_some = [&](int y) { return std::any_of(row_of(y), row_of(y) + width, counts); };
+  Box box{width, -1, 0, static_cast<int>(values.size()) / width - 1};
+  while (box.top <= box.bottom && !has_some(box.top)) ++box.top;
+  while (box.top < box.bottom && !has_some(box.bottom)) --box.bottom;
+  for (int y = box.top; y <= box.bottom; ++y) {  // only what may widen the box is looked at
+    const Value* row = row_of(y);
+    box.left = static_cast<int>(std::find_if(row, row + box.left, counts) - row);
     int right = width - 1;
-    while (!counts(row[right])) --right;
-    box = {std::min(box.left, left), std::max(box.right, right), std::min(box.top, y), y};
+    while (right > box.right && !counts(row[right])) --right;
+    box.right = right;
   }
   return box;
 }
 
-/// The mask between two of its rows.
-void mix_rows(const std::vector<float>& soft, const Axis::Place& place, std::vector<float>& row) {
-  const float* low = soft.data() + place.low * row.size();
-  const float* high = soft.data() + place.high * row.size();
-  for (std::size_t x = 0; x < row.size(); ++x) row[x] = low[x] + place.share * (high[x] - low[x]);
+/// The rows first..last of a mask, each at the places of the picture's columns.
+Image<float> widened_rows(const std::vector<float>& soft, int mask_width, int first, int last,
+                          const std::vector<Axis::Place>& columns) {
+  Image<float> rows(static_cast<int>(columns.size()), last - first + 1);
+  for (int y = first; y <= last; ++y) {
+    const float* row = soft.data() + static_cast<std::ptrdiff_t>(y) * mask_width;
+    float* out = rows.row(y - first);
+    for (const Axis::Place& u : columns) *out++ = row[u.low] + u.share * (row[u.high] - row[u.low]);
+  }
+  return rows;
+}
+
+/// The object between two rows of probabilities.
+void cut_between(const float* low, const float* high, float share, int width, std::uint8_t* out) {
+  for (int x = 0; x < width; ++x) {
+    out[x] = low[x] + share * (high[x] - low[x]) > kThreshold ? 1 : 0;
+  }
+}
+
+/// The mask at places between its pixels.
+Image<std::uint8_t> mask_at(const std::vector<float>& soft, int mask_width,
+                            const std::vector<Axis::Place>& columns,
+                            const std::vector<Axis::Place>& rows) {
+  const int first = rows.front().low;
+  const Image<float> wide = widened_rows(soft, mask_width, first, rows.back().high, columns);
+  Image<std::uint8_t> mask(wide.width(), static_cast<int>(rows.size()));
+  for (int y = 0; y < mask.height(); ++y) {
+    const Axis::Place& v = rows[static_cast<std::size_t>(y)];
+    cut_between(wide.row(v.low - first), wide.row(v.high - first), v.share, mask.width(),
+                mask.row(y));
+  }
+  return mask;
 }
 
 /// Crops a detection to the rows and columns that its mask is in.
-Detection cropped(Detection loose) {
+Detection cropped(const Detection& loose) {
   const Box box = bounds(loose.mask.pixels(), loose.mask.width(),
                          [](std::uint8_t value) { return value != 0; });
   if (box.right < box.left) return {};
@@ -105,19 +140,8 @@ Detection enlarged_mask(const std::vector<float>& soft, int mask_width,
   Detection loose;
   loose.x = left;
   loose.y = top;
-  loose.mask = {right - left + 1, bottom - top + 1};
-  std::vector<Axis::Place> places;
-  for (int x = left; x <= right; ++x) places.push_back(columns.place(x));
-  std::vector<float> row(static_cast<std::size_t>(mask_width));
-  for (int y = top; y <= bottom; ++y) {
-    mix_rows(soft, rows.place(y), row);
-    std::uint8_t* out = loose.mask.row(y - top);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const Axis::Place& u = places[i];
-      out[i] = row[u.low] + u.share * (row[u.high] - row[u.low]) > kThreshold ? 1 : 0;
-    }
-  }
-  return cropped(std::move(loose));
+  loose.mask = mask_at(soft, mask_width, columns.places(left, right), rows.places(top, bottom));
+  return cropped(loose);
 }
 
 }  // namespace mms

@@ -16,15 +16,25 @@ float overlap(const NmsCandidate& a, const NmsCandidate& b) {
   return united == 0 ? 0.0F : static_cast<float>(common) / static_cast<float>(united);
 }
 
+/// At most 64 values as bits, the first one lowest. A span of fixed length vectorises.
+template <std::size_t kLength>
+std::uint64_t word_of(std::span<const float, kLength> values, float threshold) {
+  std::uint64_t word = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    word |= static_cast<std::uint64_t>(values[i] > threshold ? 1 : 0) << i;
+  }
+  return word;
+}
+
 }  // namespace
 
-BitMask bit_mask(const std::vector<float>& values, float threshold) {
+BitMask bit_mask(std::span<const float> values, float threshold) {
   BitMask mask;
-  mask.words.assign((values.size() + kWordBits - 1) / kWordBits, 0);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::uint64_t bit = values[i] > threshold ? 1 : 0;
-    mask.words[i / kWordBits] |= bit << (i % kWordBits);
+  mask.words.reserve((values.size() + kWordBits - 1) / kWordBits);
+  for (; values.size() >= kWordBits; values = values.subspan(kWordBits)) {
+    mask.words.push_back(word_of(values.first<kWordBits>(), threshold));
   }
+  if (!values.empty()) mask.words.push_back(word_of(values, threshold));
   for (const std::uint64_t word : mask.words) mask.area += std::popcount(word);
   return mask;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace mms {
@@ -12,7 +13,10 @@ struct BitMask {
 };
 
 /// Bits of the values above `threshold`.
-BitMask bit_mask(const std::vector<float>& values, float threshold);
+BitMask bit_mask(std::span<const float> values, float threshold);
+inline BitMask bit_mask(const std::vector<float>& values, float threshold) {
+  return bit_mask(std::span<const float>(values), threshold);
+}
 
 /// Number of pixels in both of two masks of one size.
 int common_area(const BitMask& a, const BitMask& b);

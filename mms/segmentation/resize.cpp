@@ -1,5 +1,6 @@
 #include "mms/segmentation/resize.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -36,22 +37,25 @@ std::vector<Taps> all_taps(int output_size, int input_size) {
   return taps;
 }
 
-/// Weighted sum of input rows: 3 * width samples.
+/// Weighted sum of input rows: 3 * width samples, and what else `row` has room for.
 void mix_rows(const Image<Rgb>& image, const Taps& taps, std::vector<float>& row) {
+  const std::size_t samples = 3 * static_cast<std::size_t>(image.width());
   std::fill(row.begin(), row.end(), 0.0F);
   for (std::size_t k = 0; k < taps.weights.size(); ++k) {
     const Rgb* pixels = image.row(taps.first + static_cast<int>(k));
-    const auto* samples = reinterpret_cast<const std::uint8_t*>(pixels);
+    const auto* sample = reinterpret_cast<const std::uint8_t*>(pixels);
     const float weight = taps.weights[k];
-    for (std::size_t i = 0; i < row.size(); ++i) row[i] += weight * samples[i];
+    for (std::size_t i = 0; i < samples; ++i) row[i] += weight * sample[i];
   }
 }
 
+/// Weighted sum of a row's pixels, as a vector of four: it reads one sample more than they have.
 Rgb mix_pixels(const std::vector<float>& row, const Taps& taps) {
-  float sum[3] = {0.5F, 0.5F, 0.5F};  // rounds what follows
+  Eigen::Array4f sum = Eigen::Array4f::Constant(0.5F);  // rounds what follows
   const float* sample = row.data() + 3 * static_cast<std::size_t>(taps.first);
   for (const float weight : taps.weights) {
-    for (float& channel : sum) channel += weight * *sample++;
+    sum += weight * Eigen::Map<const Eigen::Array4f>(sample);
+    sample += 3;
   }
   return {static_cast<std::uint8_t>(sum[0]), static_cast<std::uint8_t>(sum[1]),
           static_cast<std::uint8_t>(sum[2])};
@@ -63,7 +67,7 @@ Image<Rgb> resize(const Image<Rgb>& image, int width, int height) {
   if (image.width() == width && image.height() == height) return image;
   const std::vector<Taps> columns = all_taps(width, image.width());
   const std::vector<Taps> rows = all_taps(height, image.height());
-  std::vector<float> mixed(3 * static_cast<std::size_t>(image.width()));
+  std::vector<float> mixed(3 * static_cast<std::size_t>(image.width()) + 1);  // see mix_pixels
   Image<Rgb> result(width, height);
   for (int y = 0; y < height; ++y) {
     mix_rows(image, rows[static_cast<std::size_t>(y)], mixed);

@@ -8,10 +8,19 @@
 
 namespace mms {
 
+/// What computes our networks: oneDNN in the engine, or libtorch (the GPU; deformable
+/// convolutions).
+enum class NetworkBackend { kAuto, kEngine, kLibtorch };
+
+/// Of the engine's numbers.
+enum class NetworkPrecision { kAuto, kFloat32, kInt8 };
+
 /// Settings of the segmentation with a network (III-A).
 struct SegmentationConfig {
   std::string weights;  ///< a file; empty: the network that the program comes with
-  int threads = 1;      ///< of the network; the rest of the program has its own
+  NetworkBackend backend = NetworkBackend::kAuto;
+  NetworkPrecision precision = NetworkPrecision::kAuto;
+  int threads = 1;  ///< of the network; the rest of the program has its own
   NetworkSegmenterConfig objects;
   DecoderConfig decoder;  ///< of our networks
   OnnxConfig onnx;        ///< of ONNX models

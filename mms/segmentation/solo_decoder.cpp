@@ -3,14 +3,15 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "mms/segmentation/mask_enlargement.hpp"
+#include "mms/segmentation/mask_logits.hpp"
 #include "mms/segmentation/matrix_nms.hpp"
 
 namespace mms {
 namespace {
 
-constexpr float kMaskThreshold = 0.5F;  // of a pixel's probability
 constexpr std::array<int, HeadConfig::kLevels> kStrides = {8, 8, 16, 32, 32};
 
 /// A cell whose category is likely.
@@ -21,44 +22,52 @@ struct Cell {
   float score = 0.0F;
 };
 
-float sigmoid(float x) {
-  return 1.0F / (1.0F + std::exp(-x));
-}
+/// The logits of one category on one level's grid.
+struct CategoryGrid {
+  ChannelsLastMap map;
+  int side = 0;
+  int category = 0;
 
-/// Whether no cell above, to the left or between has a higher logit.
-bool is_peak(const float* logits, int side, int row, int column) {
-  const float own = logits[row * side + column];
-  for (int dy = 0; dy <= std::min(1, row); ++dy) {
-    for (int dx = 0; dx <= std::min(1, column); ++dx) {
-      if (logits[(row - dy) * side + column - dx] > own) return false;
+  float logit(int row, int column) const { return map.cell(row * side + column)[category]; }
+
+  /// Whether no cell above, to the left or between has a higher logit.
+  bool is_peak(int row, int column) const {
+    const float own = logit(row, column);
+    for (int dy = 0; dy <= std::min(1, row); ++dy) {
+      for (int dx = 0; dx <= std::min(1, column); ++dx) {
+        if (logit(row - dy, column - dx) > own) return false;
+      }
     }
+    return true;
   }
-  return true;
-}
+};
 
-void collect_peaks(const float* logits, int side, int level, int category, float least,
+/// Adds the peaks that may become objects. An object's score is its cell's times two factors of at
+/// most 1, and matrix NMS never lets a mask lower the score, or change the compensation, of one
+/// with a higher score: what cannot reach `config.score` can be left out without changing the rest.
+void collect_peaks(const CategoryGrid& grid, int level, const DecoderConfig& config,
                    std::vector<Cell>& cells) {
-  for (int row = 0; row < side; ++row) {
-    for (int column = 0; column < side; ++column) {
-      const int index = row * side + column;
-      if (logits[index] <= least || !is_peak(logits, side, row, column)) continue;
-      cells.push_back({level, index, category, sigmoid(logits[index])});
+  const auto probability = static_cast<float>(config.candidate_score);
+  const float least = std::log(probability / (1.0F - probability));
+  for (int row = 0; row < grid.side; ++row) {
+    for (int column = 0; column < grid.side; ++column) {
+      const float logit = grid.logit(row, column);
+      if (logit <= least || !grid.is_peak(row, column)) continue;
+      const float score = sigmoid(logit);
+      if (score < static_cast<float>(config.score)) continue;
+      cells.push_back({level, row * grid.side + column, grid.category, score});
     }
   }
 }
 
 std::vector<Cell> likely_cells(const HeadMaps& maps, const NetworkConfig& network,
                                const DecoderConfig& config) {
-  const auto probability = static_cast<float>(config.candidate_score);
-  const float least = std::log(probability / (1.0F - probability));
   const auto grids = network.head.grids();
   std::vector<Cell> cells;
   for (int level = 0; level < HeadConfig::kLevels; ++level) {
     const auto l = static_cast<std::size_t>(level);
-    const int side = grids[l];
     for (int category = 0; category < network.classes; ++category) {
-      collect_peaks(maps.categories[l] + category * side * side, side, level, category, least,
-                    cells);
+      collect_peaks({maps.categories[l], grids[l], category}, level, config, cells);
     }
   }
   const auto most = std::min(cells.size(), static_cast<std::size_t>(4 * config.candidates));
@@ -68,63 +77,64 @@ std::vector<Cell> likely_cells(const HeadMaps& maps, const NetworkConfig& networ
   return cells;
 }
 
-using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// A row a mask, a column a pixel.
+using MaskLogits = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Mask probabilities, a row a cell: the dynamic convolution.
-RowMajor soft_masks(const std::vector<Cell>& cells, const HeadMaps& maps,
-                    const NetworkConfig& network) {
-  const auto grids = network.head.grids();
+/// The dynamic convolution: mask logits of the cells.
+MaskLogits mask_logits(const std::vector<Cell>& cells, const HeadMaps& maps,
+                       const NetworkConfig& network) {
   const int channels = network.head.kernel_channels;
-  RowMajor kernels(static_cast<Eigen::Index>(cells.size()), channels);
+  MaskLogits kernels(static_cast<Eigen::Index>(cells.size()), channels);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto level = static_cast<std::size_t>(cells[i].level);
-    const int area = grids[level] * grids[level];
-    for (int c = 0; c < channels; ++c) {
-      kernels(static_cast<Eigen::Index>(i), c) = maps.kernels[level][c * area + cells[i].index];
-    }
+    const ChannelsLastMap& map = maps.kernels[static_cast<std::size_t>(cells[i].level)];
+    std::copy_n(map.cell(cells[i].index), channels,
+                kernels.row(static_cast<Eigen::Index>(i)).data());
   }
-  const Eigen::Map<const RowMajor> features(maps.mask_features, channels,
-                                            maps.mask_width * maps.mask_height);
-  RowMajor logits = kernels * features;
-  return (1.0F / (1.0F + (-logits.array()).exp())).matrix();
+  using Features = Eigen::Map<const Eigen::MatrixXf, Eigen::Unaligned, Eigen::OuterStride<>>;
+  const Features features(maps.mask_features.data, channels, maps.mask_width * maps.mask_height,
+                          Eigen::OuterStride<>(maps.mask_features.pitch));
+  return kernels * features;
 }
 
+/// A mask that competes with the others.
 struct Candidate {
   NmsCandidate nms;
-  std::vector<float> soft;  ///< mask probabilities
+  std::span<const float> logits;  ///< of its pixels
 };
 
 /// The mask with its score times its maskness; area 0 when it is too small for its level.
-Candidate candidate_of(const Cell& cell, const float* soft, std::size_t size) {
-  Candidate candidate;
-  candidate.soft.assign(soft, soft + size);
-  candidate.nms = {cell.category, 0.0F, bit_mask(candidate.soft, kMaskThreshold)};
-  if (candidate.nms.mask.area <= kStrides[static_cast<std::size_t>(cell.level)]) {
-    candidate.nms.mask.area = 0;
+Candidate candidate_of(const Cell& cell, std::span<const float> logits) {
+  Candidate candidate{{cell.category, 0.0F, bit_mask(logits, 0.0F)}, logits};
+  BitMask& mask = candidate.nms.mask;
+  if (mask.area <= kStrides[static_cast<std::size_t>(cell.level)]) {
+    mask.area = 0;
     return candidate;
   }
-  float sum = 0.0F;
-  for (const float value : candidate.soft) sum += value > kMaskThreshold ? value : 0.0F;
-  candidate.nms.score = cell.score * sum / static_cast<float>(candidate.nms.mask.area);
+  const float maskness = probability_sum(logits, mask) / static_cast<float>(mask.area);
+  candidate.nms.score = cell.score * std::min(1.0F, maskness);
   return candidate;
 }
 
-std::vector<Candidate> candidates_of(const HeadMaps& maps, const NetworkConfig& network,
-                                     const DecoderConfig& config) {
-  const std::vector<Cell> cells = likely_cells(maps, network, config);
-  const RowMajor soft = soft_masks(cells, maps, network);
-  std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    Candidate candidate = candidate_of(cells[i], soft.data() + row * soft.cols(),
-                                       static_cast<std::size_t>(soft.cols()));
-    if (candidate.nms.mask.area > 0) candidates.push_back(std::move(candidate));
-  }
+/// Sorts them, best first, and keeps at most so many.
+void keep_best(std::vector<Candidate>& candidates, int most) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.nms.score > b.nms.score; });
-  if (candidates.size() > static_cast<std::size_t>(config.candidates)) {
-    candidates.resize(static_cast<std::size_t>(config.candidates));
+  if (candidates.size() > static_cast<std::size_t>(most)) {
+    candidates.resize(static_cast<std::size_t>(most));
   }
+}
+
+/// The masks that may become objects, best first.
+std::vector<Candidate> candidates_of(const std::vector<Cell>& cells, const MaskLogits& logits,
+                                     const DecoderConfig& config) {
+  const auto pixels = static_cast<std::size_t>(logits.cols());
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    Candidate candidate = candidate_of(cells[i], {logits.data() + i * pixels, pixels});
+    const bool good = candidate.nms.score >= static_cast<float>(config.score);
+    if (candidate.nms.mask.area > 0 && good) candidates.push_back(std::move(candidate));
+  }
+  keep_best(candidates, config.candidates);
   return candidates;
 }
 
@@ -137,11 +147,7 @@ void suppress(std::vector<Candidate>& candidates, const DecoderConfig& config) {
   std::erase_if(candidates, [&](const Candidate& candidate) {
     return candidate.nms.score < static_cast<float>(config.score);
   });
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return a.nms.score > b.nms.score; });
-  if (candidates.size() > static_cast<std::size_t>(config.instances)) {
-    candidates.resize(static_cast<std::size_t>(config.instances));
-  }
+  keep_best(candidates, config.instances);
 }
 
 }  // namespace
@@ -156,11 +162,14 @@ void DecoderConfig::visit(ConfigVisitor& v) {
 
 std::vector<Detection> decode(const HeadMaps& maps, const NetworkConfig& network,
                               const PreparedImage& prepared, const DecoderConfig& config) {
-  std::vector<Candidate> candidates = candidates_of(maps, network, config);
+  const std::vector<Cell> cells = likely_cells(maps, network, config);
+  if (cells.empty()) return {};
+  const MaskLogits logits = mask_logits(cells, maps, network);
+  std::vector<Candidate> candidates = candidates_of(cells, logits, config);
   suppress(candidates, config);
   std::vector<Detection> detections;
   for (const Candidate& candidate : candidates) {
-    Detection detection = enlarged_mask(candidate.soft, maps.mask_width, prepared);
+    Detection detection = enlarged_mask(probabilities(candidate.logits), maps.mask_width, prepared);
     if (detection.mask.empty()) continue;
     detection.category = candidate.nms.category;
     detection.score = candidate.nms.score;

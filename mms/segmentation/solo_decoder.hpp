@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "mms/core/config.hpp"
@@ -10,12 +11,21 @@
 
 namespace mms {
 
-/// One image's output of the head, contiguous float32.
+/// A float32 map with the channels of each cell (or pixel) side by side, cells row by row. Maps of
+/// one grid may lie interleaved in one buffer.
+struct ChannelsLastMap {
+  const float* data = nullptr;  ///< the first cell's first channel
+  int pitch = 0;                ///< floats from a cell to the next, at least the channels
+
+  const float* cell(int index) const { return data + static_cast<std::ptrdiff_t>(index) * pitch; }
+};
+
+/// One image's output of the head.
 struct HeadMaps {
-  std::array<const float*, HeadConfig::kLevels> categories{};  ///< logits, classes x S x S
-  std::array<const float*, HeadConfig::kLevels> kernels{};     ///< E x S x S
-  const float* mask_features = nullptr;                        ///< E x mask_height x mask_width
-  int mask_width = 0;                                          ///< a quarter of the input's [px]
+  std::array<ChannelsLastMap, HeadConfig::kLevels> categories{};  ///< logits, S x S x classes
+  std::array<ChannelsLastMap, HeadConfig::kLevels> kernels{};     ///< S x S x E
+  ChannelsLastMap mask_features;                                  ///< mask_height x mask_width x E
+  int mask_width = 0;                                             ///< a quarter of the input's [px]
   int mask_height = 0;
 };
 

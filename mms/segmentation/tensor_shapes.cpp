@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mms/core/error.hpp"
 #include "mms/segmentation/backbone_shapes.hpp"
 
 namespace mms {
@@ -82,6 +83,31 @@ TensorShapes expected_tensors(const NetworkConfig& config) {
   add_neck(config, layers);
   add_head(config, layers);
   return layers.shapes();
+}
+
+void check_fitting(const Weights& weights, const TensorShapes& expected, const std::string& where) {
+  for (const auto& [name, tensor] : weights.tensors) {
+    const auto found = expected.find(name);
+    if (found == expected.end()) {
+      throw DataError(where, "has the tensor " + name + ", which the network does not",
+                      "the weights are of another architecture");
+    }
+    if (tensor.shape != found->second) {
+      throw DataError(where, "tensor " + name + " is " + shape_text(tensor.shape) +
+                                 ", but the network's is " + shape_text(found->second));
+    }
+  }
+}
+
+void check_complete(const Weights& weights, const TensorShapes& expected,
+                    const std::string& where) {
+  for (const auto& [name, shape] : expected) {
+    if (!weights.tensors.contains(name)) {
+      throw DataError(where, "lacks the network's tensor " + name,
+                      "the weights are of another architecture");
+    }
+  }
+  check_fitting(weights, expected, where);
 }
 
 }  // namespace mms

@@ -56,6 +56,21 @@ std::vector<DataImage> annotated_images(const TrainingData& set,
   return images;
 }
 
+void keep_containing(const std::string& name, const std::vector<std::string>& classes,
+                     std::vector<DataImage>& images) {
+  const auto found = std::find(classes.begin(), classes.end(), name);
+  if (found == classes.end()) {
+    throw ConfigError("data.containing", "'" + name + "' is none of the network's classes",
+                      "write one of those that it learns");
+  }
+  const int category = static_cast<int>(found - classes.begin());
+  const auto lacks = [&](const DataImage& image) {
+    return std::none_of(image.objects.begin(), image.objects.end(),
+                        [&](const Annotated& object) { return object.category == category; });
+  };
+  images.erase(std::remove_if(images.begin(), images.end(), lacks), images.end());
+}
+
 }  // namespace
 
 std::vector<DataImage> list_images(const TrainingData& set,
@@ -65,11 +80,13 @@ std::vector<DataImage> list_images(const TrainingData& set,
   }
   std::vector<DataImage> images =
       set.annotations.empty() ? folder_images(set.images) : annotated_images(set, classes);
+  if (!set.containing.empty()) keep_containing(set.containing, classes, images);
   if (set.limit > 0) images.resize(std::min(images.size(), static_cast<std::size_t>(set.limit)));
   if (images.empty()) {
-    throw DataError(
-        set.annotations.empty() ? set.images : set.annotations,
-        set.split.empty() ? "has no images" : "has no images of the split '" + set.split + "'");
+    std::string what = "has no images";
+    if (!set.split.empty()) what += " of the split '" + set.split + "'";
+    if (!set.containing.empty()) what += " with the class '" + set.containing + "'";
+    throw DataError(set.annotations.empty() ? set.images : set.annotations, what);
   }
   return images;
 }

@@ -15,6 +15,7 @@ void TrainingData::visit(ConfigVisitor& v) {
   v.text({"annotations", "", "COCO file; none: images without any object"}, annotations);
   v.text({"images", "", "folder of the images; none: beside the annotations"}, images);
   v.text({"split", "", "only images of this split; none: all"}, split);
+  v.text({"containing", "", "only images with an object of this class; none: all"}, containing);
   v.integer({"limit", "", "only the first so many images; 0: all"}, limit, {0, kMany});
   v.number({"repeat", "", "how often an image is drawn, relative to the other sets"}, repeat,
            {0.0, 1000.0});

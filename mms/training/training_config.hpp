@@ -13,6 +13,7 @@ struct TrainingData {
   std::string annotations{};  ///< COCO file; empty: images without any object
   std::string images{};       ///< folder of the images; empty: beside the annotations
   std::string split{};        ///< only images of this split; empty: all
+  std::string containing{};   ///< only images with an object of this class; empty: all
   int limit = 0;              ///< only the first so many images; 0: all
   double repeat = 1.0;        ///< how often an image is drawn, relative to those of other sets
 

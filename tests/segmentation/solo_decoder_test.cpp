@@ -12,17 +12,18 @@ namespace {
 class HandMadeMaps {
  public:
   HandMadeMaps() {
-    config_.head.kernel_channels = 4;
+    config_.head.kernel_channels = kChannels;
     const auto grids = config_.head.grids();
     for (std::size_t i = 0; i < grids.size(); ++i) {
       const auto cells = static_cast<std::size_t>(grids[i] * grids[i]);
-      categories_[i].assign(2 * cells, -10.0F);
-      kernels_[i].assign(4 * cells, 0.0F);
-      maps_.categories[i] = categories_[i].data();
-      maps_.kernels[i] = kernels_[i].data();
+      for (std::size_t cell = 0; cell < cells; ++cell) {
+        cells_[i].insert(cells_[i].end(), {0.0F, 0.0F, 0.0F, 0.0F, -10.0F, -10.0F});
+      }
+      maps_.kernels[i] = {cells_[i].data(), kCellPitch};
+      maps_.categories[i] = {cells_[i].data() + kChannels, kCellPitch};
     }
-    features_.assign(4 * kWidth * kHeight, 0.0F);
-    maps_.mask_features = features_.data();
+    features_.assign(kFeaturePitch * kWidth * kHeight, 0.0F);
+    maps_.mask_features = {features_.data(), kFeaturePitch};
     maps_.mask_width = kWidth;
     maps_.mask_height = kHeight;
     prepared_ = {{}, 4 * kWidth, 4 * kHeight, 4 * kWidth, 4 * kHeight, 8 * kWidth, 8 * kHeight};
@@ -34,7 +35,7 @@ class HandMadeMaps {
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         const bool in = x >= left && x <= right && y >= top && y <= bottom;
-        features_[channel * kWidth * kHeight + static_cast<std::size_t>(y * kWidth + x)] =
+        features_[static_cast<std::size_t>((y * kWidth + x) * kFeaturePitch) + channel] =
             in ? inside : outside;
       }
     }
@@ -44,10 +45,9 @@ class HandMadeMaps {
   void set_cell(std::size_t level, int row, int column, int category, float logit,
                 std::size_t channel) {
     const int side = config_.head.grids()[level];
-    const int cell = row * side + column;
-    categories_[level][static_cast<std::size_t>(category * side * side + cell)] = logit;
-    kernels_[level][channel * static_cast<std::size_t>(side * side) +
-                    static_cast<std::size_t>(cell)] = 1.0F;
+    const int cell = (row * side + column) * kCellPitch;
+    cells_[level][static_cast<std::size_t>(cell + kChannels + category)] = logit;
+    cells_[level][static_cast<std::size_t>(cell) + channel] = 1.0F;
   }
 
   std::vector<Detection> decoded(const DecoderConfig& config = {}) const {
@@ -59,8 +59,11 @@ class HandMadeMaps {
 
  private:
   NetworkConfig config_;
-  std::array<std::vector<float>, HeadConfig::kLevels> categories_;
-  std::array<std::vector<float>, HeadConfig::kLevels> kernels_;
+  static constexpr int kChannels = 4;
+  static constexpr int kCellPitch = 6;     // a kernel, then two categories
+  static constexpr int kFeaturePitch = 5;  // one float more than channels
+
+  std::array<std::vector<float>, HeadConfig::kLevels> cells_;
   std::vector<float> features_;
   HeadMaps maps_;
   PreparedImage prepared_;
@@ -106,6 +109,38 @@ TEST(SoloDecoder, TheSameObjectFromTwoLevelsLosesItsSecondScore) {
   ASSERT_EQ(found.size(), 2U);
   EXPECT_NEAR(found[1].score, sigmoid(1.5F) * sigmoid(4.0F) * std::exp(-2.0F), 1e-4);
   EXPECT_EQ(maps.decoded({.score = 0.3}).size(), 1U);
+}
+
+/// Twelve objects that overlap, of two classes and three levels.
+HandMadeMaps crowded_maps() {
+  HandMadeMaps maps;
+  for (int i = 0; i < 4; ++i) {
+    maps.paint(static_cast<std::size_t>(i), 2 * i, i, 2 * i + 6, i + 6,
+               1.0F + static_cast<float>(i));
+  }
+  for (int i = 0; i < 12; ++i) {
+    const float logit = 2.5F - 0.35F * static_cast<float>(i % 7) - 0.02F * static_cast<float>(i);
+    maps.set_cell(static_cast<std::size_t>(i % 3), i, 0, i % 2, logit,
+                  static_cast<std::size_t>(i % 4));
+  }
+  return maps;
+}
+
+TEST(SoloDecoder, WhatCannotReachTheScoreMakesNoDifferenceToTheRest) {
+  const HandMadeMaps maps = crowded_maps();
+  const std::vector<Detection> all = maps.decoded({.score = 0.0});
+  ASSERT_GT(all.size(), 8U);
+  for (const double score : {0.05, 0.3, 0.5, 0.7}) {
+    const std::vector<Detection> found = maps.decoded({.score = score});
+    std::size_t expected = 0;
+    while (expected < all.size() && all[expected].score >= static_cast<float>(score)) ++expected;
+    ASSERT_EQ(found.size(), expected) << score;
+    for (std::size_t i = 0; i < expected; ++i) {
+      EXPECT_EQ(found[i].score, all[i].score);
+      EXPECT_EQ(found[i].category, all[i].category);
+      EXPECT_EQ(found[i].mask.pixels(), all[i].mask.pixels());
+    }
+  }
 }
 
 TEST(SoloDecoder, TooSmallMasksAreDropped) {

@@ -7,9 +7,11 @@
 namespace mms::network {
 namespace {
 
-const float* plain(torch::Tensor& tensor) {
-  tensor = tensor.to(torch::kCPU, torch::kFloat).contiguous(at::MemoryFormat::Contiguous);
-  return tensor.data_ptr<float>();
+/// The first image's map; `tensor` is replaced by what it points into.
+ChannelsLastMap channels_last(torch::Tensor& tensor) {
+  // Of a map with one channel or one pixel both layouts are contiguous, and then also the same.
+  tensor = tensor.to(torch::kCPU, torch::kFloat).contiguous(at::MemoryFormat::ChannelsLast);
+  return {tensor.data_ptr<float>(), static_cast<int>(tensor.size(1))};
 }
 
 }  // namespace
@@ -17,10 +19,10 @@ const float* plain(torch::Tensor& tensor) {
 HeadMaps head_maps(HeadOutput& output) {
   HeadMaps maps;
   for (std::size_t i = 0; i < output.categories.size(); ++i) {
-    maps.categories[i] = plain(output.categories[i]);
-    maps.kernels[i] = plain(output.kernels[i]);
+    maps.categories[i] = channels_last(output.categories[i]);
+    maps.kernels[i] = channels_last(output.kernels[i]);
   }
-  maps.mask_features = plain(output.mask_features);
+  maps.mask_features = channels_last(output.mask_features);
   maps.mask_height = static_cast<int>(output.mask_features.size(2));
   maps.mask_width = static_cast<int>(output.mask_features.size(3));
   return maps;

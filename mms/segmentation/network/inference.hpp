@@ -11,8 +11,8 @@ namespace mms::network {
 std::vector<Detection> detect(SoloNetwork& network, const Image<Rgb>& image,
                               const DecoderConfig& config);
 
-/// The maps of the first image of a batch, on the CPU; `output` is replaced by contiguous float32
-/// tensors that the maps point into.
+/// The maps of the first image of a batch, on the CPU; `output` is replaced by float32 tensors
+/// with their channels last, which the maps point into.
 HeadMaps head_maps(HeadOutput& output);
 
 }  // namespace mms::network

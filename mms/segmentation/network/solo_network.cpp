@@ -2,25 +2,15 @@
 
 #include <algorithm>
 
-#include "mms/core/error.hpp"
-#include "mms/segmentation/layer_shapes.hpp"
+#include "mms/segmentation/tensor_shapes.hpp"
 
 namespace mms::network {
 namespace {
 
-/// @throws DataError unless the network has a tensor of this name and shape.
-void check_tensor(const std::map<std::string, torch::Tensor>& tensors, const std::string& name,
-                  const WeightTensor& given, const std::string& where) {
-  const auto found = tensors.find(name);
-  if (found == tensors.end()) {
-    throw DataError(where, "has the tensor " + name + ", which the network does not",
-                    "the weights are of another architecture");
-  }
-  const std::vector<std::int64_t> wanted = found->second.sizes().vec();
-  if (given.shape != wanted) {
-    throw DataError(where, "tensor " + name + " is " + shape_text(given.shape) +
-                               ", but the network's is " + shape_text(wanted));
-  }
+TensorShapes shapes_of(torch::nn::Module& module) {
+  TensorShapes shapes;
+  for (const auto& [name, tensor] : named_tensors(module)) shapes[name] = tensor.sizes().vec();
+  return shapes;
 }
 
 void copy_into(torch::Tensor& target, const WeightTensor& given) {
@@ -84,19 +74,14 @@ Weights to_weights(torch::nn::Module& module) {
 
 int load_partial_weights(torch::nn::Module& module, const Weights& weights,
                          const std::string& where) {
+  check_fitting(weights, shapes_of(module), where);
   std::map<std::string, torch::Tensor> tensors = named_tensors(module);
-  for (const auto& [name, given] : weights.tensors) check_tensor(tensors, name, given, where);
   for (const auto& [name, given] : weights.tensors) copy_into(tensors.at(name), given);
   return static_cast<int>(weights.tensors.size());
 }
 
 void load_weights(torch::nn::Module& module, const Weights& weights, const std::string& where) {
-  for (const auto& [name, tensor] : named_tensors(module)) {
-    if (!weights.tensors.contains(name)) {
-      throw DataError(where, "lacks the network's tensor " + name,
-                      "the weights are of another architecture");
-    }
-  }
+  check_complete(weights, shapes_of(module), where);
   load_partial_weights(module, weights, where);
 }
 

@@ -10,6 +10,10 @@
 
 namespace mms::network {
 
+bool has_gpu() {
+  return torch::cuda::is_available();
+}
+
 TorchDetector::TorchDetector(const SegmentationModel& model, const std::string& where,
                              const DecoderConfig& config, int threads)
     : network_(model.network), classes_(model.classes), config_(config) {
@@ -19,7 +23,7 @@ TorchDetector::TorchDetector(const SegmentationModel& model, const std::string& 
   network_->eval();
   network_->fold();
   put_channels_last(*network_);
-  if (torch::cuda::is_available()) network_->to(torch::kCUDA);
+  if (has_gpu()) network_->to(torch::kCUDA);
 }
 
 std::vector<Detection> TorchDetector::detect(const Image<Rgb>& image) {

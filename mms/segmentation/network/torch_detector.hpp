@@ -25,4 +25,7 @@ class TorchDetector : public Detector {
   DecoderConfig config_;
 };
 
+/// Whether libtorch finds a GPU.
+bool has_gpu();
+
 }  // namespace mms::network

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mms/segmentation/detector.hpp"
+#include "mms/segmentation/engine/network_engine.hpp"
+
+namespace mms::engine {
+
+/// Finds objects with a `NetworkEngine`.
+class EngineDetector : public Detector {
+ public:
+  /// @param where    what errors call the model, as its file's name
+  /// @param threads  of the network; 0: one a core
+  /// @throws DataError as `NetworkEngine` does.
+  EngineDetector(SegmentationModel model, const std::string& where, Quantization quantization,
+                 const DecoderConfig& config, int threads);
+
+  std::vector<Detection> detect(const Image<Rgb>& image) override;
+  const std::vector<std::string>& classes() const override { return network_.classes(); }
+
+ private:
+  NetworkEngine network_;
+  DecoderConfig config_;
+  int threads_;
+};
+
+}  // namespace mms::engine

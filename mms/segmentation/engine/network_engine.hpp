@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mms/segmentation/engine/layer_reader.hpp"
+#include "mms/segmentation/engine/plan.hpp"
+#include "mms/segmentation/engine/quantization.hpp"
+#include "mms/segmentation/model.hpp"
+#include "mms/segmentation/prepared_image.hpp"
+#include "mms/segmentation/solo_decoder.hpp"
+
+namespace mms::engine {
+
+/// A trained network on the CPU without libtorch: oneDNN's convolutions, in float32 or in bytes.
+class NetworkEngine {
+ public:
+  /// @param where  what errors call the model, as its file's name
+  /// @throws DataError when the weights do not fit the network, or it has deformable convolutions.
+  NetworkEngine(SegmentationModel model, const std::string& where, Quantization quantization);
+
+  /// The head's maps of a picture, valid until the next call. The plans of the last few sizes
+  /// of input are kept.
+  HeadMaps run(const PreparedImage& image, const Plan::Observer& observer = {});
+
+  const NetworkConfig& config() const { return config_; }
+  const std::vector<std::string>& classes() const { return classes_; }
+
+ private:
+  Plan& plan_for(int height, int width);
+
+  static constexpr std::size_t kMostPlans = 4;
+
+  NetworkConfig config_;
+  std::vector<std::string> classes_;
+  std::string where_;
+  Quantization quantization_;
+  LayerReader layers_;
+  ConvolutionLibrary library_;
+  std::vector<std::unique_ptr<Plan>> plans_;  ///< the last used first
+};
+
+}  // namespace mms::engine

@@ -1,0 +1,92 @@
+#include "mms/segmentation/engine/tensor.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace mms::engine {
+namespace {
+
+constexpr float kLargestSigned = 127.0F;  // -128 is left out: weights and maps are symmetric
+constexpr float kLargestUnsigned = 255.0F;
+
+template <typename Stored>
+void expand(const Stored* stored, int count, float scale, float* values) {
+  for (int i = 0; i < count; ++i) values[i] = scale * static_cast<float>(stored[i]);
+}
+
+template <typename Stored>
+void add(const Stored* stored, int count, float scale, float* sum) {
+  for (int i = 0; i < count; ++i) sum[i] += scale * static_cast<float>(stored[i]);
+}
+
+/// Calls function(pointer to the first number of the span, how many, scale).
+template <typename Function>
+void with_numbers(const Tensor& tensor, const PixelSpan& pixels, const Function& function) {
+  const int count = pixels.count * tensor.shape.channels;
+  const std::ptrdiff_t offset = std::ptrdiff_t{pixels.first} * tensor.shape.channels;
+  switch (tensor.format.number) {
+    case Number::kFloat:
+      return function(tensor.floats() + offset, count, 1.0F);
+    case Number::kSigned8:
+      return function(reinterpret_cast<std::int8_t*>(tensor.data) + offset, count,
+                      tensor.format.scale);
+    case Number::kUnsigned8:
+      return function(reinterpret_cast<std::uint8_t*>(tensor.data) + offset, count,
+                      tensor.format.scale);
+  }
+}
+
+/// The sum rounds to a whole number, as floats of that size have no fractions.
+float rounded(float value) {
+  constexpr float kWhole = 12582912.0F;  // 1.5 * 2^23
+  return (value + kWhole) - kWhole;
+}
+
+template <typename Stored>
+void shrink(const float* values, int count, float inverse_scale, float least, float most,
+            Stored* stored) {
+  for (int i = 0; i < count; ++i) {
+    const float limited = std::min(std::max(values[i] * inverse_scale, least), most);
+    stored[i] = static_cast<Stored>(static_cast<std::int32_t>(rounded(limited)));
+  }
+}
+
+}  // namespace
+
+void quantize(const float* values, int count, float inverse_scale, std::int8_t* stored) {
+  shrink(values, count, inverse_scale, -kLargestSigned, kLargestSigned, stored);
+}
+
+void load(const Tensor& tensor, const PixelSpan& pixels, float* channels) {
+  with_numbers(tensor, pixels, [&](const auto* stored, int count, float scale) {
+    expand(stored, count, scale, channels);
+  });
+}
+
+void accumulate(const Tensor& tensor, const PixelSpan& pixels, float factor, float* sum) {
+  with_numbers(tensor, pixels, [&](const auto* stored, int count, float scale) {
+    add(stored, count, factor * scale, sum);
+  });
+}
+
+void store(const Tensor& tensor, const PixelSpan& pixels, const float* channels) {
+  with_numbers(tensor, pixels, [&]<typename Stored>(Stored* stored, int count, float scale) {
+    if constexpr (std::is_same_v<Stored, float>) {
+      std::copy_n(channels, count, stored);
+    } else if constexpr (std::is_signed_v<Stored>) {
+      quantize(channels, count, 1.0F / scale, stored);
+    } else {
+      shrink(channels, count, 1.0F / scale, 0.0F, kLargestUnsigned, stored);
+    }
+  });
+}
+
+Format byte_format(float range, bool non_negative) {
+  const float largest = non_negative ? kLargestUnsigned : kLargestSigned;
+  const float scale = std::max(range, std::numeric_limits<float>::min() * largest) / largest;
+  return {non_negative ? Number::kUnsigned8 : Number::kSigned8, scale};
+}
+
+}  // namespace mms::engine

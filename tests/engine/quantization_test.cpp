@@ -1,0 +1,129 @@
+#include "mms/segmentation/engine/quantization.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mms/core/error.hpp"
+#include "mms/segmentation/engine/calibration.hpp"
+#include "mms/segmentation/engine/magnitude_histogram.hpp"
+#include "tests/engine/engine_test_support.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms::engine {
+namespace {
+
+using testing::expect_in;
+using testing::message_of;
+using testing::random_image;
+using testing::random_model;
+
+TEST(MagnitudeHistogram, KeepsEvenlySpreadValuesWhole) {
+  MagnitudeHistogram histogram;
+  std::vector<float> values;
+  for (int i = -1000; i <= 1000; ++i) values.push_back(static_cast<float>(i) * 0.003F);
+  histogram.add(values.data(), static_cast<int>(values.size()));
+  EXPECT_NEAR(histogram.best_range(127), 3.0F, 0.05F);
+}
+
+/// Sum of the squared errors when values are stored in whole steps up to a range.
+double stored_error(const std::vector<float>& values, float range, int levels) {
+  const float step = range / static_cast<float>(levels);
+  double sum = 0.0;
+  for (const float value : values) {
+    const float stored = std::nearbyint(std::clamp(value, -range, range) / step) * step;
+    sum += std::pow(static_cast<double>(stored - value), 2);
+  }
+  return sum;
+}
+
+TEST(MagnitudeHistogram, CutsOffWhereTheErrorIsLeast) {
+  for (const float outlier : {5.0F, 12.0F, 60.0F}) {
+    std::vector<float> values = testing::random_numbers(100000, 1.0F, 1);
+    values.push_back(outlier);
+    MagnitudeHistogram histogram;
+    histogram.add(values.data(), static_cast<int>(values.size()));
+    const double error = stored_error(values, histogram.best_range(127), 127);
+    for (float range = 1.0F; range <= outlier; range *= 1.1F) {
+      EXPECT_LE(error, 1.05 * stored_error(values, range, 127)) << outlier << ", " << range;
+    }
+  }
+}
+
+TEST(MagnitudeHistogram, HasARangeWithoutValues) {
+  EXPECT_GT(MagnitudeHistogram().best_range(127), 0.0F);
+}
+
+TEST(Quantization, SurvivesTheMetadata) {
+  Quantization quantization;
+  quantization.ranges = {{"backbone.conv1", 3.25F}, {"mask_head.conv 2", 1e-3F}};
+  quantization.float_layers = {"a.b", "c.d"};
+  Weights weights;
+  weights.metadata["quantization.range.gone"] = "7";
+  weights.metadata["other"] = "stays";
+  pack_quantization(quantization, weights);
+  const Quantization read = unpack_quantization(weights, "file");
+  EXPECT_EQ(read.ranges, quantization.ranges);
+  EXPECT_EQ(read.float_layers, quantization.float_layers);
+  EXPECT_EQ(weights.metadata.at("other"), "stays");
+}
+
+TEST(Quantization, RefusesARangeThatIsNone) {
+  for (const char* bad : {"", "x", "-1", "0", "nan", "inf", "1x"}) {
+    Weights weights;
+    weights.metadata["quantization.range.image"] = bad;
+    const std::string message =
+        message_of<DataError>([&] { unpack_quantization(weights, "net.file"); });
+    expect_in("net.file", message);
+    expect_in("quantization.range.image", message);
+    expect_in("positive number", message);
+  }
+}
+
+TEST(Quantization, OfAnotherNetworkIsRefused) {
+  Quantization quantization;
+  quantization.ranges = {{"no such value", 1.0F}};
+  SegmentationModel model = random_model({}, 1);
+  expect_in(
+      "no such value", message_of<DataError>([&] {
+        NetworkEngine(std::move(model), "net.file", quantization).run(random_image(96, 96, 1));
+      }));
+}
+
+class QuantizedNetwork : public ::testing::TestWithParam<NetworkVariant> {};
+
+TEST_P(QuantizedNetwork, StaysCloseToFloat) {
+  const NetworkConfig config = NetworkConfig::preset(NetworkSize::kNano, GetParam());
+  const SegmentationModel model = random_model(config, 1);
+  Calibration calibration(model, "net");
+  for (unsigned i = 0; i < 3; ++i) calibration.add(random_image(96, 128, i));
+  const Quantization quantization = calibration.quantization({});
+  const std::vector<PreparedImage> images = {random_image(96, 128, 10), random_image(128, 96, 11)};
+  const double error = output_error(model, "net", quantization, images);
+  EXPECT_GT(error, 1e-5);
+  EXPECT_LT(error, 0.15);
+}
+
+TEST_P(QuantizedNetwork, IsFloatWhereAllLayersAre) {
+  const NetworkConfig config = NetworkConfig::preset(NetworkSize::kNano, GetParam());
+  const SegmentationModel model = random_model(config, 1);
+  Calibration calibration(model, "net");
+  calibration.add(random_image(96, 96, 1));
+  std::set<std::string> all;
+  const auto note = [&](int, int) { return true; };
+  const std::vector<PreparedImage> images = {random_image(96, 96, 2)};
+  for (const auto& [layer, error] :
+       layer_sensitivities(model, "net", calibration.quantization({}), images, note)) {
+    EXPECT_LT(error, 0.1) << layer;
+    all.insert(layer);
+  }
+  EXPECT_EQ(output_error(model, "net", calibration.quantization(all), images), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllVariants, QuantizedNetwork,
+                         ::testing::Values(NetworkVariant::kSolov2, NetworkVariant::kRfp,
+                                           NetworkVariant::kSac, NetworkVariant::kDetectors));
+
+}  // namespace
+}  // namespace mms::engine
