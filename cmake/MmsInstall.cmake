@@ -19,5 +19,8 @@ install(FILES ${PROJECT_BINARY_DIR}/mms-config.cmake ${PROJECT_BINARY_DIR}/mms-c
         DESTINATION ${package_dir})
 if(TARGET mms_program)
   install(TARGETS mms_program)
+  if(TARGET mms_torch_program)
+    install(TARGETS mms_torch_program)
+  endif()
   install(FILES weights/nano.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/mms/weights)
 endif()

@@ -55,10 +55,6 @@ std::string trial_run() {
 
 /// Segments a simulated frame with the network that the program comes with.
 std::string network_trial() {
-  if (!has_networks()) {
-    fmt::print("{:<44} built without libtorch\n", "network");
-    return "";
-  }
   try {
     const std::unique_ptr<Detector> detector = make_detector({});
     const auto frame = open_dataset("sim:crowd?frames=1")->next();

@@ -15,9 +15,7 @@
 #include "run_command.hpp"
 #include "segment_command.hpp"
 #include "simulate_command.hpp"
-#ifdef MMS_WITH_TORCH
-#include "train_command.hpp"
-#endif
+#include "torch_backend.hpp"
 #include "usage.hpp"
 
 namespace {
@@ -45,9 +43,7 @@ int main(int argc, char** argv) {
   mms::add_segment_command(app);
   mms::add_quantize_command(app);
   mms::add_import_command(app);
-#ifdef MMS_WITH_TORCH
   mms::add_train_command(app);
-#endif
   mms::add_info_command(app);
   mms::add_config_command(app);
   mms::add_doctor_command(app);

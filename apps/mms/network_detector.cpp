@@ -1,15 +1,14 @@
 #include "network_detector.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mms/core/error.hpp"
 #include "mms/io/safetensors.hpp"
 #include "mms/segmentation/engine/engine_detector.hpp"
 #include "mms/segmentation/model.hpp"
 #include "mms/segmentation/onnx/onnx_detector.hpp"
-#ifdef MMS_WITH_TORCH
-#include "mms/segmentation/network/torch_detector.hpp"
-#endif
+#include "torch_backend.hpp"
 
 namespace mms {
 namespace {
@@ -18,36 +17,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFileName = "weights/nano.safetensors";
 
-#ifdef MMS_WITH_TORCH
-constexpr bool kWithTorch = true;
-
-bool has_gpu() {
-  return network::has_gpu();
-}
-
-std::unique_ptr<Detector> make_torch_detector(const SegmentationModel& model,
-                                              const std::string& where,
-                                              const SegmentationConfig& config) {
-  return std::make_unique<network::TorchDetector>(model, where, config.decoder, config.threads);
-}
-#else
-constexpr bool kWithTorch = false;
-
-bool has_gpu() {
-  return false;
-}
-
-std::unique_ptr<Detector> make_torch_detector(const SegmentationModel&, const std::string& where,
-                                              const SegmentationConfig&) {
-  throw Error(where, "is to be computed by libtorch, which this program was built without",
-              "build with -DMMS_WITH_TORCH=ON, or take segmentation.backend: auto");
-}
-#endif
-
 bool wants_torch(const SegmentationModel& model, const SegmentationConfig& config) {
   if (config.backend != NetworkBackend::kAuto) return config.backend == NetworkBackend::kLibtorch;
   const bool deformable = model.network.backbone.sac == SacMode::kDeformable;
-  return kWithTorch && (deformable || has_gpu());
+  return deformable || torch_has_gpu();
 }
 
 engine::Quantization quantization_of(const SegmentationModel& model, const std::string& where,
@@ -59,9 +32,17 @@ engine::Quantization quantization_of(const SegmentationModel& model, const std::
                   "calibrate it with mms quantize");
 }
 
+/// Takes another size of input, of the same shape.
+void resize_input(NetworkConfig& network, int long_side) {
+  const double scale = static_cast<double>(long_side) / network.long_side;
+  network.short_side = static_cast<int>(std::lround(scale * network.short_side));
+  network.long_side = long_side;
+}
+
 std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig& config) {
   const std::string where = path.string();
   SegmentationModel model = unpack_model(read_safetensors(path), where);
+  if (config.long_side > 0) resize_input(model.network, config.long_side);
   if (wants_torch(model, config)) return make_torch_detector(model, where, config);
   engine::Quantization quantization = quantization_of(model, where, config.precision);
   return std::make_unique<engine::EngineDetector>(std::move(model), where, std::move(quantization),
@@ -80,10 +61,6 @@ fs::path default_weights() {
   throw FileError(kFileName, "is neither in share/mms/ beside the program nor in its source tree",
                   "name a weights file under segmentation.weights in the settings, or use "
                   "--segmenter masks or none");
-}
-
-bool has_networks() {
-  return kWithTorch;
 }
 
 std::unique_ptr<Detector> make_detector(const SegmentationConfig& config) {

@@ -13,9 +13,6 @@ namespace mms {
 /// when built there. @throws FileError when it is in neither place.
 std::filesystem::path default_weights();
 
-/// Whether the program can run networks of ours, and not only ONNX models.
-bool has_networks();
-
 /// The network of the settings: our safetensors, or an ONNX model with YOLO's outputs.
 /// @throws FileError, DataError when the file cannot be read or holds no such network; Error when
 ///         the program was built without what it takes.

@@ -1,5 +1,7 @@
 #include "picture_source.hpp"
 
+#include <map>
+#include <set>
 #include <vector>
 
 #include "mms/core/error.hpp"
@@ -16,18 +18,37 @@ namespace fs = std::filesystem;
 struct PictureFile {
   std::int64_t id = 0;
   fs::path path;
+  std::string stem = path.stem().string();
 };
+
+/// Lengthens stems that several pictures have, so that no picture's masks replace another's.
+void tell_apart(std::vector<PictureFile>& files) {
+  std::map<std::string, int> pictures;
+  for (const PictureFile& file : files) ++pictures[file.stem];
+  std::set<std::string> taken;
+  for (const auto& [stem, count] : pictures) taken.insert(stem);
+  for (PictureFile& file : files) {
+    if (pictures[file.stem] == 1) continue;
+    const std::string name = file.path.filename().string();
+    file.stem = name;
+    for (int i = 2; !taken.insert(file.stem).second; ++i) {
+      file.stem = name + "-" + std::to_string(i);
+    }
+  }
+}
 
 class PictureFiles final : public PictureSource {
  public:
   PictureFiles(std::vector<PictureFile> files, PictureWarning warning)
-      : files_(std::move(files)), warning_(std::move(warning)) {}
+      : files_(std::move(files)), warning_(std::move(warning)) {
+    tell_apart(files_);
+  }
 
   std::optional<Picture> next() override {
     while (position_ < files_.size()) {
       const PictureFile& file = files_[position_++];
       try {
-        return Picture{file.id, file.path.filename().string(), read_color(file.path)};
+        return Picture{file.id, file.path.filename().string(), file.stem, read_color(file.path)};
       } catch (const Error& error) {
         warning_(error.what());
       }
@@ -45,16 +66,16 @@ class PictureFiles final : public PictureSource {
 class RecordedPictures final : public PictureSource {
  public:
   RecordedPictures(const std::string& where, const PictureWarning& warning)
-      : source_(open_dataset(where, {.masks = {}, .load_masks = false})) {
+      : source_(open_dataset(where, {.masks = {}, .load_masks = false, .map_truth = false})) {
     source_->on_warning(warning);
   }
 
   std::optional<Picture> next() override {
     std::optional<Frame> frame = source_->next();
     if (!frame) return std::nullopt;
-    const std::string& name = frame->name;  // perhaps a stamp: what is behind its dot stays
-    return Picture{frame->index + 1, is_picture(name) ? name : name + ".png",
-                   std::move(frame->color)};
+    fs::path name = frame->name;  // perhaps a stamp: what is behind its dot stays
+    if (!is_picture(name)) name += ".png";
+    return Picture{frame->index + 1, name.string(), name.stem().string(), std::move(frame->color)};
   }
   std::size_t size() const override { return source_->size(); }
 

@@ -16,6 +16,8 @@ namespace mms {
 struct Picture {
   std::int64_t id = 0;  ///< in COCO files
   std::string name;     ///< of its file, without folders
+  std::string stem;     ///< of the files about it: the name without extension, which stays where
+                        ///< another picture has the same (a.jpg beside a.png)
   Image<Rgb> image;
 };
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "detection_picture.hpp"
 #include "interrupt.hpp"
@@ -56,7 +57,7 @@ void make_folder(const fs::path& folder) {
                   "choose another with -o");
 }
 
-/// Collects what was found and writes it.
+/// Writes what was found: masks, overlays and results picture by picture.
 class SegmentOutputs {
  public:
   SegmentOutputs(const fs::path& folder, std::vector<std::string> classes, double least_score,
@@ -66,6 +67,7 @@ class SegmentOutputs {
         least_score_(least_score),
         json_only_(json_only) {
     make_folder(folder_);
+    results_.emplace(folder_ / "results.json");
     if (!json_only_) make_folder(folder_ / "masks");
     if (!json_only_) make_folder(folder_ / "overlays");
     for (std::size_t i = 0; i < classes_.size(); ++i) {
@@ -79,21 +81,20 @@ class SegmentOutputs {
     found_.images.push_back(
         {.id = picture.id, .file_name = picture.name, .width = width, .height = height});
     for (const Detection& d : detections) {
-      results_.push_back(
+      results_->add(
           {picture.id, d.category + 1, d.score, encode_rle(d.mask, d.x, d.y, width, height)});
     }
     std::erase_if(detections, [&](const Detection& d) { return d.score < least_score_; });
     objects_ += detections.size();
     if (json_only_) return;
-    const std::string stem = fs::path(picture.name).stem().string();
-    write_png(folder_ / "masks" / (stem + ".png"),
+    write_png(folder_ / "masks" / (picture.stem + ".png"),
               label_image(width, height, detections, classes_));
-    write_file(folder_ / "overlays" / (stem + ".jpg"),
+    write_file(folder_ / "overlays" / (picture.stem + ".jpg"),
                encode_jpeg(draw_detections(picture.image, detections, classes_)));
   }
 
-  void finish() const {
-    write_coco_results(folder_ / "results.json", results_);
+  void finish() {
+    results_->finish();
     write_coco(folder_ / "images.json", found_);
   }
 
@@ -105,9 +106,28 @@ class SegmentOutputs {
   std::vector<std::string> classes_;
   double least_score_;
   bool json_only_;
-  CocoDataset found_;  ///< images and categories
-  std::vector<CocoResult> results_;
+  CocoDataset found_;                         ///< images and categories
+  std::optional<CocoResultsWriter> results_;  ///< opened once there is the folder
   std::size_t objects_ = 0;
+};
+
+/// The first picture prepares the network for its size, and is told apart.
+class PictureTimes {
+ public:
+  void add(std::chrono::duration<double, std::milli> time) {
+    (pictures_ == 0 ? first_ : rest_) += time.count();
+    ++pictures_;
+  }
+
+  std::string text() const {
+    if (pictures_ < 2) return fmt::format("{:.1f} ms a picture", first_);
+    return fmt::format("{:.1f} ms a picture (the first {:.0f})", rest_ / (pictures_ - 1), first_);
+  }
+
+ private:
+  int pictures_ = 0;
+  double first_ = 0.0;
+  double rest_ = 0.0;
 };
 
 std::unique_ptr<PictureSource> open_source(const SegmentArguments& arguments,
@@ -126,13 +146,13 @@ void segment(const SegmentArguments& arguments) {
                          arguments.json_only);
   const InterruptGuard interrupt;
   const auto total = static_cast<int>(std::min(source->size(), arguments.limit));
-  double seconds = 0.0;
+  PictureTimes times;
   while (outputs.pictures() < arguments.limit && !InterruptGuard::requested()) {
     const std::optional<Picture> picture = source->next();
     if (!picture) break;
     const auto start = std::chrono::steady_clock::now();
     std::vector<Detection> detections = detector->detect(picture->image);
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    times.add(std::chrono::steady_clock::now() - start);
     outputs.add(*picture, std::move(detections));
     progress.show(static_cast<int>(outputs.pictures()), total);
   }
@@ -142,9 +162,9 @@ void segment(const SegmentArguments& arguments) {
                     "the warnings above say why");
   }
   outputs.finish();
-  fmt::print("{}: {} pictures, {} objects of score {} or more, {:.1f} ms a picture, {:.0f} MiB\n",
+  fmt::print("{}: {} pictures, {} objects of score {} or more, {}, {:.0f} MiB\n",
              arguments.output.string(), outputs.pictures(), outputs.objects(), config.objects.score,
-             1e3 * seconds / static_cast<double>(outputs.pictures()), peak_memory_mb());
+             times.text(), peak_memory_mb());
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "train_command.hpp"
-
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +8,7 @@
 #include "mms/io/config_yaml.hpp"
 #include "mms/training/training_run.hpp"
 #include "thread_limit.hpp"
+#include "torch_backend.hpp"
 #include "training_progress.hpp"
 
 namespace mms {

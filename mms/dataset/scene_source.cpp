@@ -12,9 +12,10 @@ namespace {
 
 class SceneSource final : public FrameSource {
  public:
-  SceneSource(const SceneConfig& config, bool load_masks)
+  SceneSource(const SceneConfig& config, bool load_masks, bool map_truth)
       : scene_(config),
         load_masks_(load_masks),
+        keep_map_(map_truth),
         calibration_(std::make_shared<const Calibration>(
             recorded_calibration(scene_.calibration(), scene_.sensor()))) {
     for (int i = 0; i < scene_.size(); ++i) truth_.push_back(scene_.truth(i));
@@ -24,7 +25,7 @@ class SceneSource final : public FrameSource {
     if (position_ >= size()) return std::nullopt;
     const std::size_t index = position_++;
     const SimulatedFrame simulated = scene_.render(static_cast<int>(index));
-    map_.add(simulated, truth_[index].T_world_sensor);
+    if (keep_map_) map_.add(simulated, truth_[index].T_world_sensor);
     Frame frame = as_recorded(simulated, scene_.config(), scene_.sensor());
     if (!load_masks_) frame.mask = {};
     return frame;
@@ -65,6 +66,7 @@ class SceneSource final : public FrameSource {
 
   SimulatedScene scene_;
   bool load_masks_;
+  bool keep_map_;
   std::shared_ptr<const Calibration> calibration_;
   Trajectory truth_;
   MapTruth map_;
@@ -73,8 +75,9 @@ class SceneSource final : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> play_scene(const SceneConfig& config, bool load_masks) {
-  return std::make_unique<SceneSource>(config, load_masks);
+std::unique_ptr<FrameSource> play_scene(const SceneConfig& config, bool load_masks,
+                                        bool map_truth) {
+  return std::make_unique<SceneSource>(config, load_masks, map_truth);
 }
 
 }  // namespace mms

@@ -60,7 +60,7 @@ std::unique_ptr<FrameSource> open_simulated(std::string_view text, const SourceO
   if (std::find(names.begin(), names.end(), address.scene) == names.end()) fail_unknown(address);
   SceneConfig config = scene_config(address.scene);
   assign(config, address.assignments, address.text);
-  return play_scene(config, options.load_masks);
+  return play_scene(config, options.load_masks, options.map_truth);
 }
 
 }  // namespace mms

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mms/io/atomic_file.hpp"
 #include "mms/io/rle.hpp"
 
 namespace mms {
@@ -69,5 +70,23 @@ std::vector<CocoResult> read_coco_results(const std::filesystem::path& path);
 
 /// Writes what `read_coco_results` reads back. @throws FileError
 void write_coco_results(const std::filesystem::path& path, const std::vector<CocoResult>& results);
+
+/// Writes the same file result by result, so that they need not be held together. Like an
+/// AtomicFile it appears whole or not at all.
+class CocoResultsWriter {
+ public:
+  /// @throws FileError as AtomicFile does.
+  explicit CocoResultsWriter(const std::filesystem::path& path);
+
+  void add(const CocoResult& result);
+
+  /// Ends the list; nothing can be added after it. @throws FileError when anything could not be
+  /// written.
+  void finish();
+
+ private:
+  AtomicFile file_;
+  bool empty_ = true;
+};
 
 }  // namespace mms

@@ -1,4 +1,3 @@
-#include "mms/io/atomic_file.hpp"
 #include "mms/io/coco_io.hpp"
 #include "mms/io/json_entry.hpp"
 
@@ -71,7 +70,23 @@ void write_coco(const std::filesystem::path& path, const CocoDataset& dataset) {
 }
 
 void write_coco_results(const std::filesystem::path& path, const std::vector<CocoResult>& results) {
-  write_file(path, list_text(results) + "\n");
+  CocoResultsWriter writer(path);
+  for (const CocoResult& result : results) writer.add(result);
+  writer.finish();
+}
+
+CocoResultsWriter::CocoResultsWriter(const std::filesystem::path& path) : file_(path) {
+  file_.stream() << '[';
+}
+
+void CocoResultsWriter::add(const CocoResult& result) {
+  file_.stream() << (empty_ ? "\n" : ",\n") << json_of(result).dump();
+  empty_ = false;
+}
+
+void CocoResultsWriter::finish() {
+  file_.stream() << "\n]\n";
+  file_.commit();
 }
 
 }  // namespace mms

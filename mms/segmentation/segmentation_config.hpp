@@ -20,7 +20,8 @@ struct SegmentationConfig {
   std::string weights;  ///< a file; empty: the network that the program comes with
   NetworkBackend backend = NetworkBackend::kAuto;
   NetworkPrecision precision = NetworkPrecision::kAuto;
-  int threads = 1;  ///< of the network; the rest of the program has its own
+  int long_side = 0;  ///< of the network's input [px]; 0: as it was trained
+  int threads = 1;    ///< of the network; the rest of the program has its own
   NetworkSegmenterConfig objects;
   DecoderConfig decoder;  ///< of our networks
   OnnxConfig onnx;        ///< of ONNX models

@@ -73,6 +73,16 @@ TEST(SceneSource, WithoutMasksThereAreNone) {
   EXPECT_TRUE(source->next()->mask.empty());
 }
 
+TEST(SceneSource, KeepsItsTrueMapOnlyWhereItIsWanted) {
+  const auto map_after_a_frame = [](const SourceOptions& options) {
+    const auto source = open_dataset("sim:crowd?frames=1&width=64", options);
+    source->next();
+    return source->map_truth();
+  };
+  EXPECT_TRUE(map_after_a_frame({}));
+  EXPECT_FALSE(map_after_a_frame({.masks = {}, .load_masks = true, .map_truth = false}));
+}
+
 TEST(SceneSource, TheRecordingEndsWhenAsked) {
   const TempFolder folder;
   SimulatedScene scene(small_scene("d435"));

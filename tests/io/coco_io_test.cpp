@@ -142,6 +142,26 @@ TEST(CocoIo, ResultsRoundTrip) {
   expect_in("is no list of results", message_of<DataError>([&] { read_coco_results(path); }));
 }
 
+TEST(CocoIo, ResultsOneByOneAreTheSameFile) {
+  const TempFolder folder;
+  const std::vector<CocoResult> all = {{7, 1, 0.25, kMask}, {7, 2, 0.5, kMask}, {9, 1, 1.0, kMask}};
+  for (std::size_t count = 0; count <= all.size(); ++count) {
+    const std::vector<CocoResult> some(all.begin(), all.begin() + static_cast<int>(count));
+    write_coco_results(folder.path() / "a.json", some);
+    CocoResultsWriter writer(folder.path() / "b.json");
+    for (const CocoResult& result : some) writer.add(result);
+    writer.finish();
+    EXPECT_EQ(read_file(folder.path() / "b.json"), read_file(folder.path() / "a.json"));
+    EXPECT_EQ(read_coco_results(folder.path() / "b.json").size(), count);
+  }
+}
+
+TEST(CocoIo, ResultsThatAreNotFinishedLeaveNoFile) {
+  const TempFolder folder;
+  { CocoResultsWriter(folder.path() / "a.json").add({7, 1, 0.25, kMask}); }
+  EXPECT_TRUE(list_folder(folder.path()).empty());
+}
+
 /// The reference files beside the checkout.
 std::filesystem::path shared_coco(const char* file) {
   return std::filesystem::path(MMS_SOURCE_DIR) / "../shared/data/coco_eval" / file;

@@ -30,7 +30,7 @@ void expect_usage_fault(const Outcome& outcome, const std::string& part);
 /// Number of lines of stderr that have `part` in them.
 int lines_with(const Outcome& outcome, const std::string& part);
 
-/// Whether the program was built with libtorch, so that it can run and train networks.
-inline constexpr bool kHasNetwork = MMS_WITH_TORCH;
+/// Whether there is a program with libtorch, so that it can train networks.
+inline constexpr bool kHasTraining = MMS_WITH_TORCH;
 
 }  // namespace mms::testing

@@ -148,7 +148,6 @@ TEST(Run, StartAndFramesChooseAPart) {
 }
 
 TEST(Run, WithoutDataItPlaysTheWarehouseIntoResults) {
-  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
   const Outcome outcome = run_mms(folder.path(), {"run", "--frames", "5"});
   expect_done(outcome);

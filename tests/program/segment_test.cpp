@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "mms/io/atomic_file.hpp"
 #include "mms/io/coco_io.hpp"
 #include "mms/io/files.hpp"
 #include "mms/io/image_io.hpp"
@@ -16,7 +17,6 @@ using namespace testing;  // NOLINT: helpers of the tests
 constexpr const char* kWeights = MMS_SOURCE_DIR "/weights/nano.safetensors";
 
 TEST(Segment, FindsThePeopleOfTheSimulation) {
-  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
   const Outcome outcome = run_mms(folder.path(), {"segment", "sim:crowd?frames=3", "-o", "out"});
   expect_done(outcome);
@@ -40,7 +40,6 @@ TEST(Segment, FindsThePeopleOfTheSimulation) {
 }
 
 TEST(Segment, KeepsTheIdsOfACocoFile) {
-  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
   fs::create_directories(folder.path() / "data");
   CocoDataset dataset;
@@ -63,6 +62,42 @@ TEST(Segment, KeepsTheIdsOfACocoFile) {
   EXPECT_FALSE(fs::exists(folder.path() / "out/masks"));
 }
 
+TEST(Segment, PicturesThatDifferInTheirExtensionKeepIt) {
+  const TempFolder folder;
+  fs::create_directories(folder.path() / "data");
+  write_file(folder.path() / "data/a.jpg", encode_jpeg(Image<Rgb>(64, 48)));
+  write_png(folder.path() / "data/a.png", Image<Rgb>(80, 60));
+  write_png(folder.path() / "data/b.png", Image<Rgb>(96, 72));
+  expect_done(run_mms(folder.path(), {"segment", "data", "-o", "out"}));
+  EXPECT_EQ(list_folder(folder.path() / "out/masks"),
+            (std::vector<std::string>{"a.jpg.png", "a.png.png", "b.png"}));
+  EXPECT_EQ(list_folder(folder.path() / "out/overlays"),
+            (std::vector<std::string>{"a.jpg.jpg", "a.png.jpg", "b.jpg"}));
+  EXPECT_EQ(read_mask(folder.path() / "out/masks/a.jpg.png").width(), 64);
+  EXPECT_EQ(read_mask(folder.path() / "out/masks/a.png.png").width(), 80);
+  const CocoDataset images = read_coco(folder.path() / "out/images.json");
+  ASSERT_EQ(images.images.size(), 3U);
+  EXPECT_EQ(images.images[1].file_name, "a.png");
+}
+
+/// Pictures of one name in two folders, and one that is named as a longer name would be.
+TEST(Segment, PicturesOfOneNameAreNumbered) {
+  const TempFolder folder;
+  CocoDataset dataset;
+  dataset.categories = {{1, "person"}};
+  for (const std::string name : {"x/a.png", "y/a.png", "a.png.png"}) {
+    fs::create_directories((folder.path() / "data" / name).parent_path());
+    write_png(folder.path() / "data" / name, Image<Rgb>(64, 48));
+    const auto id = static_cast<std::int64_t>(dataset.images.size());
+    dataset.images.push_back({.id = id, .file_name = name, .width = 64, .height = 48});
+  }
+  write_coco(folder.path() / "truth.json", dataset);
+  expect_done(
+      run_mms(folder.path(), {"segment", "data", "--annotations", "truth.json", "-o", "out"}));
+  EXPECT_EQ(list_folder(folder.path() / "out/masks"),
+            (std::vector<std::string>{"a.png-2.png", "a.png-3.png", "a.png.png"}));
+}
+
 /// `mms segment` with a weights file of these bytes.
 Outcome segment_with(const TempFolder& folder, const std::string& bytes) {
   folder.write("bad.safetensors", bytes);
@@ -72,7 +107,6 @@ Outcome segment_with(const TempFolder& folder, const std::string& bytes) {
 }
 
 TEST(Segment, DamagedWeightsAreOneLine) {
-  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
   const std::string good = read_file(kWeights);
   expect_fault(segment_with(folder, ""), "bad.safetensors: ");
@@ -83,7 +117,6 @@ TEST(Segment, DamagedWeightsAreOneLine) {
 }
 
 TEST(Segment, WeightsOfAnotherNetworkAreOneLine) {
-  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
   Weights weights = read_safetensors(kWeights);
   weights.tensors.erase("neck.fpn_convs.1.conv.weight");
@@ -97,7 +130,6 @@ TEST(Segment, WeightsOfAnotherNetworkAreOneLine) {
 }
 
 TEST(Segment, MissingThingsAreOneLine) {
-  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
   expect_fault(run_mms(folder.path(), {"segment", "none", "-o", "out"}),
                "none: there is no such recording");

@@ -23,7 +23,7 @@ schedule: {images: 8, batch: 2, warm_up: 2}
 
 /// The whole way of a user: images of the simulator, a short training, its weights in use.
 TEST(Train, GivesWeightsThatSegment) {
-  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
+  if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
   expect_done(run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
   folder.write("train.yaml", kConfig);
@@ -39,7 +39,7 @@ TEST(Train, GivesWeightsThatSegment) {
 }
 
 TEST(Train, FaultsAreOneLine) {
-  if (!kHasNetwork) GTEST_SKIP() << "the program was built without libtorch";
+  if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
   folder.write("train.yaml", "data:\n  - {annotations: none.json, splitt: x}\n");
   expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),

@@ -1,6 +1,8 @@
 #include "mms/segmentation/engine/tensor.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -38,18 +40,24 @@ void with_numbers(const Tensor& tensor, const PixelSpan& pixels, const Function&
   }
 }
 
-/// The sum rounds to a whole number, as floats of that size have no fractions.
-float rounded(float value) {
-  constexpr float kWhole = 12582912.0F;  // 1.5 * 2^23
-  return (value + kWhole) - kWhole;
-}
-
+/// In two loops over short pieces, so that the compiler makes vectors of both.
 template <typename Stored>
 void shrink(const float* values, int count, float inverse_scale, float least, float most,
             Stored* stored) {
-  for (int i = 0; i < count; ++i) {
-    const float limited = std::min(std::max(values[i] * inverse_scale, least), most);
-    stored[i] = static_cast<Stored>(static_cast<std::int32_t>(rounded(limited)));
+  // Added to a number, it leaves that rounded to a whole one in the lowest bits.
+  constexpr float kWhole = 12582912.0F;  // 1.5 * 2^23
+  constexpr int kPiece = 128;
+  std::array<float, kPiece> whole;
+  for (int first = 0; first < count; first += kPiece) {
+    const int length = std::min(kPiece, count - first);
+    for (int i = 0; i < length; ++i) {
+      const float limited = std::min(std::max(values[first + i] * inverse_scale, least), most);
+      whole[static_cast<std::size_t>(i)] = limited + kWhole;
+    }
+    for (int i = 0; i < length; ++i) {
+      const auto bits = std::bit_cast<std::uint32_t>(whole[static_cast<std::size_t>(i)]);
+      stored[first + i] = static_cast<Stored>(bits);
+    }
   }
 }
 
