@@ -82,13 +82,19 @@ TEST(Quantization, RefusesARangeThatIsNone) {
 }
 
 TEST(Quantization, OfAnotherNetworkIsRefused) {
-  Quantization quantization;
-  quantization.ranges = {{"no such value", 1.0F}};
-  SegmentationModel model = random_model({}, 1);
-  expect_in(
-      "no such value", message_of<DataError>([&] {
-        NetworkEngine(std::move(model), "net.file", quantization).run(random_image(96, 96, 1));
-      }));
+  const SegmentationModel model = random_model({}, 1);
+  Calibration calibration(model, "net");
+  calibration.add(random_image(96, 96, 1));
+  const auto fault = [&](const Quantization& quantization) {
+    return message_of<DataError>(
+        [&] { NetworkEngine(model, "net.file", quantization).run(random_image(96, 96, 1)); });
+  };
+  Quantization more = calibration.quantization({});
+  more.ranges["no such value"] = 1.0F;
+  expect_in("net.file: has an int8 range of 'no such value'", fault(more));
+  Quantization less = calibration.quantization({});
+  less.ranges.erase("neck.fpn_convs.0.conv");
+  expect_in("net.file: has no range of the value 'neck.fpn_convs.0.conv'", fault(less));
 }
 
 class QuantizedNetwork : public ::testing::TestWithParam<NetworkVariant> {};

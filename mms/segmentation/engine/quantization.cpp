@@ -152,13 +152,18 @@ Quantization unpack_quantization(const Weights& weights, const std::string& wher
 
 void check_quantization(const Quantization& quantization, const Graph& graph,
                         const std::string& where) {
+  if (quantization.ranges.empty()) return;
+  constexpr const char* kHint = "quantize its weights again with mms quantize";
   std::set<std::string> names;
-  for (const Value& value : graph.values) names.insert(value.name);
+  for (const Value& value : graph.values) {
+    names.insert(value.name);
+    if (quantization.ranges.contains(value.name)) continue;
+    throw DataError(where, "has no range of the value '" + value.name + "' for int8", kHint);
+  }
   for (const auto& [name, range] : quantization.ranges) {
     if (names.contains(name)) continue;
-    throw DataError(where,
-                    "was quantized for another network: this one has no value '" + name + "'",
-                    "quantize its weights again with mms quantize");
+    throw DataError(where, "has an int8 range of '" + name + "', which the network does not have",
+                    kHint);
   }
 }
 

@@ -23,7 +23,8 @@ void pack_quantization(const Quantization& quantization, Weights& weights);
 /// @throws DataError at `where` for a range that is no positive number.
 Quantization unpack_quantization(const Weights& weights, const std::string& where);
 
-/// @throws DataError at `where` for a range of a value that the graph does not have.
+/// @throws DataError at `where` unless there are ranges of all values of the graph and of no other,
+/// or none at all.
 void check_quantization(const Quantization& quantization, const Graph& graph,
                         const std::string& where);
 
