@@ -62,7 +62,8 @@ TEST(CommandLine, VersionIsOneLine) {
 TEST(CommandLine, WrongWordsAreUsageFaultsThatNameThem) {
   const TempFolder folder;
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
-  expect_usage_fault(run({}), "a command is wanted: run, eval, simulate, segment, import, ");
+  expect_usage_fault(run({}),
+                     "a command is wanted: run, eval, simulate, segment, quantize, import, ");
   expect_usage_fault(run({"rum"}), "'rum'");
   expect_usage_fault(run({"eval"}),
                      "a command is wanted: trajectory, drift, map, residue or segmentation");
