@@ -60,6 +60,11 @@ std::string JsonEntry::text() const {
   return value_->get<std::string>();
 }
 
+bool JsonEntry::boolean() const {
+  if (!value_->is_boolean()) fail("is " + type_name() + ", true or false is wanted");
+  return value_->get<bool>();
+}
+
 void JsonEntry::fail(const std::string& what, const std::string& hint) const {
   throw DataError(file_ + (path_.empty() ? "" : ": " + path_), what, hint);
 }

@@ -33,6 +33,9 @@ class JsonEntry {
   bool is_text() const { return value_->is_string(); }
   bool is_object() const { return value_->is_object(); }
 
+  /// @throws DataError when it is neither true nor false.
+  bool boolean() const;
+
   /// @throws DataError when it is of another type or out of the range.
   double number(Range range = {}) const;
   std::int64_t integer(Range range = {}) const;
