@@ -1,0 +1,65 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "mms/core/error.hpp"
+
+namespace mms {
+
+static_assert(std::endian::native == std::endian::little, "values are copied as they are");
+
+/// Appends a number, little-endian.
+template <class T>
+void append_bytes(std::string& bytes, T value) {
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  bytes.append(raw, sizeof value);
+}
+
+/// Takes little-endian numbers off the front of bytes that nobody vouches for.
+class ByteReader {
+ public:
+  /// @param where  for messages
+  ByteReader(std::string_view bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
+
+  /// @throws DataError when fewer bytes are left.
+  template <class T>
+  T take() {
+    T value;
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    return value;
+  }
+
+  /// The next `size` bytes. @throws DataError when fewer are left.
+  std::string_view take(std::size_t size) {
+    if (size > bytes_.size()) {
+      throw DataError(where_, "ends " + std::to_string(size - bytes_.size()) + " bytes too early");
+    }
+    const std::string_view taken = bytes_.substr(0, size);
+    bytes_.remove_prefix(size);
+    return taken;
+  }
+
+  /// A 32-bit count of things of at least `bytes_each` bytes, so that it can be allocated.
+  /// @throws DataError when the bytes left cannot hold so many.
+  std::uint32_t take_count(std::size_t bytes_each) {
+    const auto count = take<std::uint32_t>();
+    const std::size_t most = bytes_.size() / bytes_each;
+    if (count <= most) return count;
+    throw DataError(where_, "promises " + std::to_string(count) + " entries, but has room for " +
+                                std::to_string(most));
+  }
+
+  std::size_t left() const { return bytes_.size(); }
+  const std::string& where() const { return where_; }
+
+ private:
+  std::string_view bytes_;
+  std::string where_;
+};
+
+}  // namespace mms

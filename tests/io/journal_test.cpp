@@ -1,0 +1,214 @@
+#include "mms/io/journal.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "mms/io/crc32.hpp"
+#include "mms/io/files.hpp"
+#include "mms/io/journal_reader.hpp"
+#include "mms/io/journal_record.hpp"
+#include "mms/io/journal_writer.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;  // NOLINT: helpers of the tests
+
+const JournalHeader kHeader{"a recording", 0.02, 2};
+
+MapChanges some_changes(int seed) {
+  MapChanges changes;
+  changes.viewpoint = Eigen::Vector3f(0.5F, -1.25F, static_cast<float>(seed));
+  changes.voxel_size = 0.02;
+  changes.whole = seed % 2 == 1;
+  changes.blocks.push_back({{-3, seed, 7}, 2, {{511, 4, {1, 2, 3}, {-127, 0, 127}, {9, 8, 7}}}});
+  changes.blocks.push_back({{1, 2, 3}, 3, {}});
+  changes.erased = {{-1, -2, -3}, {seed, 0, 0}};
+  return changes;
+}
+
+JournalFrame some_frame(int index) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.rotate(Eigen::AngleAxisd(0.1 * index, Eigen::Vector3d::UnitY()));
+  pose.pretranslate(Eigen::Vector3d(0.1 * index, 1.0 / 3.0, -2.0));
+  JournalFrame frame;
+  frame.stamp = Timestamp(1'000'000'007LL * index);
+  frame.written = Timestamp(1'700'000'000'000'000'000LL + index);
+  frame.T_world_sensor = Transform<World, Sensor>(pose);
+  frame.status = index == 0 ? Status::kInitialized : Status::kTracking;
+  frame.organised = true;
+  frame.keyframe = index % 2 == 0;
+  if (frame.keyframe) frame.map = some_changes(index);
+  return frame;
+}
+
+void expect_same(const JournalFrame& a, const JournalFrame& b) {
+  EXPECT_EQ(a.stamp, b.stamp);
+  EXPECT_EQ(a.written, b.written);
+  EXPECT_EQ(a.T_world_sensor.isometry().matrix(), b.T_world_sensor.isometry().matrix());
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.keyframe, b.keyframe);
+  EXPECT_EQ(a.organised, b.organised);
+  EXPECT_EQ(a.map, b.map);
+}
+
+/// A journal of some frames, and where its records end.
+struct Sample {
+  std::string bytes = encode_header(kHeader);
+  std::vector<std::size_t> ends = {bytes.size()};
+
+  explicit Sample(int frames) {
+    for (int i = 0; i < frames; ++i) {
+      bytes += encode_frame(some_frame(i));
+      ends.push_back(bytes.size());
+    }
+  }
+
+  /// Frames that are whole in the first `size` bytes.
+  std::size_t whole(std::size_t size) const {
+    return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), size) -
+                                    ends.begin()) -
+           1;
+  }
+};
+
+/// Reads all frames, which must be those of a sample; returns how many there are.
+std::size_t count_frames(JournalReader& reader) {
+  std::size_t count = 0;
+  while (const std::optional<JournalFrame> frame = reader.next()) {
+    expect_same(*frame, some_frame(static_cast<int>(count)));
+    ++count;
+  }
+  return count;
+}
+
+std::size_t frames_in(const fs::path& path) {
+  JournalReader reader(path);
+  return count_frames(reader);
+}
+
+TEST(Crc32, IsThatOfTheStandard) {
+  EXPECT_EQ(crc32("123456789"), 0xCBF43926U);
+  EXPECT_EQ(crc32(""), 0U);
+}
+
+TEST(Journal, ReadsBackWhatWasWritten) {
+  const TempFolder folder;
+  const fs::path path = folder.path() / "journal.bin";
+  JournalWriter writer(path, kHeader);
+  for (int i = 0; i < 5; ++i) {
+    writer.append(some_frame(i));
+    EXPECT_EQ(frames_in(path), static_cast<std::size_t>(i + 1));  // at once, not at its end
+  }
+  JournalReader reader(path);
+  EXPECT_EQ(reader.header().data, kHeader.data);
+  EXPECT_EQ(reader.header().voxel_size, kHeader.voxel_size);
+  EXPECT_EQ(reader.header().min_observations, kHeader.min_observations);
+  EXPECT_EQ(count_frames(reader), 5U);
+  EXPECT_EQ(reader.damage(), "");
+  EXPECT_EQ(read_file(path), Sample(5).bytes);
+}
+
+TEST(Journal, CutAnywhereGivesTheFramesBefore) {
+  const TempFolder folder;
+  const Sample sample(4);
+  for (std::size_t size = 0; size <= sample.bytes.size(); ++size) {
+    const fs::path path = folder.write("journal.bin", sample.bytes.substr(0, size));
+    SCOPED_TRACE(size);
+    if (size < sample.ends[0]) {
+      EXPECT_THROW(JournalReader{path}, DataError);
+      continue;
+    }
+    JournalReader reader(path);
+    EXPECT_EQ(count_frames(reader), sample.whole(size));
+    const bool at_an_end = sample.ends[sample.whole(size)] == size;
+    EXPECT_EQ(reader.damage().empty(), at_an_end);
+    if (!at_an_end) expect_in("is cut off", reader.damage());
+  }
+}
+
+TEST(Journal, FlippedBytesAreFound) {
+  const TempFolder folder;
+  const Sample sample(3);
+  for (std::size_t i = 0; i < sample.bytes.size(); ++i) {
+    for (const int mask : {0x01, 0x80, 0xFF}) {
+      std::string bytes = sample.bytes;
+      bytes[i] = static_cast<char>(bytes[i] ^ mask);
+      const fs::path path = folder.write("journal.bin", bytes);
+      SCOPED_TRACE(i);
+      if (i < sample.ends[0]) {
+        EXPECT_THROW(JournalReader{path}, DataError);
+        continue;
+      }
+      JournalReader reader(path);
+      EXPECT_EQ(count_frames(reader), sample.whole(i));
+      EXPECT_NE(reader.damage(), "");
+    }
+  }
+}
+
+/// What is said of a journal with this record behind one good frame.
+std::string damage_by(const TempFolder& folder, const std::string& record) {
+  JournalReader reader(folder.write("journal.bin", Sample(1).bytes + record));
+  EXPECT_EQ(count_frames(reader), 1U);
+  return reader.damage();
+}
+
+/// The record of a frame, with a change to its payload, and a right checksum.
+std::string forged(std::size_t offset, const std::string& bytes) {
+  const std::string record = encode_frame(some_frame(0));
+  std::string payload = record.substr(kRecordStart, record.size() - kRecordStart - kRecordEnd);
+  payload.replace(offset, bytes.size(), bytes);
+  return make_record(RecordType::kFrame, payload);
+}
+
+TEST(Journal, HostileRecordsAreRefusedBeforeAnythingIsAllocated) {
+  const TempFolder folder;
+  constexpr std::size_t kStatus = 16;
+  constexpr std::size_t kMap = 18 + 96;  // behind stamps, status, flags and pose
+  constexpr std::size_t kBlocks = kMap + 12 + 8 + 1;
+  const std::string many(4, '\xFF');
+  expect_in("the status is 9, allowed is 0 to 4", damage_by(folder, forged(kStatus, "\x09")));
+  expect_in("promises 4294967295 entries, but has room for",
+            damage_by(folder, forged(kBlocks, many)));
+  expect_in("the voxel size is 0 m", damage_by(folder, forged(kMap + 12, std::string(8, '\0'))));
+  expect_in("a block is at 2147483647", damage_by(folder, forged(kBlocks + 4, "\xFF\xFF\xFF\x7F")));
+  expect_in("a voxel is at place 65535",
+            damage_by(folder, forged(kBlocks + 4 + 12 + 2 + 4, "\xFF\xFF")));
+  expect_in("is cut off", damage_by(folder, many + "\x02 and not four gigabytes"));
+  expect_in("is of type 1, expected is 2",
+            damage_by(folder, make_record(RecordType::kHeader, "again")));
+  expect_in("ends 8 bytes too early", damage_by(folder, make_record(RecordType::kFrame, "")));
+}
+
+TEST(Journal, SaysWhatIsNoJournal) {
+  const TempFolder folder;
+  const auto open = [&](const fs::path& path) { return [path] { JournalReader reader(path); }; };
+  expect_in("there is no such file", message_of<FileError>(open(folder.path() / "none.bin")));
+  expect_in("is not a regular file", message_of<FileError>(open(folder.path())));
+  expect_in("is empty", message_of<DataError>(open(folder.write("empty.bin", ""))));
+  expect_in("is no journal", message_of<DataError>(open(folder.write("text.bin", "hello there"))));
+  std::string payload(40, '\0');
+  payload[0] = 7;
+  const std::string later = std::string(kJournalMagic) + make_record(RecordType::kHeader, payload);
+  expect_in("is of version 7, known is version 1",
+            message_of<DataError>(open(folder.write("later.bin", later))));
+}
+
+TEST(Journal, AFullDiskIsAFault) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+  const TempFolder folder;
+  const fs::path path = folder.path() / "journal.bin";
+  fs::create_symlink("/dev/full", path);
+  const std::string message =
+      message_of<FileError>([&] { const JournalWriter writer(path, kHeader); });
+  expect_in(path.string() + ": cannot be written: No space left on device", message);
+  expect_in("nowhere/journal.bin: cannot be written", message_of<FileError>([&] {
+              const JournalWriter writer(folder.path() / "nowhere/journal.bin", kHeader);
+            }));
+}
+
+}  // namespace
+}  // namespace mms
