@@ -38,11 +38,6 @@ bool is_shown(const VoxelBlock& block, const Voxel& voxel, std::size_t needed) {
   return voxel.hits >= needed || block.views <= needed;
 }
 
-Rgb to_rgb(const Eigen::Vector3f& color) {
-  const auto channel = [](float value) { return static_cast<std::uint8_t>(value + 0.5F); };
-  return {channel(color.x()), channel(color.y()), channel(color.z())};
-}
-
 }  // namespace
 
 StaticMap::StaticMap(const StaticMapConfig& config) : config_(config), grid_(config.voxel_size) {}
@@ -56,11 +51,12 @@ MapUpdate StaticMap::integrate(const LabeledCloud& cloud,
   const std::vector<SurfacePoint> points = surface_points(cloud, config_.surface);
   insert(points, T);
   update.points = points.size();
+  carved_.clear();
   if (config_.carving.enabled && cloud.organised()) {
     const FreeSpace free_space(cloud, config_.carving.margin, config_.surface.noise);
     update.carved = carve(free_space, T.inverse());
   }
-  update.coarsened = keep_to_budget();
+  update.coarsened = coarsened_ = keep_to_budget();
   return update;
 }
 
@@ -95,15 +91,18 @@ std::size_t StaticMap::carve(const FreeSpace& free_space, const Eigen::Isometry3
     increment(voxel.seen_through);
     return voxel.seen_through > ratio * voxel.hits;
   };
-  std::size_t carved = 0;
   for (VoxelBlock& block : grid_.blocks()) {
     const Eigen::Vector3f corner(static_cast<float>(block.key.x), static_cast<float>(block.key.y),
                                  static_cast<float>(block.key.z));
     const Eigen::Vector3f center = (corner.array() + 0.5F).matrix() * side;
     if (!free_space.may_see_into(T_sensor_world * center, radius)) continue;
-    carved += grid_.erase_if(block, gone);
+    grid_.erase_if(block, [&](Voxel& voxel) {
+      if (!gone(voxel)) return false;
+      carved_.push_back(block.voxel_key(voxel));
+      return true;
+    });
   }
-  return carved;
+  return carved_.size();
 }
 
 bool StaticMap::keep_to_budget() {
@@ -118,8 +117,7 @@ bool StaticMap::keep_to_budget() {
 }
 
 Eigen::Vector3f StaticMap::normal_of(const VoxelBlock& block, const Voxel& voxel) const {
-  const float length = voxel.normal.norm();
-  if (length > 1e-3F) return voxel.normal / length;
+  if (has_normal(voxel)) return voxel.normal.normalized();
   return neighbourhood_normal(grid_, block, voxel, viewpoints_[voxel.last_keyframe - 1]);
 }
 

@@ -6,6 +6,7 @@
 #include "mms/core/config.hpp"
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/core/transform.hpp"
+#include "mms/geometry/map_changes.hpp"
 #include "mms/mapping/free_space.hpp"
 #include "mms/mapping/map_cloud.hpp"
 #include "mms/mapping/surface_points.hpp"
@@ -57,6 +58,15 @@ class StaticMap {
   /// order in which they came into the map.
   MapCloud cloud() const;
 
+  /// What the last keyframe did, so that `apply` of all keyframes' changes, in order, makes a map
+  /// that shows the same voxels; their means and counts are those of when the count last doubled.
+  MapChanges changes() const;
+
+  /// Repeats what a keyframe did to another map of the same settings. Such a map is for `cloud`
+  /// alone: it knows no weights, so keyframes cannot be integrated into it.
+  /// @throws DataError when a voxel has no place in a block.
+  void apply(const MapChanges& changes);
+
   std::size_t size() const { return grid_.size(); }  ///< voxels, those with few observations too
   std::size_t memory_bytes() const { return grid_.memory_bytes(); }
   double voxel_size() const { return grid_.voxel_size(); }  ///< current one [m]
@@ -71,6 +81,8 @@ class StaticMap {
   StaticMapConfig config_;
   VoxelGrid grid_;
   std::vector<Eigen::Vector3f> viewpoints_;  // of the keyframes; keyframe n is at n - 1
+  std::vector<VoxelKey> carved_;             // by the last keyframe
+  bool coarsened_ = false;                   // by the last keyframe
 };
 
 }  // namespace mms

@@ -31,10 +31,9 @@ void merge(const Voxel& from, Voxel& into) {
 
 }  // namespace
 
-VoxelKey VoxelBlock::voxel_key(const Voxel& voxel) const {
-  const int cell = voxel.cell;
-  return {key.x * kSide + (cell & kMask), key.y * kSide + ((cell >> kBits) & kMask),
-          key.z * kSide + (cell >> (2 * kBits))};
+VoxelKey VoxelBlock::voxel_key(const VoxelKey& block, std::uint16_t cell) {
+  return {block.x * kSide + (cell & kMask), block.y * kSide + ((cell >> kBits) & kMask),
+          block.z * kSide + (cell >> (2 * kBits))};
 }
 
 VoxelGrid::VoxelGrid(double voxel_size)
@@ -66,6 +65,18 @@ const Voxel* VoxelGrid::find(const VoxelKey& key) const {
   const VoxelBlock& block = blocks_[entry->second];
   const std::uint16_t slot = block.slot[cell_of(key)];
   return slot == 0 ? nullptr : &block.voxels[slot - 1U];
+}
+
+VoxelBlock* VoxelGrid::find_block(const VoxelKey& key) {
+  const auto entry = index_.find(key);
+  return entry == index_.end() ? nullptr : &blocks_[entry->second];
+}
+
+void VoxelGrid::erase(const VoxelKey& key) {
+  VoxelBlock* block = find_block(block_of(key));
+  if (block == nullptr) return;
+  const std::uint16_t slot = block->slot[cell_of(key)];
+  if (slot != 0) erase(*block, slot - 1U);
 }
 
 void VoxelGrid::erase(VoxelBlock& block, std::size_t index) {

@@ -9,6 +9,7 @@
 #include <deque>
 #include <vector>
 
+#include "mms/core/image.hpp"
 #include "mms/geometry/voxel_key.hpp"
 
 namespace mms {
@@ -25,6 +26,16 @@ struct Voxel {
   std::uint16_t cell = 0;                              ///< place in its block
 };
 
+/// Whether the means of a voxel's normals did not cancel each other out.
+inline bool has_normal(const Voxel& voxel) {
+  return voxel.normal.norm() > 1e-3F;
+}
+
+inline Rgb to_rgb(const Eigen::Vector3f& color) {
+  const auto channel = [](float value) { return static_cast<std::uint8_t>(value + 0.5F); };
+  return {channel(color.x()), channel(color.y()), channel(color.z())};
+}
+
 /// A cube of kSide^3 voxels of which only the occupied ones are stored.
 struct VoxelBlock {
   static constexpr int kBits = 3;
@@ -37,7 +48,9 @@ struct VoxelBlock {
   std::uint32_t last_keyframe = 0;  ///< number of the last one that measured in it
   std::uint16_t views = 0;          ///< keyframes that measured in it
 
-  VoxelKey voxel_key(const Voxel& voxel) const;  ///< in units of the voxel's side
+  /// In units of the voxel's side.
+  static VoxelKey voxel_key(const VoxelKey& block, std::uint16_t cell);
+  VoxelKey voxel_key(const Voxel& voxel) const { return voxel_key(key, voxel.cell); }
 };
 
 /// Sparse voxels in hashed blocks, so that whole blocks can be culled against a camera's view.
@@ -64,6 +77,12 @@ class VoxelGrid {
 
   /// The voxel at `key`, or null.
   const Voxel* find(const VoxelKey& key) const;
+
+  /// The block at `key`, in units of its side, or null.
+  VoxelBlock* find_block(const VoxelKey& key);
+
+  /// Removes the voxel at `key`, if there is one.
+  void erase(const VoxelKey& key);
 
   /// Removes the voxels of `block` for which `remove(voxel)` is true; returns how many.
   template <class Predicate>

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "mms/core/error.hpp"
+#include "mms/mapping/static_map.hpp"
+#include "tests/mapping/synthetic_cloud.hpp"
+
+namespace mms {
+namespace {
+
+using test::organised_cloud;
+using test::pose;
+
+/// A wall at 3 m; before it, in every third keyframe, something that is seen through in the others.
+LabeledCloud keyframe_cloud(int index) {
+  return organised_cloud([=](int x, int, const Eigen::Vector3f&) {
+    return index % 3 == 0 && x >= 60 && x < 100 ? 1.5F : 3.0F;
+  });
+}
+
+Transform<World, Sensor> keyframe_pose(int index) {
+  return pose({0.04 * index, 0.02 * index, 0.0}, 0.02 * index);
+}
+
+using Shown = std::map<VoxelKey, std::size_t>;  // voxel, index into the cloud
+
+Shown shown(const StaticMap& map, const MapCloud& cloud) {
+  Shown voxels;
+  const auto inverse = static_cast<float>(1.0 / map.voxel_size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) voxels[voxel_key(cloud.points[i], inverse)] = i;
+  return voxels;
+}
+
+void expect_same_surface(const StaticMap& map, const StaticMap& replayed) {
+  ASSERT_EQ(map.voxel_size(), replayed.voxel_size());
+  const MapCloud cloud = map.cloud();
+  const MapCloud copy = replayed.cloud();
+  ASSERT_EQ(cloud.size(), copy.size());
+  const Shown voxels = shown(map, cloud);
+  std::size_t elsewhere = 0;  // rounding may take a mean on a voxel's side into the next one
+  std::size_t moved = 0;      // a voxel with two surfaces may see more of the other one later
+  for (const auto& [key, j] : shown(replayed, copy)) {
+    const auto found = voxels.find(key);
+    if (found == voxels.end()) {
+      ++elsewhere;
+      continue;
+    }
+    const std::size_t i = found->second;
+    EXPECT_LE(copy.observations[j], cloud.observations[i]);
+    EXPECT_GT(2 * copy.observations[j], cloud.observations[i]);
+    const bool turned = !cloud.normals[i].isZero() && !copy.normals[j].isZero() &&
+                        cloud.normals[i].dot(copy.normals[j]) < 0.9F;
+    const float distance = (cloud.points[i] - copy.points[j]).norm();
+    if (turned || distance > 0.5 * map.voxel_size()) ++moved;
+  }
+  EXPECT_LE(elsewhere, cloud.size() / 100);
+  EXPECT_LE(moved, cloud.size() / 500);
+}
+
+/// After every keyframe, the changes so far make a map that shows the same.
+void expect_changes_suffice(const StaticMapConfig& config, int keyframes) {
+  StaticMap map(config);
+  StaticMap replayed(config);
+  for (int i = 0; i < keyframes; ++i) {
+    map.integrate(keyframe_cloud(i), keyframe_pose(i));
+    replayed.apply(map.changes());
+    SCOPED_TRACE("keyframe " + std::to_string(i));
+    expect_same_surface(map, replayed);
+    if (::testing::Test::HasFailure()) return;
+  }
+  EXPECT_EQ(replayed.keyframes(), map.keyframes());
+}
+
+TEST(StaticMapChanges, MakeAMapThatShowsTheSameVoxels) {
+  expect_changes_suffice({}, 12);
+}
+
+TEST(StaticMapChanges, SufficeForAnyNumberOfNeededObservations) {
+  expect_changes_suffice({.min_observations = 1}, 8);
+  expect_changes_suffice({.min_observations = 3}, 8);
+  expect_changes_suffice({.min_observations = 7}, 10);
+}
+
+TEST(StaticMapChanges, TellTheWholeMapWhenItGrowsCoarser) {
+  StaticMapConfig config{.voxel_size = 0.01, .memory = 3.0};
+  expect_changes_suffice(config, 6);
+  StaticMap map(config);
+  bool whole = false;
+  for (int i = 0; i < 6; ++i) {
+    map.integrate(keyframe_cloud(i), keyframe_pose(i));
+    whole = whole || map.changes().whole;
+  }
+  EXPECT_TRUE(whole);
+  EXPECT_GT(map.voxel_size(), config.voxel_size);
+}
+
+TEST(StaticMapChanges, TellWhatWasCarved) {
+  StaticMap map({.min_observations = 1});
+  map.integrate(keyframe_cloud(0), keyframe_pose(0));
+  std::size_t erased = 0;
+  for (int i = 1; i < 4; ++i) {
+    const std::size_t carved = map.integrate(keyframe_cloud(1), keyframe_pose(0)).carved;
+    EXPECT_EQ(map.changes().erased.size(), carved);
+    erased += carved;
+  }
+  EXPECT_GT(erased, 500U);
+}
+
+TEST(StaticMapChanges, OfASensorThatStandsStillGetRare) {
+  StaticMap map;
+  std::size_t told = 0;
+  for (int i = 0; i < 64; ++i) {
+    map.integrate(keyframe_cloud(1), keyframe_pose(0));
+    for (const BlockChange& block : map.changes().blocks) told += block.voxels.size();
+  }
+  EXPECT_LE(told, 7 * map.size());  // at 1, 2, 4, ... 64 observations
+}
+
+TEST(StaticMapChanges, OfAnEmptyMapAreNone) {
+  const StaticMap map;
+  EXPECT_TRUE(map.changes().blocks.empty());
+  EXPECT_EQ(map.changes().voxel_size, map.voxel_size());
+}
+
+TEST(StaticMapChanges, RefuseAPlaceOutsideOfABlock) {
+  MapChanges changes;
+  changes.voxel_size = 0.02;
+  changes.blocks.push_back({{0, 0, 0}, 1, {VoxelChange{.cell = 512, .hits = 1}}});
+  StaticMap map;
+  EXPECT_THROW(map.apply(changes), DataError);
+}
+
+}  // namespace
+}  // namespace mms
