@@ -7,22 +7,26 @@ namespace {
 
 volatile std::sig_atomic_t requested_flag = 0;
 
-void on_signal(int signal) {
+void handle_both(void (*handler)(int)) {
+  std::signal(SIGINT, handler);
+  std::signal(SIGTERM, handler);
+}
+
+/// Whichever of the two comes next ends the program.
+void on_signal(int) {
   requested_flag = 1;
-  std::signal(signal, SIG_DFL);
+  handle_both(SIG_DFL);
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   requested_flag = 0;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  handle_both(on_signal);
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  handle_both(SIG_DFL);
 }
 
 bool InterruptGuard::requested() {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "config_command.hpp"
+#include "convert_command.hpp"
 #include "doctor_command.hpp"
 #include "eval_command.hpp"
 #include "import_command.hpp"
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
   mms::add_quantize_command(app);
   mms::add_import_command(app);
   mms::add_train_command(app);
+  mms::add_convert_command(app);
   mms::add_info_command(app);
   mms::add_config_command(app);
   mms::add_doctor_command(app);

@@ -21,6 +21,7 @@
 #include "network_detector.hpp"
 #include "progress.hpp"
 #include "result_folder.hpp"
+#include "run_journal.hpp"
 #include "run_log.hpp"
 #include "run_options.hpp"
 #include "run_outputs.hpp"
@@ -97,10 +98,13 @@ void run(const RunOptions& options) {
 
   Progress progress(std::min(options.frames, source->size() - options.start));
   source->on_warning([&](const std::string& message) { progress.warn(message); });
+  RunJournal journal(folder.path(), options.data, config,
+                     [&](const std::string& message) { progress.warn(message); });
   RunLog log(source->ground_truth(), options.segmenter == "network");
   const InterruptGuard interrupt;
   AsyncPipeline pipeline(threads_of(options));
   pipeline.run(system, limited(*source, options), [&](const Processed& processed) {
+    journal.add(processed, system);
     log.add(processed);
     progress.show(log, system.dynamic_map());
   });
@@ -114,6 +118,7 @@ void run(const RunOptions& options) {
   }
   compare_map(*source, system, log, progress);
   write_outputs(folder.path(), options.data, config, system, log);
+  if (!options.keep_journal) journal.remove();
   folder.make_latest();
   print_summary(folder.path(), log);
 }
@@ -153,6 +158,9 @@ void add_run_command(CLI::App& app) {
       ->add_option("--threads", options->threads,
                    "threads to use (default: one a core); the results are the same for any number")
       ->check(CLI::Range(1, 256));
+  command->add_flag("--keep-journal", options->keep_journal,
+                    "leave journal.bin, from which mms convert recovers a run that was killed, in "
+                    "the folder of a run that came to its end");
   command->callback([options] {
     if (options->segmenter.empty())
       options->segmenter = options->masks.empty() ? "network" : "masks";

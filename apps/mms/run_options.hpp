@@ -18,6 +18,7 @@ struct RunOptions {
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::size_t start = 0;
   bool realtime = false;
+  bool keep_journal = false;
   int threads = 0;  ///< 0: one a core
 };
 

@@ -11,10 +11,8 @@
 #include "mms/io/atomic_file.hpp"
 #include "mms/io/config_yaml.hpp"
 #include "mms/io/image_io.hpp"
-#include "mms/io/pcd_io.hpp"
-#include "mms/io/ply_io.hpp"
-#include "mms/io/trajectory_io.hpp"
 #include "objects_json.hpp"
+#include "result_files.hpp"
 
 namespace mms {
 namespace {
@@ -88,12 +86,7 @@ void write_pictures(const std::filesystem::path& folder, const RunReport& report
 void write_outputs(const std::filesystem::path& folder, const std::string& data,
                    const SystemConfig& config, const SlamSystem& system, const RunLog& log) {
   const MapCloud map = system.static_map().cloud();
-  const PointCloudFile file{map.points, map.normals, map.colors, {}, map.observations};
-  write_trajectory_tum(folder / "trajectory.tum", log.trajectory());
-  write_trajectory_kitti(folder / "trajectory_kitti.txt", log.trajectory());
-  write_trajectory_tum(folder / "keyframes.tum", log.keyframes());
-  write_ply(folder / "static_map.ply", file);
-  write_pcd(folder / "static_map.pcd", file);
+  write_result_files(folder, log.trajectory(), log.keyframes(), map);
   write_file(folder / "objects.json", objects_json(system.dynamic_map()));
   write_file(folder / "config.yaml", dump_config(config));
   write_metrics(folder / "metrics.json", log.metrics());

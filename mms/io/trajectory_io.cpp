@@ -62,6 +62,10 @@ Trajectory kitti_trajectory(const TextTable& table) {
   return trajectory;
 }
 
+bool is_kitti(const TextTable& table) {
+  return !table.lines().empty() && table.lines()[0].fields.size() == kKittiColumns;
+}
+
 void append_row(std::string& text, std::span<const double> numbers) {
   for (const double number : numbers) {
     if (!text.empty() && text.back() != '\n') text += ' ';
@@ -91,10 +95,13 @@ Trajectory read_trajectory_kitti(const std::filesystem::path& path,
   return trajectory;
 }
 
+bool is_kitti_trajectory(const std::filesystem::path& path) {
+  return is_kitti(TextTable(path));
+}
+
 Trajectory read_trajectory(const std::filesystem::path& path) {
   const TextTable table(path);
-  const bool kitti = !table.lines().empty() && table.lines()[0].fields.size() == kKittiColumns;
-  const Trajectory trajectory = kitti ? kitti_trajectory(table) : tum_trajectory(table);
+  const Trajectory trajectory = is_kitti(table) ? kitti_trajectory(table) : tum_trajectory(table);
   expect_poses(path, trajectory);
   return trajectory;
 }

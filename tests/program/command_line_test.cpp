@@ -15,10 +15,11 @@ using Words = std::vector<std::string>;
 
 /// Commands and the words their help must name.
 const std::map<Words, Words> kCommands = {
-    {{}, {"run", "eval", "simulate", "info", "config", "doctor", "--version"}},
+    {{}, {"run", "eval", "simulate", "convert", "info", "config", "doctor", "--version"}},
     {{"run"},
      {"DATA", "-c,--config", "-o,--output", "--segmenter", "network", "masks", "none", "--masks",
-      "--fusion", "multimodal", "vision", "--frames", "--start", "--realtime", "--threads"}},
+      "--fusion", "multimodal", "vision", "--frames", "--start", "--realtime", "--threads",
+      "--keep-journal"}},
     {{"eval"}, {"trajectory", "drift", "map", "residue", "segmentation"}},
     {{"segment"},
      {"DATA", "-o,--output", "-c,--config", "--weights", "--annotations", "--split", "--limit",
@@ -33,6 +34,8 @@ const std::map<Words, Words> kCommands = {
      {"SCENE", "warehouse_loop", "-o,--output", "--seed", "--frames", "--sensor", "lidar16", "--hz",
       "--blur", "--set", "--threads", "--print", "training-set"}},
     {{"simulate", "training-set"}, {"-o,--output", "--images", "--seed", "--threads"}},
+    {{"convert"},
+     {"IN", "-o,--output", "--stamps", ".tum", "_kitti.txt", ".ply", ".pcd", "journal"}},
     {{"info"}, {"DATA", "--masks"}},
     {{"config"}, {"dump", "check"}},
     {{"config", "dump"}, {"FILE"}},

@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <sstream>
 
 #include "mms/io/files.hpp"
@@ -57,23 +59,49 @@ void expect_one_error(const Outcome& outcome, int exit_code, const std::string& 
 
 }  // namespace
 
-Outcome run_mms(const fs::path& folder, const std::vector<std::string>& arguments) {
+RunningMms::RunningMms(const fs::path& folder, const std::vector<std::string>& arguments)
+    : folder_(folder) {
   std::vector<std::string> words = {MMS_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const fs::path out = folder / ".stdout";
-  const fs::path err = folder / ".stderr";
-  const pid_t child = fork();
-  if (child == 0) become_program(folder, pointers, out, err);
+  child_ = fork();
+  if (child_ == 0) become_program(folder, pointers, folder / ".stdout", folder / ".stderr");
+}
+
+RunningMms::~RunningMms() {
+  if (child_ < 0) return;
+  kill(child_, SIGKILL);
+  exit_code_of(child_);
+}
+
+void RunningMms::send(int signal) const {
+  EXPECT_EQ(kill(child_, signal), 0) << "the program has ended";
+}
+
+bool RunningMms::handles(int signal) const {
+  std::ifstream status("/proc/" + std::to_string(child_) + "/status");
+  for (std::string word; status >> word;) {
+    unsigned long long caught = 0;
+    if (word == "SigCgt:" && status >> std::hex >> caught) return (caught >> (signal - 1) & 1) != 0;
+  }
+  return false;
+}
+
+Outcome RunningMms::wait() {
   Outcome outcome;
-  outcome.exit_code = exit_code_of(child);
-  outcome.out = read_file(out);
-  outcome.err = read_file(err);
+  outcome.exit_code = exit_code_of(child_);
+  child_ = -1;
+  outcome.out = read_file(folder_ / ".stdout");
+  outcome.err = read_file(folder_ / ".stderr");
   EXPECT_EQ(lines_with(outcome, "Sanitizer"), 0) << outcome.err;
   EXPECT_EQ(lines_with(outcome, "runtime error:"), 0) << outcome.err;
   return outcome;
+}
+
+Outcome run_mms(const fs::path& folder, const std::vector<std::string>& arguments) {
+  return RunningMms(folder, arguments).wait();
 }
 
 void expect_done(const Outcome& outcome) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +13,28 @@ struct Outcome {
   int exit_code = -1;  ///< 128 + the signal where one ended it
   std::string out;
   std::string err;
+};
+
+/// A run of the real program that goes on beside the test, in `folder`. One that was not waited for
+/// is killed.
+class RunningMms {
+ public:
+  RunningMms(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+  ~RunningMms();
+  RunningMms(const RunningMms&) = delete;
+  RunningMms& operator=(const RunningMms&) = delete;
+
+  void send(int signal) const;
+
+  /// Whether it would handle `signal` itself.
+  bool handles(int signal) const;
+
+  /// Waits for its end. Reports a sanitizer finding as a failure of the test.
+  Outcome wait();
+
+ private:
+  std::filesystem::path folder_;
+  pid_t child_ = -1;
 };
 
 /// Runs the real program in `folder` and waits for its end. Reports a sanitizer finding as a

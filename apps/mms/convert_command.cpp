@@ -1,0 +1,51 @@
+#include "convert_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "convert_files.hpp"
+#include "convert_journal.hpp"
+
+namespace mms {
+namespace {
+
+struct ConvertArguments {
+  std::filesystem::path input;
+  std::filesystem::path output;  ///< empty: beside the input
+  std::filesystem::path stamps;  ///< empty: none
+};
+
+void convert(const ConvertArguments& arguments) {
+  const bool journal =
+      std::filesystem::is_directory(arguments.input) || arguments.input.filename() == kJournalName;
+  if (journal) {
+    convert_journal(arguments.input, arguments.output);
+  } else {
+    convert_file(arguments.input, arguments.output, arguments.stamps);
+  }
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  const auto arguments = std::make_shared<ConvertArguments>();
+  CLI::App* command = app.add_subcommand(
+      "convert",
+      "Turn trajectories (.tum, _kitti.txt) and clouds (.ply, .pcd) into one another, or the "
+      "journal of a run that was killed into its trajectory and map");
+  command
+      ->add_option("IN", arguments->input,
+                   "file, or the result folder of a run that did not come to its end")
+      ->required();
+  command->add_option("-o,--output", arguments->output,
+                      "file, its format by its extension, or the folder for what a journal holds "
+                      "(default: beside IN in the other format, or into the result folder)");
+  command->add_option(
+      "--stamps", arguments->stamps,
+      "file with a stamp [s] at the start of each line, a TUM trajectory or KITTI's "
+      "times.txt: KITTI trajectories have none of their own");
+  command->callback([arguments] { convert(*arguments); });
+}
+
+}  // namespace mms

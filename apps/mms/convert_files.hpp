@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+namespace mms {
+
+/// Writes a trajectory or a cloud in another format, and says on stdout what was written.
+/// @param input   .tum or .txt (TUM or KITTI, by its columns), .ply or .pcd
+/// @param output  of the same kind; empty: beside the input in the other format
+/// @param stamps  file whose lines begin with the stamps of a KITTI trajectory's poses; empty: none
+/// @throws DataError for an unknown or unfit extension and for what the readers refuse; FileError
+///         when a file cannot be read or written.
+void convert_file(const std::filesystem::path& input, const std::filesystem::path& output,
+                  const std::filesystem::path& stamps);
+
+}  // namespace mms

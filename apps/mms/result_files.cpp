@@ -1,0 +1,19 @@
+#include "result_files.hpp"
+
+#include "mms/io/pcd_io.hpp"
+#include "mms/io/ply_io.hpp"
+#include "mms/io/trajectory_io.hpp"
+
+namespace mms {
+
+void write_result_files(const std::filesystem::path& folder, const Trajectory& trajectory,
+                        const Trajectory& keyframes, const MapCloud& map) {
+  const PointCloudFile file{map.points, map.normals, map.colors, {}, map.observations};
+  write_trajectory_tum(folder / "trajectory.tum", trajectory);
+  write_trajectory_kitti(folder / "trajectory_kitti.txt", trajectory);
+  write_trajectory_tum(folder / "keyframes.tum", keyframes);
+  write_ply(folder / "static_map.ply", file);
+  write_pcd(folder / "static_map.pcd", file);
+}
+
+}  // namespace mms

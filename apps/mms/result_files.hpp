@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+#include "mms/core/trajectory.hpp"
+#include "mms/mapping/map_cloud.hpp"
+
+namespace mms {
+
+/// Writes trajectory.tum, trajectory_kitti.txt, keyframes.tum, static_map.ply and static_map.pcd.
+/// @throws FileError naming the file that cannot be written.
+void write_result_files(const std::filesystem::path& folder, const Trajectory& trajectory,
+                        const Trajectory& keyframes, const MapCloud& map);
+
+}  // namespace mms
