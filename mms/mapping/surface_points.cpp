@@ -84,13 +84,14 @@ Rgb color_of(const LabeledCloud& cloud, std::size_t i) {
   return cloud.colors.empty() ? SurfacePoint{}.color : cloud.colors[i];
 }
 
-std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const SurfaceConfig& config) {
+std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const SurfaceConfig& config,
+                                           int step) {
   const Grid grid(cloud, config);
   const auto least = static_cast<float>(config.noise.base);
   std::vector<SurfacePoint> result;
-  result.reserve(cloud.points.size());
-  for (int y = 0; y < cloud.height; ++y) {
-    for (int x = 0; x < cloud.width; ++x) {
+  result.reserve(cloud.points.size() / static_cast<std::size_t>(step * step));
+  for (int y = 0; y < cloud.height; y += step) {
+    for (int x = 0; x < cloud.width; x += step) {
       const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
                      static_cast<std::size_t>(x);
       const float z = cloud.points[i].z();
@@ -119,8 +120,9 @@ std::vector<SurfacePoint> scan_points(const LabeledCloud& cloud, const SurfaceCo
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_points(const LabeledCloud& cloud, const SurfaceConfig& config) {
-  return cloud.organised() ? organised_points(cloud, config) : scan_points(cloud, config);
+std::vector<SurfacePoint> surface_points(const LabeledCloud& cloud, const SurfaceConfig& config,
+                                         int step) {
+  return cloud.organised() ? organised_points(cloud, config, step) : scan_points(cloud, config);
 }
 
 }  // namespace mms

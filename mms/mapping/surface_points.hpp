@@ -35,6 +35,8 @@ struct SurfacePoint {
 
 /// The static points of `cloud` that lie within range and, where the cloud is organised, not on a
 /// depth discontinuity, where a pixel averages two surfaces and hangs in the air between them.
-std::vector<SurfacePoint> surface_points(const LabeledCloud& cloud, const SurfaceConfig& config);
+/// @param step  of an organised cloud only every `step`-th row and column is given
+std::vector<SurfacePoint> surface_points(const LabeledCloud& cloud, const SurfaceConfig& config,
+                                         int step = 1);
 
 }  // namespace mms
