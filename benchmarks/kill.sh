@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Kills runs (kill -9) at random instants, recovers each from its journal, and prints what was lost:
-# the time between the last frame that was recovered and the kill. The frame in work is part of it.
+# the time between the last frame that was recovered and the kill, which has the frame in work in it;
+# nothing where the kill came after the last frame of all.
 # usage: benchmarks/kill.sh [N=20] [SEED=1] [FLAGS FOR mms run]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
@@ -11,11 +12,10 @@ shift $(($# > 2 ? 2 : $#))
 # The wall clock in seconds since 1970, of now or of a date.
 clock() { date -u ${1:+-d "$1"} +%s.%3N; }
 
-quietly "$mms" simulate warehouse_loop --frames 240 -o "$out/data"
-start="$(clock)"
+total=240
+quietly "$mms" simulate warehouse_loop --frames "$total" -o "$out/data"
 quietly "$mms" run "$out/data" --segmenter masks -o "$out/whole" "$@"
-whole="$(clock)"
-duration="$(awk -v a="$start" -v b="$whole" 'BEGIN { print b - a }')"
+duration="$(awk -v n="$total" -v hz="$(value "$out/whole/metrics.json" hz)" 'BEGIN { print n / hz }')"
 
 # kill_at SECONDS: a row about a run that is killed so long after its first frame.
 kill_at() {
@@ -37,16 +37,16 @@ kill_at() {
   points="$(sed -n 's/.* \([0-9]*\) map points/\1/p' "$out/log")"
   cmp -s -n "$(stat -c %s "$out/run/trajectory.tum")" "$out/run/trajectory.tum" \
     "$out/whole/trajectory.tum" && prefix=yes
-  awk -v after="$1" -v frames="$frames" -v stamp="$stamp" -v points="$points" -v prefix="$prefix" \
+  awk -v after="$1" -v frames="$frames" -v total="$total" -v stamp="$stamp" -v points="$points" -v prefix="$prefix" \
     -v mb="$journal" -v lost="$(awk -v k="$killed" -v w="$(clock "$written")" 'BEGIN { print k - w }')" \
     'BEGIN { printf "| %.2f | %d | %.3f | %d | %.1f | %s | %.3f |\n",
-             after, frames, stamp, points, mb / 1e6, prefix, lost }'
+             after, frames, stamp, points, mb / 1e6, prefix, frames < total ? lost : 0 }'
 }
 
 echo "| killed after [s] | frames | up to stamp [s] | map points | journal [MB] | same poses | lost [s] |"
 echo "| --- | --- | --- | --- | --- | --- | --- |"
 for ((i = 0; i < kills; ++i)); do
-  # Within the first 80 % of the time that a whole run takes, so that there is one to kill.
+  # Within the first 80 % of the time that a whole run takes for its frames.
   after="$(awk -v r="$RANDOM" -v d="$duration" 'BEGIN { print 0.8 * d * r / 32768 }')"
   kill_at "$after" "$@" | tee -a "$out/rows"
 done

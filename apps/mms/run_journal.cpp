@@ -9,7 +9,7 @@
 namespace mms {
 namespace {
 
-constexpr std::size_t kQueueCapacity = 256;  // frames, some ten seconds of them
+constexpr std::size_t kQueueCapacity = 64;  // frames, some seconds of them
 
 Timestamp wall_clock() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();

@@ -17,7 +17,7 @@ namespace mms {
 
 /// The journal of a run: what a killed run leaves of its trajectory and map. A thread of its own
 /// encodes and writes, so that a frame waits for neither, except where the disk is behind by
-/// hundreds of frames. A journal that cannot be written costs one warning, not the run.
+/// dozens of frames. A journal that cannot be written costs one warning, not the run.
 class RunJournal {
  public:
   using WarningHandler = std::function<void(const std::string&)>;
