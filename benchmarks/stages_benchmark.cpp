@@ -121,6 +121,19 @@ void static_map_keyframe(benchmark::State& state) {
 }
 BENCHMARK(static_map_keyframe)->Unit(benchmark::kMillisecond);
 
+void occupancy_keyframe(benchmark::State& state) {
+  const auto& clouds = labeled_clouds();
+  const auto& truth = scene_recording().truth;
+  OccupancyMap map;
+  std::size_t i = 0;
+  for (auto unused : state) {
+    const std::size_t k = i++ % clouds.size();
+    map.integrate(clouds[k], truth[k].T_world_sensor);
+  }
+  state.counters["MB"] = static_cast<double>(map.blocks().memory_bytes()) * 1e-6;
+}
+BENCHMARK(occupancy_keyframe)->Unit(benchmark::kMillisecond);
+
 void whole_pipeline(benchmark::State& state) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));

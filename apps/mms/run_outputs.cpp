@@ -13,6 +13,7 @@
 #include "mms/io/image_io.hpp"
 #include "objects_json.hpp"
 #include "result_files.hpp"
+#include "robot_maps.hpp"
 
 namespace mms {
 namespace {
@@ -87,6 +88,7 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
                    const SystemConfig& config, const SlamSystem& system, const RunLog& log) {
   const MapCloud map = system.static_map().cloud();
   write_result_files(folder, log.trajectory(), log.keyframes(), map);
+  write_robot_maps(folder, system.occupancy_map(), map, log.has_image());
   write_file(folder / "objects.json", objects_json(system.dynamic_map()));
   write_file(folder / "config.yaml", dump_config(config));
   write_metrics(folder / "metrics.json", log.metrics());

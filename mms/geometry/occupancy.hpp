@@ -17,7 +17,7 @@ enum class Occupancy : std::uint8_t { kUnknown, kFree, kOccupied };
 /// sensor's forward axis.
 struct Map {};
 
-/// Space cut into cubes; those in neither list are unknown. No key comes twice.
+/// Space cut into cubes; those in neither list are unknown. No key comes twice; both are sorted.
 struct OccupancyVoxels {
   double voxel_size = 0.1;  ///< side [m]
   std::vector<VoxelKey> occupied;

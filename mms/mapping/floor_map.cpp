@@ -71,17 +71,37 @@ class Verdict {
   GridConfig config_;
 };
 
+/// Whether none of the 26 voxels around one is an obstacle: a speck of noise or of a walker's shoe.
+/// Things have neighbours, a pole above and below. The floor does not count as one.
+bool is_alone(const std::vector<VoxelKey>& obstacles, const VoxelKey& key) {
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      const auto first = std::lower_bound(obstacles.begin(), obstacles.end(),
+                                          VoxelKey{key.x + x, key.y + y, key.z - 1});
+      for (auto next = first; next != obstacles.end(); ++next) {
+        if (*next > VoxelKey{key.x + x, key.y + y, key.z + 1}) break;
+        if (*next != key) return false;
+      }
+    }
+  }
+  return true;
+}
+
 template <class Visit>
 void for_each_verdict(const OccupancyVoxels& voxels, const GridConfig& config, const Visit& visit) {
   const Verdict verdict(voxels.voxel_size, config);
-  const auto judge = [&](const std::vector<VoxelKey>& keys, Occupancy state) {
-    for (const VoxelKey& key : keys) {
-      const Occupancy result = verdict.of(key, state);
-      if (result != Occupancy::kUnknown) visit(key, result);
-    }
-  };
-  judge(voxels.free, Occupancy::kFree);
-  judge(voxels.occupied, Occupancy::kOccupied);
+  std::vector<VoxelKey> obstacles;
+  for (const VoxelKey& key : voxels.free) {
+    if (verdict.of(key, Occupancy::kFree) == Occupancy::kFree) visit(key, Occupancy::kFree);
+  }
+  for (const VoxelKey& key : voxels.occupied) {
+    const Occupancy result = verdict.of(key, Occupancy::kOccupied);
+    if (result == Occupancy::kFree) visit(key, result);
+    if (result == Occupancy::kOccupied) obstacles.push_back(key);
+  }
+  for (const VoxelKey& key : obstacles) {
+    if (!is_alone(obstacles, key)) visit(key, Occupancy::kOccupied);
+  }
 }
 
 }  // namespace

@@ -12,9 +12,10 @@ OccupancyVoxels voxels_in_map_frame(const OccupancyMap& map,
                                     const Transform<World, Map>& T_world_map);
 
 /// The floor from above. A cell is occupied if any voxel between `min_height` and `max_height` over
-/// it is; else free if the floor, or empty space below `free_height`, was seen; else unknown.
-/// Empty if nothing is known. Very large maps get cells of several voxels.
-/// @param voxels  in the map frame
+/// it is, unless it hangs there without any occupied neighbour; else free if the floor, or empty
+/// space below `free_height`, was seen; else unknown. Empty if nothing is known. Very large maps
+/// get cells of several voxels.
+/// @param voxels  in the map frame, sorted
 OccupancyGrid floor_grid(const OccupancyVoxels& voxels, const Transform<World, Map>& T_world_map,
                          const GridConfig& config);
 

@@ -12,6 +12,7 @@ void SystemConfig::visit(ConfigVisitor& v) {
   v.group({"odometry", "", "data association and pose (III-C.2, III-C.3)"}, odometry);
   v.group({"keyframes", "", "which frames update the static map (III-C.4)"}, keyframes);
   v.group({"static_map", "", "dense coloured map of what does not move (III-D)"}, static_map);
+  v.group({"occupancy", "", "free and occupied space, for robots"}, occupancy);
   v.group({"dynamic_map", "", "tracked objects (III-D)"}, dynamic_map);
 }
 

@@ -7,6 +7,7 @@
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/dynamic_map.hpp"
 #include "mms/mapping/keyframe_selector.hpp"
+#include "mms/mapping/occupancy_config.hpp"
 #include "mms/mapping/static_map.hpp"
 #include "mms/segmentation/segmentation_config.hpp"
 
@@ -23,6 +24,7 @@ struct SystemConfig {
   OdometryConfig odometry;
   KeyframeConfig keyframes;
   StaticMapConfig static_map;
+  OccupancyConfig occupancy;
   DynamicMapConfig dynamic_map;
 
   void visit(ConfigVisitor& v);

@@ -36,6 +36,7 @@ SlamSystem::SlamSystem(const SystemConfig& given, std::unique_ptr<Segmenter> seg
       odometry_(given.odometry, given.depth_noise),
       keyframes_(given.keyframes),
       static_map_(with_shared_noise(given).static_map),
+      occupancy_map_(given.occupancy, with_shared_noise(given).static_map.surface),
       dynamic_map_(given.dynamic_map) {}
 
 FrameResult SlamSystem::process(const Frame& frame) {
@@ -65,8 +66,11 @@ FrameResult SlamSystem::localize(Perception perception) {
     return odometry_.estimate(std::move(perception.features));  // III-C.2, III-C.3, eqs. (3)-(5)
   });
   result.keyframe = timed(result.stage_ms, Stage::kMapping, [&] {
-    const bool keyframe = keyframes_.is_keyframe(result.odometry);                      // III-C.4
-    if (keyframe) static_map_.integrate(result.cloud, result.odometry.T_world_sensor);  // III-D
+    const bool keyframe = keyframes_.is_keyframe(result.odometry);  // III-C.4
+    if (keyframe) {
+      static_map_.integrate(result.cloud, result.odometry.T_world_sensor);  // III-D
+      occupancy_map_.integrate(result.cloud, result.odometry.T_world_sensor);
+    }
     dynamic_map_.update(result.cloud, result.odometry);
     return keyframe;
   });

@@ -8,6 +8,7 @@
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/dynamic_map.hpp"
 #include "mms/mapping/keyframe_selector.hpp"
+#include "mms/mapping/occupancy_map.hpp"
 #include "mms/mapping/static_map.hpp"
 #include "mms/pipeline/config.hpp"
 #include "mms/pipeline/frame_result.hpp"
@@ -39,6 +40,7 @@ class SlamSystem {
   FrameResult localize(Perception perception);
 
   const StaticMap& static_map() const { return static_map_; }
+  const OccupancyMap& occupancy_map() const { return occupancy_map_; }
   const DynamicMap& dynamic_map() const { return dynamic_map_; }
 
  private:
@@ -48,6 +50,7 @@ class SlamSystem {
   Odometry odometry_;
   KeyframeSelector keyframes_;
   StaticMap static_map_;
+  OccupancyMap occupancy_map_;
   DynamicMap dynamic_map_;
 };
 

@@ -28,15 +28,18 @@ TEST(FloorGrid, AColumnIsWhatItsVoxelsMakeIt) {
   EXPECT_EQ(verdict(some_voxels({{0, 0, 0}}, {})), Occupancy::kFree) << "floor";
   EXPECT_EQ(verdict(some_voxels({}, {{0, 0, 3}})), Occupancy::kFree) << "low and empty";
   EXPECT_EQ(verdict(some_voxels({}, {{0, 0, 9}})), Occupancy::kUnknown) << "high and empty";
-  EXPECT_EQ(verdict(some_voxels({{0, 0, 5}}, {{0, 0, 3}})), Occupancy::kOccupied) << "table";
-  EXPECT_EQ(verdict(some_voxels({{0, 0, 17}}, {})), Occupancy::kOccupied) << "head";
+  EXPECT_EQ(verdict(some_voxels({{0, 0, 5}, {0, 0, 6}}, {{0, 0, 3}})), Occupancy::kOccupied)
+      << "table";
+  EXPECT_EQ(verdict(some_voxels({{0, 0, 16}, {0, 0, 17}}, {})), Occupancy::kOccupied) << "head";
   EXPECT_EQ(verdict(some_voxels({{0, 0, 19}}, {{0, 0, 1}})), Occupancy::kFree) << "lamp";
+  EXPECT_EQ(verdict(some_voxels({{0, 0, 7}}, {{0, 0, 3}})), Occupancy::kFree) << "speck";
+  EXPECT_EQ(verdict(some_voxels({{0, 0, 0}, {0, 0, 1}}, {})), Occupancy::kFree) << "on the floor";
   EXPECT_EQ(verdict(some_voxels({{0, 0, -9}}, {})), Occupancy::kUnknown) << "pit";
 }
 
 TEST(FloorGrid, HasItsOriginAtTheLowestCorner) {
-  const OccupancyGrid grid =
-      floor_grid(some_voxels({{-3, 5, 4}}, {{1, -2, 3}}), Transform<World, Map>(), GridConfig{});
+  const OccupancyGrid grid = floor_grid(some_voxels({{-3, 5, 4}, {-3, 5, 5}}, {{1, -2, 3}}),
+                                        Transform<World, Map>(), GridConfig{});
   EXPECT_EQ(grid.cells.width(), 5);
   EXPECT_EQ(grid.cells.height(), 8);
   EXPECT_TRUE(grid.origin.isApprox(Eigen::Vector2d(-0.3, -0.2)));
@@ -46,8 +49,9 @@ TEST(FloorGrid, HasItsOriginAtTheLowestCorner) {
 }
 
 TEST(FloorGrid, VeryLargeMapsGetCoarseCells) {
-  const OccupancyGrid grid = floor_grid(some_voxels({{-60000, -60000, 4}, {60000, 60000, 4}}, {}),
-                                        Transform<World, Map>(), GridConfig{});
+  const OccupancyGrid grid =
+      floor_grid(some_voxels({{-60000, -60000, 4}, {-60000, -60000, 5}}, {{60000, 60000, 4}}),
+                 Transform<World, Map>(), GridConfig{});
   EXPECT_LE(grid.cells.size(), 100'000'000U);
   EXPECT_NEAR(grid.resolution, 1.6, 1e-9);
   EXPECT_EQ(grid.cells(0, 0), Occupancy::kOccupied);

@@ -18,7 +18,8 @@ void expect_same_bytes(const TempFolder& folder) {
     const std::string out = "out" + std::to_string(i);
     expect_done(run_mms(folder.path(),
                         {"run", "data", "--segmenter", masks, "-o", out, "--threads", threads[i]}));
-    for (const char* file : {"trajectory.tum", "static_map.ply", "objects.json"}) {
+    for (const char* file :
+         {"trajectory.tum", "static_map.ply", "objects.json", "map.pgm", "map.yaml", "map.bt"}) {
       const bool same =
           read_file(folder.path() / "out0" / file) == read_file(folder.path() / out / file);
       EXPECT_TRUE(same) << file << " with --threads " << threads[i] << " in " << out;
