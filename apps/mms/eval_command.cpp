@@ -26,6 +26,7 @@ void add_eval_command(CLI::App& app) {
   add_eval_map(*eval);
   add_eval_residue(*eval);
   add_eval_segmentation(*eval);
+  add_eval_objects(*eval);
 }
 
 }  // namespace mms

@@ -13,6 +13,7 @@ void add_eval_drift(CLI::App& eval);
 void add_eval_map(CLI::App& eval);
 void add_eval_residue(CLI::App& eval);
 void add_eval_segmentation(CLI::App& eval);
+void add_eval_objects(CLI::App& eval);
 
 /// Adds the flag --json, which sets `json`.
 void add_json_flag(CLI::App& command, bool& json);

@@ -6,21 +6,21 @@
 
 namespace mms {
 
-void Progress::show(const RunLog& log, const DynamicMap& objects) {
-  if (status_.due(log.frames().size() >= total_)) status_.show(line(log, objects));
+void Progress::show(const RunLog& log) {
+  if (status_.due(log.frames().size() >= total_)) status_.show(line(log));
 }
 
-std::string Progress::line(const RunLog& log, const DynamicMap& objects) const {
+std::string Progress::line(const RunLog& log) const {
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
   const LoggedFrame& frame = log.frames().back();
   std::string stages;
   for (std::size_t i = 0; i < kStageCount; ++i) {
     stages += fmt::format(" {} {:.1f}", to_string(static_cast<Stage>(i)), frame.stage_ms[i]);
   }
-  return fmt::format("frame {}/{}  {:.1f} Hz  ms:{}  dynamic {:.0f} %  objects {}  {}",
-                     log.frames().size(), total_,
-                     static_cast<double>(log.frames().size()) / elapsed.count(), stages,
-                     100.0 * frame.dynamic_share, objects.active().size(), to_string(frame.status));
+  return fmt::format(
+      "frame {}/{}  {:.1f} Hz  ms:{}  dynamic {:.0f} %  objects {}  {}", log.frames().size(),
+      total_, static_cast<double>(log.frames().size()) / elapsed.count(), stages,
+      100.0 * frame.dynamic_share, log.objects().back().objects.size(), to_string(frame.status));
 }
 
 }  // namespace mms

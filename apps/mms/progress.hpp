@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <string>
 
-#include "mms/mapping/dynamic_map.hpp"
 #include "run_log.hpp"
 #include "status_line.hpp"
 
@@ -15,14 +14,14 @@ class Progress {
  public:
   explicit Progress(std::size_t total) : total_(total) {}
 
-  void show(const RunLog& log, const DynamicMap& objects);
+  void show(const RunLog& log);
   void warn(const std::string& message) { status_.warn(message); }
   void finish() { status_.finish(); }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::string line(const RunLog& log, const DynamicMap& objects) const;
+  std::string line(const RunLog& log) const;
 
   StatusLine status_;
   std::size_t total_;

@@ -77,15 +77,21 @@ AsyncOptions threads_of(const RunOptions& options) {
   return {.threads = options.threads > 0 ? options.threads : cores, .realtime = options.realtime};
 }
 
-/// A truth map that cannot be read costs the comparison, not the run.
-void compare_map(const FrameSource& source, const SlamSystem& system, RunLog& log,
-                 Progress& progress) {
-  try {
+/// Truth that cannot be read costs the comparison, not the run.
+void compare_with_truth(const FrameSource& source, const SlamSystem& system, RunLog& log,
+                        Progress& progress) {
+  const auto attempt = [&](const std::string& what, const auto& compare) {
+    try {
+      compare();
+    } catch (const Error& error) {
+      progress.warn(what + " not evaluated: " + error.what());
+    }
+  };
+  attempt("the map is", [&] {
     const std::optional<TruthCloud> truth = source.map_truth();
     if (truth) log.compare_map(*truth, system.static_map().cloud().points);
-  } catch (const Error& error) {
-    progress.warn(std::string("the map is not evaluated: ") + error.what());
-  }
+  });
+  attempt("the objects are", [&] { log.compare_objects(source.objects_truth()); });
 }
 
 void run(const RunOptions& options) {
@@ -106,7 +112,7 @@ void run(const RunOptions& options) {
   pipeline.run(system, limited(*source, options), [&](const Processed& processed) {
     journal.add(processed, system);
     log.add(processed);
-    progress.show(log, system.dynamic_map());
+    progress.show(log);
   });
   progress.finish();
   if (InterruptGuard::requested()) progress.warn("interrupted, writing what is done so far");
@@ -116,7 +122,7 @@ void run(const RunOptions& options) {
                     fmt::format("none of its {} frames could be processed", source->size()),
                     "the warnings above say why; mms info DATA explains what was found");
   }
-  compare_map(*source, system, log, progress);
+  compare_with_truth(*source, system, log, progress);
   write_outputs(folder.path(), options.data, config, system, log);
   if (!options.keep_journal) journal.remove();
   folder.make_latest();

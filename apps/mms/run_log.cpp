@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "mms/evaluation/alignment.hpp"
+#include "mms/evaluation/truth_frame.hpp"
 #include "overlay.hpp"
 #include "peak_memory.hpp"
 
@@ -42,6 +42,8 @@ void RunLog::add(const Processed& processed) {
   frames_.push_back({processed.frame.name, processed.frame.stamp, result.odometry.T_world_sensor,
                      result.odometry.status, result.keyframe, result.dynamic_share,
                      processed.read_ms, interval.count(), result.stage_ms});
+  ObjectFrame& seen = objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
+  for (const TrackedObject& object : result.objects) seen.objects.push_back(object.box);
   has_image_ = has_image_ || result.cloud.organised();
   keep_picture(processed);
   if (!compare_masks_ || processed.frame.mask.empty()) return;
@@ -71,9 +73,7 @@ void RunLog::finish(std::size_t skipped, const SlamSystem& system) {
     ++metrics_.status[static_cast<std::size_t>(frame.status)];
     metrics_.dynamic_share += frame.dynamic_share / static_cast<double>(frames_.size());
   }
-  metrics_.tracks =
-      std::count_if(system.dynamic_map().tracks().begin(), system.dynamic_map().tracks().end(),
-                    [](const Track& track) { return track.state != TrackState::kTentative; });
+  metrics_.tracks = system.dynamic_map().confirmed();
 }
 
 void RunLog::sum_up_times() {
@@ -100,17 +100,16 @@ void RunLog::sum_up_accuracy() {
   metrics_.stood_still = evaluate_drift(truth_).mtde_cm < kStandsStill;
 }
 
+void RunLog::compare_objects(const ObjectHistory& truth) {
+  const auto T = align_truth(truth_, trajectory());
+  if (!T || truth.empty()) return;
+  metrics_.objects = evaluate_tracking(truth, transformed(objects_, T->inverse()), truth_);
+}
+
 void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map) {
-  const Trajectory estimate = trajectory();
-  const auto matched = match_by_stamp(truth_, estimate, TrajectoryErrorOptions{}.max_difference);
-  if (matched.empty()) return;
-  std::vector<Eigen::Isometry3d> true_poses;
-  std::vector<Eigen::Isometry3d> poses;
-  for (const PoseMatch& match : matched) {
-    true_poses.push_back(truth_[match.reference].T_world_sensor.isometry());
-    poses.push_back(estimate[match.estimate].T_world_sensor.isometry());
-  }
-  const Eigen::Isometry3f T_map_truth = align_poses(true_poses, poses).cast<float>();
+  const auto T = align_truth(truth_, trajectory());
+  if (!T) return;
+  const Eigen::Isometry3f T_map_truth = T->cast<float>();
   std::vector<Eigen::Vector3f> fixed;
   std::vector<Eigen::Vector3f> dynamic;
   for (std::size_t i = 0; i < truth.points.size(); ++i) {

@@ -41,6 +41,9 @@ class RunLog {
   /// @param skipped  frames that could not be read or were dropped
   void finish(std::size_t skipped, const SlamSystem& system);
 
+  /// Compares the tracked objects with the true ones, in the frame of the truth poses.
+  void compare_objects(const ObjectHistory& truth);
+
   /// Compares the static map with the true one, which is taken to the map's frame by aligning the
   /// poses of all frames that have a true one. Without such a frame there is no comparison.
   /// @param truth  in the world frame of the truth poses
@@ -48,6 +51,7 @@ class RunLog {
   void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
 
   const std::vector<LoggedFrame>& frames() const { return frames_; }
+  const ObjectHistory& objects() const { return objects_; }
   const std::vector<ReportPicture>& pictures() const { return pictures_; }
   const RunMetrics& metrics() const { return metrics_; }
   const Trajectory& truth() const { return truth_; }
@@ -63,6 +67,7 @@ class RunLog {
 
   Trajectory truth_;
   std::vector<LoggedFrame> frames_;
+  ObjectHistory objects_;
   std::vector<ReportPicture> pictures_;
   std::size_t picture_stride_ = 1;
   bool has_image_ = false;

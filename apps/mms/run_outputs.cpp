@@ -11,7 +11,7 @@
 #include "mms/io/atomic_file.hpp"
 #include "mms/io/config_yaml.hpp"
 #include "mms/io/image_io.hpp"
-#include "objects_json.hpp"
+#include "mms/io/objects_io.hpp"
 #include "result_files.hpp"
 #include "robot_maps.hpp"
 
@@ -89,7 +89,7 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
   const MapCloud map = system.static_map().cloud();
   write_result_files(folder, log.trajectory(), log.keyframes(), map);
   write_robot_maps(folder, system.occupancy_map(), map, log.has_image());
-  write_file(folder / "objects.json", objects_json(system.dynamic_map()));
+  write_file(folder / "objects.json", objects_json(log.objects()));
   write_file(folder / "config.yaml", dump_config(config));
   write_metrics(folder / "metrics.json", log.metrics());
   write_file(folder / "timing.csv", timing_csv(log));

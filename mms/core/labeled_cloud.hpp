@@ -22,6 +22,9 @@ enum class PointLabel : std::uint8_t {
 struct DynamicCluster {
   ObjectClass object_class = ObjectClass::kPerson;
   float score = 1.0F;
+  /// Index of its mask; -1 where that is not known. Of several clusters under one mask the first is
+  /// the object, the others are what else the mask covers.
+  int instance = -1;
   int points = 0;  ///< number of cloud points it holds
   Eigen::Vector3f centroid = Eigen::Vector3f::Zero();
   Eigen::Vector3f box_min = Eigen::Vector3f::Zero();  ///< axis-aligned in the sensor frame

@@ -17,6 +17,7 @@ struct ObjectBox {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();      ///< length, width, height [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< in the world frame [m/s]
   bool moving = false;
+  double score = 1.0;    ///< confidence that it is one of its class, in [0, 1]; of tracks only
   double visible = 1.0;  ///< share of it in view, in [0, 1]; known of truth only
 
   Eigen::Vector3d center() const { return T_world_box.translation(); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mms/core/frame.hpp"
+#include "mms/core/object_box.hpp"
 #include "mms/core/trajectory.hpp"
 #include "mms/simulation/truth_cloud.hpp"
 
@@ -48,6 +49,11 @@ class FrameSource {
   /// together, so nothing comes once some were passed over or as long as some are to come.
   /// @throws Error when it is there but cannot be read.
   virtual std::optional<TruthCloud> map_truth() const { return std::nullopt; }
+
+  /// The objects in the frames given so far as they truly are, in the world frame of the truth
+  /// poses; empty where that is not known.
+  /// @throws Error when it is there but cannot be read.
+  virtual ObjectHistory objects_truth() const { return {}; }
 
   /// What was found, one line a fact, for `mms info`.
   virtual std::vector<std::string> describe() const = 0;

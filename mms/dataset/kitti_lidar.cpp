@@ -28,6 +28,7 @@ class LidarSource final : public RecordedSource {
   LidarSource(LidarRecording recording, const fs::path& folder) : recording_(std::move(recording)) {
     set_ground_truth(std::move(recording_.ground_truth));
     set_map_truth(folder / "map_truth.ply");
+    set_objects_truth(folder / "objects_truth.json");
   }
 
   std::size_t size() const override { return recording_.scans.size(); }

@@ -36,6 +36,17 @@ Json json_of(const ObjectTruth& object) {
 
 }  // namespace
 
+ObjectFrame object_frame(Timestamp stamp, std::span<const ObjectTruth> objects) {
+  ObjectFrame frame{stamp, {}};
+  for (const ObjectTruth& object : objects) {
+    const double share = (1.0 - object.occlusion) * (1.0 - object.truncation);
+    frame.objects.push_back({object.id, object.object_class, object.T_world_box,
+                             2.0 * object.half_extent, object.velocity, object.moving, 1.0,
+                             object.pixels > 0 ? share : 0.0});
+  }
+  return frame;
+}
+
 void ObjectsTruth::add(Timestamp stamp, std::span<const ObjectTruth> objects) {
   frames_ += frames_.empty() ? "\n" : ",\n";
   frames_ += R"({"stamp": ")" + stamp.to_string() + R"(", "objects": [)";

@@ -3,10 +3,13 @@
 #include <span>
 #include <string>
 
-#include "mms/core/time.hpp"
+#include "mms/core/object_box.hpp"
 #include "mms/simulation/object_truth.hpp"
 
 namespace mms {
+
+/// A frame's objects as the evaluation takes them, the same as read_objects_truth gives.
+ObjectFrame object_frame(Timestamp stamp, std::span<const ObjectTruth> objects);
 
 /// Collects the content of objects_truth.json: {"frames": [{"stamp", "objects": [...]}]}, with
 /// every object of the scene in every frame. An object has "id", "label" (1 + id, its value in

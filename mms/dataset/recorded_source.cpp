@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "mms/core/error.hpp"
+#include "mms/io/objects_io.hpp"
 #include "mms/io/ply_io.hpp"
 
 namespace mms {
@@ -62,6 +63,11 @@ std::optional<TruthCloud> RecordedSource::map_truth() const {
   }
   return TruthCloud{std::move(file.points), std::move(file.normals), std::move(file.colors),
                     std::move(file.labels)};
+}
+
+ObjectHistory RecordedSource::objects_truth() const {
+  if (objects_truth_.empty() || !std::filesystem::exists(objects_truth_)) return {};
+  return read_objects_truth(objects_truth_);
 }
 
 std::vector<std::string> RecordedSource::describe() const {

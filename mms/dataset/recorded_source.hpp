@@ -16,6 +16,7 @@ class RecordedSource : public FrameSource {
   bool has_masks() const override { return false; }
   const Trajectory& ground_truth() const final { return ground_truth_; }
   std::optional<TruthCloud> map_truth() const final;
+  ObjectHistory objects_truth() const final;
   std::vector<std::string> describe() const final;
 
   /// The handler also receives what was found wrong before it was set.
@@ -36,8 +37,9 @@ class RecordedSource : public FrameSource {
   void warn(const std::string& message);
   void set_ground_truth(Trajectory trajectory) { ground_truth_ = std::move(trajectory); }
 
-  /// The truth of all frames, read when it is asked for; may not be there.
+  /// The truth of all frames, read when it is asked for; the files may not be there.
   void set_map_truth(std::filesystem::path file) { map_truth_ = std::move(file); }
+  void set_objects_truth(std::filesystem::path file) { objects_truth_ = std::move(file); }
 
  private:
   std::optional<Frame> try_read(std::size_t index);
@@ -48,6 +50,7 @@ class RecordedSource : public FrameSource {
   std::optional<Timestamp> last_stamp_;
   Trajectory ground_truth_;
   std::filesystem::path map_truth_;
+  std::filesystem::path objects_truth_;
   WarningHandler handler_;
   std::vector<std::string> pending_warnings_;
 };

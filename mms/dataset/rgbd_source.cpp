@@ -68,6 +68,7 @@ void find_masks(RgbdRecording& recording, const SourceOptions& options) {
 RgbdSource::RgbdSource(RgbdRecording recording) : recording_(std::move(recording)) {
   set_ground_truth(std::move(recording_.ground_truth));
   set_map_truth(recording_.folder / "map_truth.ply");
+  set_objects_truth(recording_.folder / "objects_truth.json");
   for (const std::string& warning : recording_.warnings) warn(warning);
 }
 

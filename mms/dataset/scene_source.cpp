@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mms/dataset/map_truth.hpp"
+#include "mms/dataset/objects_truth.hpp"
 #include "mms/dataset/recorded_frame.hpp"
 #include "mms/io/numbers.hpp"
 
@@ -25,7 +26,10 @@ class SceneSource final : public FrameSource {
     if (position_ >= size()) return std::nullopt;
     const std::size_t index = position_++;
     const SimulatedFrame simulated = scene_.render(static_cast<int>(index));
-    if (keep_map_) map_.add(simulated, truth_[index].T_world_sensor);
+    if (keep_map_) {
+      map_.add(simulated, truth_[index].T_world_sensor);
+      objects_.push_back(object_frame(simulated.frame.stamp, simulated.objects));
+    }
     Frame frame = as_recorded(simulated, scene_.config(), scene_.sensor());
     if (!load_masks_) frame.mask = {};
     return frame;
@@ -44,6 +48,8 @@ class SceneSource final : public FrameSource {
     if (cloud.points.empty()) return std::nullopt;
     return cloud;
   }
+
+  ObjectHistory objects_truth() const override { return objects_; }
 
   std::vector<std::string> describe() const override {
     const SceneConfig& config = scene_.config();
@@ -70,6 +76,7 @@ class SceneSource final : public FrameSource {
   std::shared_ptr<const Calibration> calibration_;
   Trajectory truth_;
   MapTruth map_;
+  ObjectHistory objects_;
   std::size_t position_ = 0;
 };
 

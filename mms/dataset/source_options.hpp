@@ -8,8 +8,8 @@ namespace mms {
 struct SourceOptions {
   std::filesystem::path masks;  ///< folder of label images in place of the recording's own masks/
   bool load_masks = true;       ///< false: frames come without masks
-  bool map_truth = true;        ///< false: a simulation does not keep FrameSource::map_truth, which
-                                ///< grows with its frames
+  bool map_truth = true;        ///< false: a simulation does not keep FrameSource::map_truth and
+                                ///< objects_truth, which grow with its frames
 };
 
 }  // namespace mms

@@ -54,6 +54,7 @@ std::string to_json(const RunMetrics& metrics) {
   if (metrics.drift) object["drift"] = json_object(metric_values(*metrics.drift));
   if (metrics.map) object["map"] = json_object(metric_values(*metrics.map));
   if (metrics.masks) object["masks"] = json_object(metric_values(*metrics.masks));
+  if (metrics.objects) object["objects"] = json_object(metric_values(*metrics.objects));
   return object.dump(2) + "\n";
 }
 
@@ -84,6 +85,7 @@ std::vector<MetricValue> metric_values(const RunMetrics& metrics) {
     append(values, map);
   }
   if (metrics.masks) append(values, metric_values(*metrics.masks));
+  if (metrics.objects) append(values, metric_values(*metrics.objects));
   return values;
 }
 

@@ -14,6 +14,7 @@
 #include "mms/evaluation/map_error.hpp"
 #include "mms/evaluation/mask_agreement.hpp"
 #include "mms/evaluation/metric_value.hpp"
+#include "mms/evaluation/tracking_error.hpp"
 #include "mms/evaluation/trajectory_error.hpp"
 
 namespace mms {
@@ -43,11 +44,12 @@ struct RunMetrics {
   std::optional<Drift> drift;                                  ///< where truth is there
   std::optional<MapError> map;                                 ///< where the true map is known
   std::optional<MaskAgreement> masks;                          ///< where masks to compare are
+  std::optional<TrackingError> objects;                        ///< where the true ones are known
   bool stood_still = true;  ///< by the truth; for a moving sensor drift is left out of tables
 };
 
 /// The JSON object with the contract's keys, indented, ended by a newline; `trajectory`, `drift`,
-/// `map` and `masks` only where they are there, every status name always.
+/// `map`, `masks` and `objects` only where they are there, every status name always.
 std::string to_json(const RunMetrics& metrics);
 
 /// Writes `to_json` to a file, at once or not at all. @throws FileError

@@ -11,6 +11,7 @@ void list_clusters(const std::vector<DynamicObjects::Object>& objects,
     const Instance& instance = instances[static_cast<std::size_t>(object.instance)];
     DynamicCluster cluster;
     cluster.object_class = instance.object_class;
+    cluster.instance = object.instance;
     cluster.score = instance.score;
     cluster.box_min = object.box.min();
     cluster.box_max = object.box.max();

@@ -4,6 +4,7 @@
 
 #include "mms/fusion/cluster_votes.hpp"
 #include "mms/fusion/node_clustering.hpp"
+#include "mms/fusion/part_division.hpp"
 #include "mms/geometry/trimmed_box.hpp"
 
 namespace mms {
@@ -83,8 +84,10 @@ class PartFinder {
       if (verdict == Verdict::kMixed) {
         for (const std::size_t i : parts[c].nodes) open_[i] = 1;
       } else if (verdict == Verdict::kDynamic) {
-        parts[c].box = box_of(nodes_, parts[c]);
-        result_.parts.push_back(std::move(parts[c]));
+        for (DynamicPart& part : divide_part(nodes_, std::move(parts[c]), config_)) {
+          part.box = box_of(nodes_, part);
+          result_.parts.push_back(std::move(part));
+        }
       }
     }
   }

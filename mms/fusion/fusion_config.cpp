@@ -48,6 +48,11 @@ void FusionConfig::visit(ConfigVisitor& v) {
            instance_share, {0.0, 1.0});
   v.number({"contact_share", "", "of a smaller piece's nodes that may touch the cluster's rest"},
            contact_share, {0.0, 1.0});
+  v.number(
+      {"division_share", "", "part of a cluster under a mask that makes it an object of its own"},
+      division_share, {0.0, 1.0});
+  v.number({"division_distance", "m", "least distance across the floor of objects in one cluster"},
+           division_distance, {0.0, 10.0});
   v.number({"relabel_radius", "m", "how far a dynamic cluster relabels points, before noise"},
            relabel_radius, {0.0, 2.0});
   v.number({"memory", "s", "how long an object stays dynamic without a mask; 0: not at all"},

@@ -64,7 +64,9 @@ struct FusionConfig {
   double partial_share = 0.3;   ///< the same for clusters of the size of one object
   double instance_share = 0.2;  ///< of an instance's nodes that make a piece split off it
   double contact_share = 0.1;   ///< of a smaller piece's nodes that may touch what it is split from
-  double relabel_radius = 0.10;  ///< "close" and "nearby" of III-B.2, before noise [m]
+  double division_share = 0.2;  ///< of a cluster's nodes under a mask that makes it an object
+  double division_distance = 0.25;  ///< across the floor between the objects of one cluster [m]
+  double relabel_radius = 0.10;     ///< "close" and "nearby" of III-B.2, before noise [m]
 
   double memory = 0.5;  ///< how long an object stays dynamic without a mask [s]
 

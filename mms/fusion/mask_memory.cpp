@@ -49,7 +49,7 @@ void MaskMemory::recall(const LabeledCloud& cloud, MaskImage& mask,
     if (missing[k] == 0) continue;
     Instance& instance = instances.emplace_back();
     instance.object_class = objects_[k].object_class;
-    instance.score = objects_[k].score;
+    instance.score = 0.0F;
     masked_.push_back(objects_[k].masked);
     value[k] = static_cast<std::uint16_t>(instances.size());
   }
@@ -65,8 +65,8 @@ void MaskMemory::remember(const LabeledCloud& cloud,
   objects_.clear();
   for (std::size_t k = 0; k < objects.size(); ++k) {
     const DynamicCluster& cluster = cloud.clusters[k];
-    objects_.push_back({cluster.object_class, cluster.score,
-                        masked_[static_cast<std::size_t>(objects[k].instance)]});
+    objects_.push_back(
+        {cluster.object_class, masked_[static_cast<std::size_t>(objects[k].instance)]});
   }
   object_of_ = cloud.cluster;
   depth_.resize(cloud.points.size());

@@ -19,7 +19,8 @@ class MaskMemory {
  public:
   explicit MaskMemory(const FusionConfig& config) : config_(config) {}
 
-  /// Adds the remembered objects that no mask covers now to `mask` and `instances`.
+  /// Adds the remembered objects that no mask covers now to `mask` and `instances`, with a score of
+  /// 0: nothing in this frame says that they are there.
   void recall(const LabeledCloud& cloud, MaskImage& mask, std::vector<Instance>& instances);
 
   /// Keeps the objects found with the instances that `recall` left.
@@ -28,7 +29,6 @@ class MaskMemory {
  private:
   struct Object {
     ObjectClass object_class;
-    float score;
     Timestamp masked;  ///< when it last had a mask
   };
 

@@ -25,7 +25,8 @@ Json json_of(Timestamp stamp, const ObjectBox& object) {
           {"quaternion", {q.x(), q.y(), q.z(), q.w()}},
           {"size", json_of(object.size)},
           {"velocity", json_of(object.velocity)},
-          {"moving", object.moving}};
+          {"moving", object.moving},
+          {"score", object.score}};
 }
 
 template <std::size_t n>
@@ -105,6 +106,7 @@ ObjectHistory read_objects(const std::filesystem::path& path) {
       object.id = id;
       object.object_class = object_class;
       object.moving = seen.at("moving").boolean();
+      object.score = seen.at("score").number(kShare);
       const Timestamp stamp = read_stamp(seen.at("stamp"));
       ObjectFrame& frame = frames[stamp];
       frame.stamp = stamp;

@@ -9,7 +9,7 @@ namespace mms {
 
 /// objects.json, a run's tracked objects: {"tracks": [{"id", "class", "history": [{"stamp",
 /// "position" [m] and "quaternion" (x y z w) of the box's middle in the world frame, "size" [m],
-/// "velocity" [m/s], "moving"}]}]}, by id. The class is that of the last frame.
+/// "velocity" [m/s], "moving", "score"}]}]}, by id. The class is that of the last frame.
 std::string objects_json(const ObjectHistory& history);
 
 /// @throws FileError when it cannot be read, DataError when it is no such file.

@@ -1,54 +1,51 @@
 #include "mms/mapping/association.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <cmath>
+#include <limits>
+
+#include "mms/geometry/assignment.hpp"
 
 namespace mms {
 namespace {
 
-struct Pair {
-  double distance = 0.0;  // to the prediction [m]
-  int track = 0;
-  int object = 0;
-};
+constexpr double kGateSigmas = 2.0;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr float kColorRange = 255.0F;
 
-bool nearer(const Pair& a, const Pair& b) {
-  return std::tie(a.distance, a.track, a.object) < std::tie(b.distance, b.track, b.object);
+double gate_of(const Track& track, const AssociationConfig& config) {
+  const double sigma = std::sqrt(track.position_covariance().diagonal().maxCoeff());
+  return std::clamp(kGateSigmas * sigma, config.gate_radius,
+                    std::max(config.gate_radius, config.max_gate));
 }
 
-std::vector<Pair> gated_pairs(const std::vector<Track>& tracks,
-                              const std::vector<ObjectObservation>& objects,
-                              const AssociationConfig& config) {
-  std::vector<Pair> pairs;
-  for (std::size_t t = 0; t < tracks.size(); ++t) {
-    if (tracks[t].state == TrackState::kEnded) continue;
-    const ObjectObservation& last = tracks[t].history.back();
-    for (std::size_t o = 0; o < objects.size(); ++o) {
-      const double reach = config.max_speed * to_seconds(objects[o].stamp - last.stamp);
-      const double moved = (objects[o].centroid - last.centroid).norm();
-      const double off = (objects[o].centroid - tracks[t].predicted(objects[o].stamp)).norm();
-      if (off > config.gate_radius || moved > reach + config.gate_radius) continue;
-      pairs.push_back({off, static_cast<int>(t), static_cast<int>(o)});
-    }
+double cost_of(const Track& track, const ObjectMeasurement& object,
+               const AssociationConfig& config) {
+  const double distance = (track.fit(object).center - track.position()).norm();
+  const bool is_near = distance <= gate_of(track, config);
+  if (!is_near && !track.contains(object.centroid, 0.0)) return kNever;
+  double cost = distance / config.gate_radius;
+  if (track.object_class() != object.object_class) cost += config.class_penalty;
+  if (track.has_color() && object.has_color) {
+    const float difference = (track.color() - object.color).norm() / kColorRange;
+    cost += config.color_penalty * static_cast<double>(difference);
   }
-  std::sort(pairs.begin(), pairs.end(), nearer);
-  return pairs;
+  return cost;
 }
 
 }  // namespace
 
 std::vector<int> associate(const std::vector<Track>& tracks,
-                           const std::vector<ObjectObservation>& objects,
+                           const std::vector<ObjectMeasurement>& objects,
                            const AssociationConfig& config) {
-  std::vector<int> track_of(objects.size(), -1);
-  std::vector<bool> taken(tracks.size(), false);
-  for (const Pair& pair : gated_pairs(tracks, objects, config)) {
-    int& track = track_of[static_cast<std::size_t>(pair.object)];
-    if (track >= 0 || taken[static_cast<std::size_t>(pair.track)]) continue;
-    track = pair.track;
-    taken[static_cast<std::size_t>(pair.track)] = true;
+  Eigen::MatrixXd cost(objects.size(), tracks.size());
+  for (Eigen::Index i = 0; i < cost.rows(); ++i) {
+    for (Eigen::Index j = 0; j < cost.cols(); ++j) {
+      cost(i, j) = cost_of(tracks[static_cast<std::size_t>(j)],
+                           objects[static_cast<std::size_t>(i)], config);
+    }
   }
-  return track_of;
+  return assign_least_cost(cost);
 }
 
 }  // namespace mms

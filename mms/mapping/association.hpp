@@ -8,22 +8,27 @@
 namespace mms {
 
 struct AssociationConfig {
-  double gate_radius = 0.8;  ///< [m]
-  double max_speed = 3.0;    ///< [m/s]
+  double gate_radius = 0.8;    ///< [m]
+  double max_gate = 2.0;       ///< [m]
+  double class_penalty = 0.4;  ///< in gate radii
+  double color_penalty = 2.0;  ///< in gate radii
 
   void visit(ConfigVisitor& v) {
     v.number({"gate_radius", "m", "farthest an object may be from where its track expects it"},
              gate_radius, {0.01, 100.0});
-    v.number({"max_speed", "m/s", "fastest object"}, max_speed, {0.1, 100.0});
+    v.number({"max_gate", "m", "the same for one that was long unseen"}, max_gate, {0.01, 100.0});
+    v.number({"class_penalty", "", "cost of another class, in gate radii"}, class_penalty,
+             {0.0, 10.0});
+    v.number({"color_penalty", "", "cost of the opposite colour, in gate radii"}, color_penalty,
+             {0.0, 10.0});
   }
 };
 
-/// Index of the track each object continues, -1 for none: the nearest pairs first, no track twice.
-/// A pair has to be within the gate of the track's prediction and within what the fastest object
-/// covers (plus the gate, since a centroid jumps when part of a body is hidden). Tracks that ended
-/// take no part.
+/// Index of the track each object continues, -1 for none: the one-to-one assignment of least cost
+/// (distance to where the track expects it, class, colour). A pair has to be within the gate, which
+/// grows with the track's uncertainty, or the object's middle inside the track's box.
 std::vector<int> associate(const std::vector<Track>& tracks,
-                           const std::vector<ObjectObservation>& objects,
+                           const std::vector<ObjectMeasurement>& objects,
                            const AssociationConfig& config);
 
 }  // namespace mms

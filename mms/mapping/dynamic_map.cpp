@@ -2,36 +2,18 @@
 
 #include <algorithm>
 
-#include "mms/mapping/observations.hpp"
-
 namespace mms {
 namespace {
 
-/// Slope of the line fitted to the centroids of the last `window` seconds [m/s]; at least the last
-/// two count.
-Eigen::Vector3d fitted_velocity(const std::vector<ObjectObservation>& history, double window) {
-  if (history.size() < 2) return Eigen::Vector3d::Zero();
-  const ObjectObservation& last = history.back();
-  double n = 0.0;
-  double sum_t = 0.0;
-  double sum_tt = 0.0;
-  Eigen::Vector3d sum_p = Eigen::Vector3d::Zero();
-  Eigen::Vector3d sum_tp = Eigen::Vector3d::Zero();
-  for (auto it = history.rbegin(); it != history.rend(); ++it) {
-    const double t = to_seconds(it->stamp - last.stamp);
-    if (n >= 2.0 && -t > window) break;
-    const Eigen::Vector3d p = it->centroid - last.centroid;
-    n += 1.0;
-    sum_t += t;
-    sum_tt += t * t;
-    sum_p += p;
-    sum_tp += t * p;
-  }
-  return (n * sum_tp - sum_t * sum_p) / (n * sum_tt - sum_t * sum_t);
-}
+/// By which a track's box is grown to tell parts of its object, and others beside it [m].
+constexpr double kPartMargin = 0.1;
 
-ObjectClass most_voted(const std::array<int, kObjectClassCount>& votes) {
-  return static_cast<ObjectClass>(std::max_element(votes.begin(), votes.end()) - votes.begin());
+/// Share of a cluster's points in another object's box that makes it a cluster of both.
+constexpr double kSharedPart = 0.25;
+
+/// Up in the first sensor's frame, which is the world's: a camera is held level, a LiDAR upright.
+Eigen::Vector3d nominal_up(const LabeledCloud& cloud) {
+  return cloud.organised() ? Eigen::Vector3d(0.0, -1.0, 0.0) : Eigen::Vector3d(0.0, 0.0, 1.0);
 }
 
 }  // namespace
@@ -39,65 +21,83 @@ ObjectClass most_voted(const std::array<int, kObjectClassCount>& votes) {
 void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odometry) {
   if (cloud.stamp <= last_stamp_ || !odometry.T_world_sensor.is_finite()) return;
   last_stamp_ = cloud.stamp;
-  const std::vector<ObjectObservation> objects = observe_objects(cloud, odometry.T_world_sensor);
+  if (!ground_) ground_.emplace(nominal_up(cloud));
+  for (Track& track : tracks_) track.predict(cloud.stamp);
+  const std::vector<ObjectMeasurement> objects = measure_objects(cloud, odometry.T_world_sensor);
   const std::vector<int> track_of = associate(tracks_, objects, config_.association);
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (track_of[i] >= 0) {
-      extend(tracks_[static_cast<std::size_t>(track_of[i])], objects[i]);
-    } else {
-      begin(objects[i]);
-    }
-  }
-  age(cloud.stamp);
-}
-
-void DynamicMap::begin(const ObjectObservation& object) {
-  Track& track = tracks_.emplace_back();
-  track.id = next_id_++;
-  extend(track, object);
-}
-
-void DynamicMap::extend(Track& track, const ObjectObservation& object) const {
-  track.history.push_back(object);
-  track.velocity = fitted_velocity(track.history, config_.velocity_window);
-  const double speed = track.velocity.norm();
-  const double limit = config_.association.max_speed;
-  if (speed > limit) track.velocity *= limit / speed;
-  track.history.back().velocity = track.velocity;
-  ++track.votes[static_cast<std::size_t>(object.object_class)];
-  track.object_class = most_voted(track.votes);
-}
-
-void DynamicMap::age(Timestamp now) {
-  for (Track& track : tracks_) {
-    if (track.state == TrackState::kEnded) continue;
-    const double unseen = to_seconds(now - track.history.back().stamp);
-    const bool confirmed = static_cast<int>(track.history.size()) >= config_.confirm_after;
-    if (unseen > config_.max_missed) {
-      track.state = TrackState::kEnded;
-    } else if (confirmed) {
-      track.state = unseen > 0.0 ? TrackState::kCoasting : TrackState::kActive;
-    }
-  }
+  extend(objects, track_of);
+  begin_new(objects, track_of);
   std::erase_if(tracks_, [&](const Track& track) {
-    return track.state == TrackState::kEnded &&
-           static_cast<int>(track.history.size()) < config_.confirm_after;
+    return to_seconds(last_stamp_ - track.last_seen()) > config_.max_missed;
   });
 }
 
-std::vector<Track> DynamicMap::active() const {
-  std::vector<Track> result;
-  for (const Track& track : tracks_) {
-    if (track.state != TrackState::kActive && track.state != TrackState::kCoasting) continue;
-    Track& copy = result.emplace_back();  // not of the whole history, which can be long
-    copy.id = track.id;
-    copy.state = track.state;
-    copy.object_class = track.object_class;
-    copy.velocity = track.velocity;
-    copy.votes = track.votes;
-    copy.history.push_back(track.history.back());
+void DynamicMap::extend(const std::vector<ObjectMeasurement>& objects,
+                        const std::vector<int>& track_of) {
+  std::vector<bool> has_own(tracks_.size(), false);
+  for (const int t : track_of) {
+    if (t >= 0) has_own[static_cast<std::size_t>(t)] = true;
   }
-  return result;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (track_of[i] < 0) continue;
+    const auto t = static_cast<std::size_t>(track_of[i]);
+    tracks_[t].update(objects[i], is_shared(objects[i], has_own));
+    confirm(tracks_[t]);
+  }
+}
+
+void DynamicMap::begin_new(const std::vector<ObjectMeasurement>& objects,
+                           const std::vector<int>& track_of) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const bool has_mask = objects[i].score > 0.0F;
+    if (track_of[i] >= 0 || !has_mask || is_part_of_a_track(objects[i])) continue;
+    confirm(tracks_.emplace_back(next_id_++, objects[i], *ground_, config_.track));
+  }
+}
+
+void DynamicMap::confirm(Track& track) {
+  const bool enough = track.observations() >= config_.confirm_after;
+  if (track.confirmed() || !enough || track.score() < config_.min_score) return;
+  track.confirm();
+  ++confirmed_;
+}
+
+bool DynamicMap::is_part_of_a_track(const ObjectMeasurement& object) const {
+  return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
+    return track.confirmed() && track.last_seen() == object.stamp &&
+           track.contains(object.centroid, kPartMargin);
+  });
+}
+
+/// Whether the points also cover where another object, which has none of its own, is expected.
+bool DynamicMap::is_shared(const ObjectMeasurement& object,
+                           const std::vector<bool>& has_own) const {
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    if (has_own[t] || !tracks_[t].confirmed()) continue;
+    const auto inside = std::count_if(
+        object.points.begin(), object.points.end(),
+        [&](const Eigen::Vector3d& point) { return tracks_[t].contains(point, 0.0); });
+    if (kSharedPart * static_cast<double>(object.points.size()) < static_cast<double>(inside)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<TrackedObject> DynamicMap::objects() const {
+  std::vector<TrackedObject> objects;
+  for (const Track& track : tracks_) {
+    if (!track.confirmed()) continue;
+    // What was hardly seen is not given for long when it is gone.
+    const double known = to_seconds(track.last_seen() - track.first_seen());
+    const double unseen = to_seconds(last_stamp_ - track.last_seen());
+    if (unseen > std::min(config_.max_shown, known)) continue;
+    const bool seen = track.last_seen() == last_stamp_;
+    objects.push_back({track.box(), seen ? TrackState::kActive : TrackState::kCoasting,
+                       track.position_covariance(), track.velocity_covariance(), track.first_seen(),
+                       track.last_seen()});
+  }
+  return objects;
 }
 
 }  // namespace mms

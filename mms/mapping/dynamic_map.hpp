@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mms/core/config.hpp"
 #include "mms/core/labeled_cloud.hpp"
+#include "mms/core/object_box.hpp"
 #include "mms/core/odometry_estimate.hpp"
 #include "mms/mapping/association.hpp"
 #include "mms/mapping/track.hpp"
@@ -11,23 +13,39 @@
 namespace mms {
 
 struct DynamicMapConfig {
-  AssociationConfig association{};
-  int confirm_after = 3;
-  double max_missed = 1.0;       ///< [s]
-  double velocity_window = 0.6;  ///< [s]
+  AssociationConfig association;
+  TrackConfig track;
+  int confirm_after = 4;
+  double min_score = 0.5;
+  double max_missed = 2.0;  ///< [s]
+  double max_shown = 0.5;   ///< [s]
 
   void visit(ConfigVisitor& v) {
     v.group({"association", "", "which object continues which track"}, association);
+    v.group({"track", "", "how objects move and are seen"}, track);
     v.integer({"confirm_after", "", "observations that make a tentative track one"}, confirm_after,
               {1.0, 100.0});
+    v.number({"min_score", "", "mean confidence of a track's masks that makes it an object"},
+             min_score, {0.0, 1.0});
     v.number({"max_missed", "s", "longest time a track goes on unseen"}, max_missed, {0.0, 60.0});
-    v.number({"velocity_window", "s", "past over which the velocity is fitted"}, velocity_window,
+    v.number({"max_shown", "s", "longest time an unseen object is given as there"}, max_shown,
              {0.0, 60.0});
   }
 };
 
-/// The dynamic map (III-D, built from P_D): the frame's dynamic clusters linked over time to tracks
-/// with id, class, box, velocity and history in the world frame.
+/// An object of the dynamic map at the last frame.
+struct TrackedObject {
+  ObjectBox box;
+  TrackState state = TrackState::kActive;
+  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< [m^2]
+  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  ///< [m^2/s^2]
+  Timestamp first_seen;
+  Timestamp last_seen;
+};
+
+/// The dynamic map (III-D, built from P_D): the frame's dynamic clusters linked over time to
+/// objects with id, class, box and velocity in the world frame. Holds what is there now: its size
+/// and cost do not grow with the length of a run.
 class DynamicMap {
  public:
   explicit DynamicMap(const DynamicMapConfig& config = {}) : config_(config) {}
@@ -36,21 +54,25 @@ class DynamicMap {
   /// no finite pose changes nothing.
   void update(const LabeledCloud& cloud, const OdometryEstimate& odometry);
 
-  /// All tracks by id, also those that ended; tentative ones that ended are dropped.
-  const std::vector<Track>& tracks() const { return tracks_; }
+  /// The objects by id: confirmed ones, seen in the last frame or not much earlier.
+  std::vector<TrackedObject> objects() const;
 
-  /// Copies of the tracks that are active or coasting, with the last observation as history.
-  std::vector<Track> active() const;
+  /// Objects confirmed since the beginning.
+  int confirmed() const { return confirmed_; }
 
  private:
-  void extend(Track& track, const ObjectObservation& object) const;
-  void begin(const ObjectObservation& object);
-  void age(Timestamp now);
+  void extend(const std::vector<ObjectMeasurement>& objects, const std::vector<int>& track_of);
+  void begin_new(const std::vector<ObjectMeasurement>& objects, const std::vector<int>& track_of);
+  bool is_part_of_a_track(const ObjectMeasurement& object) const;
+  bool is_shared(const ObjectMeasurement& object, const std::vector<bool>& has_own) const;
+  void confirm(Track& track);
 
   DynamicMapConfig config_;
+  std::optional<GroundFrame> ground_;
   std::vector<Track> tracks_;
   Timestamp last_stamp_{-1};
   int next_id_ = 1;
+  int confirmed_ = 0;
 };
 
 }  // namespace mms

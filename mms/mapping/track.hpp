@@ -5,47 +5,88 @@
 #include <string_view>
 #include <vector>
 
-#include "mms/core/segmentation.hpp"
-#include "mms/core/time.hpp"
+#include "mms/core/object_box.hpp"
+#include "mms/mapping/box_fit.hpp"
+#include "mms/mapping/motion_filter.hpp"
+#include "mms/mapping/object_measurement.hpp"
+#include "mms/mapping/track_config.hpp"
 
 namespace mms {
 
-/// One dynamic object as one frame measured it, in the world frame [m].
-struct ObjectObservation {
-  Timestamp stamp;
-  ObjectClass object_class = ObjectClass::kPerson;
-  float score = 1.0F;
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  Eigen::Vector3d box_min = Eigen::Vector3d::Zero();  ///< axis-aligned in the world frame
-  Eigen::Vector3d box_max = Eigen::Vector3d::Zero();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of its track then [m/s]
-};
-
+/// Whether an object of the dynamic map was seen in the last frame.
 enum class TrackState {
-  kTentative,  ///< not seen often enough yet; may be a fluke
-  kActive,     ///< seen in the last frame
-  kCoasting,   ///< not seen in the last frame; expected where its velocity takes it
-  kEnded,      ///< not seen for too long
+  kActive,
+  kCoasting,  ///< not seen; expected where its velocity takes it
 };
 
 constexpr std::string_view to_string(TrackState state) {
-  constexpr std::array<std::string_view, 4> kNames = {"tentative", "active", "coasting", "ended"};
-  return kNames[static_cast<std::size_t>(state)];
+  return state == TrackState::kActive ? "active" : "coasting";
 }
 
-/// One dynamic object over time.
-struct Track {
-  int id = 0;  ///< unique in the map, from 1 on, never used again
-  TrackState state = TrackState::kTentative;
-  ObjectClass object_class = ObjectClass::kPerson;     ///< the one most frames saw
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< at the last observation [m/s]
-  std::array<int, kObjectClassCount> votes{};          ///< observations by class
-  std::vector<ObjectObservation> history;              ///< by time; never empty in a map
+/// One dynamic object over time, in the world frame: a box with heading and size learned from all
+/// views, and a motion.
+class Track {
+ public:
+  Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
+        const TrackConfig& config);
 
-  /// Where the centroid is expected at `stamp` (constant velocity, world frame [m]).
-  Eigen::Vector3d predicted(Timestamp stamp) const {
-    return history.back().centroid + velocity * to_seconds(stamp - history.back().stamp);
-  }
+  /// Moves the expectation on to a stamp, not earlier than the last.
+  void predict(Timestamp stamp);
+
+  /// The box that a measurement gives, if it is of this object.
+  BoxFit fit(const ObjectMeasurement& object) const { return fit(object, motion_.position()); }
+
+  /// Takes in a measurement that is of this object.
+  /// @param shared  whether it is of another object too: it then tells little of place and size
+  void update(const ObjectMeasurement& object, bool shared);
+
+  /// Makes it an object for as long as it lives.
+  void confirm() { confirmed_ = true; }
+  bool confirmed() const { return confirmed_; }
+
+  int id() const { return id_; }
+  int observations() const { return observations_; }  ///< with a mask of their own
+  Timestamp first_seen() const { return first_seen_; }
+  Timestamp last_seen() const { return last_seen_; }
+  Eigen::Vector3d position() const { return motion_.position(); }
+  Eigen::Matrix3d position_covariance() const { return motion_.position_covariance(); }
+  Eigen::Matrix3d velocity_covariance() const { return motion_.velocity_covariance(); }
+  const Eigen::Vector3d& size() const { return size_; }
+  const Eigen::Vector3f& color() const { return color_; }  ///< mean R G B, 0 to 255
+  bool has_color() const { return has_color_; }
+  double score() const { return score_; }  ///< mean over the last observations, in [0, 1]
+  ObjectClass object_class() const;        ///< the one that most frames saw
+
+  ObjectBox box() const;
+
+  /// True for a point of the world in the box grown by `margin` [m] on every side.
+  bool contains(const Eigen::Vector3d& point, double margin) const;
+
+ private:
+  BoxFit fit(const ObjectMeasurement& object, const std::optional<Eigen::Vector3d>& expected) const;
+  void learn_size(const BoxFit& fit);
+  void learn_color(const ObjectMeasurement& object);
+  void learn_heading(const ObjectMeasurement& object);
+  void judge_motion();
+
+  TrackConfig config_;
+  GroundFrame ground_;
+  int id_;
+  int observations_ = 0;
+  double score_ = 0.0;
+  bool confirmed_ = false;
+  Timestamp first_seen_;
+  Timestamp last_seen_;
+  Timestamp predicted_;
+  std::array<int, kObjectClassCount> votes_{};
+  MotionFilter motion_;
+  double heading_ = 0.0;
+  bool has_heading_ = false;
+  bool moving_ = false;
+  Eigen::Vector3d size_;
+  std::array<int, 3> whole_views_{};  ///< by axis: measurements with both ends in view
+  Eigen::Vector3f color_ = Eigen::Vector3f::Zero();
+  bool has_color_ = false;
 };
 
 }  // namespace mms

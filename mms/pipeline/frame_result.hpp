@@ -3,9 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/core/odometry_estimate.hpp"
+#include "mms/mapping/dynamic_map.hpp"
 
 namespace mms {
 
@@ -27,7 +29,8 @@ struct FrameResult {
   OdometryEstimate odometry;
   LabeledCloud cloud;
   bool keyframe = false;
-  double dynamic_share = 0.0;  ///< of the valid points, in [0, 1]
+  double dynamic_share = 0.0;          ///< of the valid points, in [0, 1]
+  std::vector<TrackedObject> objects;  ///< of the dynamic map, by id
   StageTimes stage_ms{};
 };
 

@@ -72,6 +72,7 @@ FrameResult SlamSystem::localize(Perception perception) {
       occupancy_map_.integrate(result.cloud, result.odometry.T_world_sensor);
     }
     dynamic_map_.update(result.cloud, result.odometry);
+    result.objects = dynamic_map_.objects();
     return keyframe;
   });
   return result;

@@ -197,6 +197,41 @@ TEST(SemanticFusion, PersonTouchingFurnitureIsSplitOff) {
   EXPECT_LT(dynamic_share_of(cloud, view, Thing::kDesk), 0.2);
 }
 
+/// The rows of a mask from `begin` on, `count` of them.
+Instance rows_of(const Instance& whole, int begin, int count) {
+  Instance part = whole;
+  part.y = whole.y + begin;
+  part.mask = Image<std::uint8_t>(whole.mask.width(), count);
+  for (int y = 0; y < count; ++y) {
+    for (int x = 0; x < whole.mask.width(); ++x) part.mask(x, y) = whole.mask(x, begin + y);
+  }
+  return part;
+}
+
+TEST(SemanticFusion, TwoWhoTouchAreTwoObjects) {
+  testing::Scene scene = room_with_person(-0.5F);
+  scene.add(Thing::kOther, {0.0F, -0.5F, 2.5F}, {0.5F, 1.2F, 2.8F});
+  const View view = render(scene);
+  const LabeledCloud cloud =
+      fuse(view, {mask_of(view, Thing::kPerson), mask_of(view, Thing::kOther, -3)});
+  ASSERT_EQ(cloud.clusters.size(), 2U);
+  const bool first_is_left = cloud.clusters[0].centroid.x() < 0.0F;
+  EXPECT_NEAR(cloud.clusters[first_is_left ? 0 : 1].centroid.x(), -0.25F, 0.05F);
+  EXPECT_NEAR(cloud.clusters[first_is_left ? 1 : 0].centroid.x(), 0.25F, 0.05F);
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
+  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kOther), 0.985);
+}
+
+TEST(SemanticFusion, TwoMasksOnOneBodyAreOneObject) {
+  const View view = render(room_with_person());
+  const Instance whole = mask_of(view, Thing::kPerson);
+  const int half = whole.mask.height() / 2;
+  const LabeledCloud cloud =
+      fuse(view, {rows_of(whole, 0, half), rows_of(whole, half, whole.mask.height() - half)});
+  EXPECT_EQ(cloud.clusters.size(), 1U);
+  expect_only_person(cloud, view);
+}
+
 TEST(SemanticFusion, VisionModeTakesTheDilatedMaskAsItIs) {
   const View view = render(room_with_person());
   const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)}, FusionMode::kVision);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace mms {
 namespace {
 
@@ -23,6 +25,10 @@ void give(DynamicMap& map, int index, const std::vector<DynamicCluster>& cluster
   LabeledCloud cloud;
   cloud.stamp = Timestamp::from_seconds(1.0 + kPeriod * index);
   cloud.clusters = clusters;
+  cloud.width = 1;  // a camera's, whose y axis is down
+  cloud.height = 2;
+  cloud.points.assign(2, Eigen::Vector3f::Constant(NAN));
+  cloud.cluster.assign(2, -1);
   OdometryEstimate odometry;
   odometry.stamp = cloud.stamp;
   odometry.T_world_sensor = Transform<World, Sensor>(T_world_sensor);
@@ -31,20 +37,23 @@ void give(DynamicMap& map, int index, const std::vector<DynamicCluster>& cluster
 
 TEST(DynamicMap, MeasuresTheVelocityOfASteadyBoxFromAMovingCamera) {
   DynamicMap map;
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const double t = kPeriod * i;
     const Eigen::Isometry3d T(Eigen::Translation3d(0.3 * t, 0.0, 0.0) *
                               Eigen::AngleAxisd(0.2 * t, Eigen::Vector3d::UnitY()));
-    const Eigen::Vector3d world(-1.0 + 1.1 * t, 0.0, 3.0 - 0.4 * t);
+    const Eigen::Vector3d world(-1.0 + 1.1 * t, 0.0, 3.0 - 0.1 * t);
     give(map, i, {cluster_at((T.inverse() * world).cast<float>())}, T);
   }
-  ASSERT_EQ(map.tracks().size(), 1U);
-  const Track& track = map.tracks()[0];
-  EXPECT_EQ(track.state, TrackState::kActive);
-  EXPECT_EQ(track.history.size(), 30U);
-  EXPECT_NEAR(track.velocity.x(), 1.1, 1e-3);
-  EXPECT_NEAR(track.velocity.z(), -0.4, 1e-3);
-  EXPECT_LT(track.history.back().box_min.x(), track.history.back().centroid.x());
+  ASSERT_EQ(map.objects().size(), 1U);
+  const TrackedObject object = map.objects()[0];
+  EXPECT_EQ(object.state, TrackState::kActive);
+  EXPECT_TRUE(object.box.moving);
+  EXPECT_NEAR(object.box.velocity.x(), 1.1, 0.1);
+  EXPECT_NEAR(object.box.velocity.z(), -0.1, 0.15);
+  EXPECT_LT(object.velocity_covariance.trace(), 0.3);
+  // It faces where it goes.
+  EXPECT_GT(object.box.T_world_box.linear().col(0).x(), 0.9);
+  EXPECT_NEAR(object.box.T_world_box.linear().col(2).y(), -1.0, 1e-9);
 }
 
 TEST(DynamicMap, KeepsTheIdsOfTwoThatCross) {
@@ -56,48 +65,65 @@ TEST(DynamicMap, KeepsTheIdsOfTwoThatCross) {
     const DynamicCluster left = cluster_at({1.5F - t, 0.0F, 3.1F}, ObjectClass::kAgv);
     i < 22 ? give(map, i, {right, left}) : give(map, i, {left, right});
   }
-  ASSERT_EQ(map.tracks().size(), 2U);
-  EXPECT_EQ(map.tracks()[0].id, 1);
-  EXPECT_GT(map.tracks()[0].velocity.x(), 0.9);
-  EXPECT_EQ(map.tracks()[0].votes[0], 45);
-  EXPECT_EQ(map.tracks()[1].votes[1], 45);
-  EXPECT_LT(map.tracks()[1].velocity.x(), -0.9);
+  ASSERT_EQ(map.objects().size(), 2U);
+  EXPECT_EQ(map.objects()[0].box.id, 1);
+  EXPECT_EQ(map.objects()[0].box.object_class, ObjectClass::kPerson);
+  EXPECT_GT(map.objects()[0].box.velocity.x(), 0.9);
+  EXPECT_EQ(map.objects()[1].box.object_class, ObjectClass::kAgv);
+  EXPECT_LT(map.objects()[1].box.velocity.x(), -0.9);
+  EXPECT_EQ(map.confirmed(), 2);
 }
 
 TEST(DynamicMap, CoastsBehindAPillarAndEndsAfterThat) {
   DynamicMap map;
   const auto at = [](int i) { return cluster_at({static_cast<float>(0.08 * i), 0.0F, 3.0F}); };
-  for (int i = 0; i < 10; ++i) give(map, i, {at(i)});
-  for (int i = 10; i < 22; ++i) give(map, i, {});
-  ASSERT_EQ(map.active().size(), 1U);
-  EXPECT_EQ(map.active()[0].state, TrackState::kCoasting);
-  EXPECT_EQ(map.active()[0].history.size(), 1U);
-  give(map, 22, {at(22)});
-  EXPECT_EQ(map.tracks().size(), 1U);
-  EXPECT_EQ(map.tracks()[0].state, TrackState::kActive);
-  for (int i = 23; i < 45; ++i) give(map, i, {});
-  EXPECT_TRUE(map.active().empty());
-  ASSERT_EQ(map.tracks().size(), 1U);
-  EXPECT_EQ(map.tracks()[0].state, TrackState::kEnded);
-  give(map, 45, {at(45)});
-  EXPECT_EQ(map.tracks().back().id, 2);
+  for (int i = 0; i < 15; ++i) give(map, i, {at(i)});
+  for (int i = 15; i < 20; ++i) give(map, i, {});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_EQ(map.objects()[0].state, TrackState::kCoasting);
+  EXPECT_NEAR(map.objects()[0].box.center().x(), 0.08 * 19, 0.15);
+  for (int i = 20; i < 32; ++i) give(map, i, {});
+  EXPECT_TRUE(map.objects().empty());  // unseen for longer than objects are shown
+  give(map, 32, {at(32)});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_EQ(map.objects()[0].box.id, 1);
+  EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
+  for (int i = 33; i < 70; ++i) give(map, i, {});
+  for (int i = 70; i < 75; ++i) give(map, i, {at(i)});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_EQ(map.objects()[0].box.id, 2);
+}
+
+TEST(DynamicMap, OneThatStandsForTwentySecondsStaysTheSameObject) {
+  DynamicMap map;
+  for (int i = 0; i < 30; ++i) {
+    give(map, i, {cluster_at({static_cast<float>(0.07 * i), 0.0F, 3.0F})});
+  }
+  EXPECT_TRUE(map.objects().at(0).box.moving);
+  int recognised = -1;
+  for (int i = 30; i < 330; ++i) {
+    give(map, i, {cluster_at({static_cast<float>(0.07 * 29), 0.0F, 3.0F})});
+    if (recognised < 0 && !map.objects().at(0).box.moving) recognised = i;
+  }
+  EXPECT_LT(kPeriod * (recognised - 30), 1.0);
+  EXPECT_EQ(map.objects().at(0).box.id, 1);
+  EXPECT_FALSE(map.objects()[0].box.moving);
+  EXPECT_EQ(map.confirmed(), 1);
 }
 
 TEST(DynamicMap, DropsWhatWasSeenOnlyOnce) {
   DynamicMap map;
   give(map, 0, {cluster_at({0.0F, 0.0F, 2.0F})});
-  ASSERT_EQ(map.tracks().size(), 1U);
-  EXPECT_EQ(map.tracks()[0].state, TrackState::kTentative);
-  EXPECT_TRUE(map.active().empty());
-  for (int i = 1; i < 30; ++i) give(map, i, {});
-  EXPECT_TRUE(map.tracks().empty());
+  for (int i = 1; i < 40; ++i) give(map, i, {});
+  EXPECT_TRUE(map.objects().empty());
+  EXPECT_EQ(map.confirmed(), 0);
 }
 
 TEST(DynamicMap, DoesNotLinkBeyondTheGate) {
   DynamicMap map;
   for (int i = 0; i < 5; ++i) give(map, i, {cluster_at({0.0F, 0.0F, 2.0F})});
-  give(map, 5, {cluster_at({2.0F, 0.0F, 2.0F})});
-  EXPECT_EQ(map.tracks().size(), 2U);
+  for (int i = 5; i < 10; ++i) give(map, i, {cluster_at({2.0F, 0.0F, 2.0F})});
+  EXPECT_EQ(map.confirmed(), 2);
 }
 
 TEST(DynamicMap, TheClassIsWhatMostFramesSaw) {
@@ -106,15 +132,76 @@ TEST(DynamicMap, TheClassIsWhatMostFramesSaw) {
     const auto seen = i % 3 == 0 ? ObjectClass::kPerson : ObjectClass::kAgv;
     give(map, i, {cluster_at({0.0F, 0.0F, 2.0F}, seen)});
   }
-  EXPECT_EQ(map.tracks().at(0).object_class, ObjectClass::kAgv);
+  EXPECT_EQ(map.objects().at(0).box.object_class, ObjectClass::kAgv);
+}
+
+TEST(DynamicMap, APieceOfAnObjectIsNoNewOne) {
+  DynamicMap map;
+  const DynamicCluster whole = cluster_at({0.0F, 0.0F, 2.0F});
+  DynamicCluster foot = cluster_at({0.0F, 0.7F, 2.0F});
+  foot.box_min = foot.centroid - Eigen::Vector3f::Constant(0.05F);
+  foot.box_max = foot.centroid + Eigen::Vector3f::Constant(0.05F);
+  for (int i = 0; i < 10; ++i) give(map, i, {whole});
+  for (int i = 10; i < 20; ++i) give(map, i, {whole, foot});
+  EXPECT_EQ(map.objects().size(), 1U);
+}
+
+TEST(DynamicMap, OneWhoJoinsAnotherAndLeavesIsTheSame) {
+  DynamicMap map;
+  // Two walk side by side, are one cluster for half a second, and part again.
+  for (int i = 0; i < 40; ++i) {
+    const auto x = static_cast<float>(0.06 * i);
+    const DynamicCluster near = cluster_at({x, 0.0F, 2.5F});
+    const DynamicCluster far = cluster_at({x, 0.0F, 3.1F});
+    DynamicCluster both = cluster_at({x, 0.0F, 2.8F});
+    both.box_min.z() = near.box_min.z();
+    both.box_max.z() = far.box_max.z();
+    i >= 20 && i < 27 ? give(map, i, {both}) : give(map, i, {near, far});
+  }
+  ASSERT_EQ(map.objects().size(), 2U);
+  EXPECT_EQ(map.confirmed(), 2);
+  EXPECT_LT(map.objects()[0].box.size.maxCoeff(), 1.8);
+}
+
+TEST(DynamicMap, WhatTheNetworkDoubtsIsNoObject) {
+  DynamicMap map;
+  DynamicCluster doubtful = cluster_at({0.0F, 0.0F, 2.0F});
+  doubtful.score = 0.35F;
+  for (int i = 0; i < 10; ++i) give(map, i, {doubtful});
+  EXPECT_TRUE(map.objects().empty());
+  doubtful.score = 0.9F;
+  for (int i = 10; i < 15; ++i) give(map, i, {doubtful});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_NEAR(map.objects()[0].box.score, (10 * 0.35 + 5 * 0.9) / 15, 1e-6);
+}
+
+TEST(DynamicMap, WhatIsOnlyRememberedBeginsNoObjectButKeepsOne) {
+  DynamicMap map;
+  DynamicCluster remembered = cluster_at({0.0F, 0.0F, 2.0F});
+  remembered.score = 0.0F;
+  for (int i = 0; i < 10; ++i) give(map, i, {remembered});
+  EXPECT_TRUE(map.objects().empty());
+  for (int i = 10; i < 16; ++i) give(map, i, {cluster_at({0.0F, 0.0F, 2.0F})});
+  for (int i = 16; i < 20; ++i) give(map, i, {remembered});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
+  EXPECT_EQ(map.objects()[0].box.score, 1.0);
+}
+
+TEST(DynamicMap, WhatElseAMaskCoversIsNoObject) {
+  DynamicMap map;
+  DynamicCluster person = cluster_at({0.0F, 0.0F, 2.0F});
+  DynamicCluster wall = cluster_at({0.5F, 0.0F, 4.0F});
+  person.instance = wall.instance = 3;
+  for (int i = 0; i < 10; ++i) give(map, i, {person, wall});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_LT(map.objects()[0].box.center().z(), 2.5);
 }
 
 TEST(DynamicMap, IgnoresFramesOutOfOrder) {
   DynamicMap map;
-  give(map, 3, {cluster_at({0.0F, 0.0F, 2.0F})});
-  give(map, 3, {cluster_at({0.0F, 0.0F, 2.0F})});
-  give(map, 1, {cluster_at({0.0F, 0.0F, 2.0F})});
-  EXPECT_EQ(map.tracks().at(0).history.size(), 1U);
+  for (const int index : {3, 3, 1, 3}) give(map, index, {cluster_at({0.0F, 0.0F, 2.0F})});
+  EXPECT_EQ(map.confirmed(), 0);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST_P(AsyncPipelineThreads, GivesTheBitsOfTheSynchronousSystem) {
   const MapCloud map = system.static_map().cloud();
   EXPECT_EQ(map.points, reference.static_map().cloud().points);
   EXPECT_EQ(map.colors, reference.static_map().cloud().colors);
-  EXPECT_EQ(system.dynamic_map().tracks().size(), reference.dynamic_map().tracks().size());
+  EXPECT_EQ(system.dynamic_map().confirmed(), reference.dynamic_map().confirmed());
 }
 
 TEST_P(AsyncPipelineThreads, AnEmptySourceIsNoProblem) {

@@ -138,23 +138,26 @@ TEST(SlamSystem, WithoutAnyFilterItIsMuchWorse) {
   }
 }
 
-TEST(SlamSystem, PeopleBecomeTracks) {
+TEST(SlamSystem, PeopleBecomeObjects) {
   SlamSystem system = mask_system();
-  for (int i = 0; i < 15; ++i) system.process(scene_frame(static_cast<std::size_t>(i)));
-  ASSERT_FALSE(system.dynamic_map().active().empty());
+  std::vector<TrackedObject> tracked;
+  for (int i = 0; i < 15; ++i) {
+    tracked = system.process(scene_frame(static_cast<std::size_t>(i))).objects;
+  }
+  ASSERT_FALSE(tracked.empty());
   const auto& objects = simulated_frame(14).objects;
   std::size_t inside = 0;
-  for (const Track& track : system.dynamic_map().active()) {
+  for (const TrackedObject& track : tracked) {
     double outside = std::numeric_limits<double>::infinity();  // the nearest true box [m]
     for (const ObjectTruth& object : objects) {
-      if (object.object_class != track.object_class) continue;
-      const Eigen::Vector3d local = object.T_world_box.inverse() * track.history.back().centroid;
+      if (object.object_class != track.box.object_class) continue;
+      const Eigen::Vector3d local = object.T_world_box.inverse() * track.box.center();
       outside = std::min(outside, (local.cwiseAbs() - object.half_extent).maxCoeff());
     }
-    EXPECT_LT(outside, 0.8);  // two who walk side by side may be one track
+    EXPECT_LT(outside, 0.8);  // two who walk side by side may be one object
     inside += outside < 0.0 ? 1 : 0;
   }
-  EXPECT_GT(2 * inside, system.dynamic_map().active().size());
+  EXPECT_GT(2 * inside, tracked.size());
 }
 
 TEST(SlamSystem, ProcessIsPerceiveThenLocalize) {

@@ -20,7 +20,7 @@ const std::map<Words, Words> kCommands = {
      {"DATA", "-c,--config", "-o,--output", "--segmenter", "network", "masks", "none", "--masks",
       "--fusion", "multimodal", "vision", "--frames", "--start", "--realtime", "--threads",
       "--keep-journal"}},
-    {{"eval"}, {"trajectory", "drift", "map", "residue", "segmentation"}},
+    {{"eval"}, {"trajectory", "drift", "map", "residue", "segmentation", "objects"}},
     {{"segment"},
      {"DATA", "-o,--output", "-c,--config", "--weights", "--annotations", "--split", "--limit",
       "--threads", "--json-only"}},
@@ -30,6 +30,7 @@ const std::map<Words, Words> kCommands = {
     {{"eval", "drift"}, {"ESTIMATE", "--json"}},
     {{"eval", "map"}, {"TRUTH", "MAP", "--json"}},
     {{"eval", "residue"}, {"DATA", "MAP", "--json"}},
+    {{"eval", "objects"}, {"TRUTH", "RESULT", "--json"}},
     {{"simulate"},
      {"SCENE", "warehouse_loop", "-o,--output", "--seed", "--frames", "--sensor", "lidar16", "--hz",
       "--blur", "--set", "--threads", "--print", "training-set"}},
@@ -69,7 +70,8 @@ TEST(CommandLine, WrongWordsAreUsageFaultsThatNameThem) {
                      "a command is wanted: run, eval, simulate, segment, quantize, import, ");
   expect_usage_fault(run({"rum"}), "'rum'");
   expect_usage_fault(run({"eval"}),
-                     "a command is wanted: trajectory, drift, map, residue or segmentation");
+                     "a command is wanted: trajectory, drift, map, residue, segmentation or "
+                     "objects");
   expect_usage_fault(run({"eval", "trajektory", "a", "b"}), "'trajektory'");
   expect_usage_fault(run({"run", "--frmes", "3"}), "--frmes");
   expect_usage_fault(run({"run", "one", "two"}), "two");

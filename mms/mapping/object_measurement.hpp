@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/core/transform.hpp"
+
+namespace mms {
+
+/// One dynamic cluster of a frame, in the world frame.
+struct ObjectMeasurement {
+  Timestamp stamp;
+  ObjectClass object_class = ObjectClass::kPerson;
+  float score = 1.0F;                                ///< of its mask, in (0, 1]; 0 without one
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< where it was seen from [m]
+  Eigen::Vector3d right = Eigen::Vector3d::UnitX();  ///< the image's axis to the right
+  std::vector<Eigen::Vector3d> points;               ///< a few hundred, evenly chosen; never empty
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();  ///< mean R G B, 0 to 255
+  bool has_color = false;
+
+  /// Where the object may go on unseen: at the image's border, or behind something nearer.
+  struct Cut {
+    bool left = false;
+    bool right = false;
+    bool top = false;
+    bool bottom = false;
+    bool any() const { return left || right || top || bottom; }
+  } cut;
+};
+
+/// Measures the clusters of `cloud` in their order, of those under one mask the first. Cuts are
+/// known of organised clouds only. Clusters that list no points of theirs (as in tests) are taken
+/// for the corners of their boxes.
+std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
+                                               const Transform<World, Sensor>& T_world_sensor);
+
+}  // namespace mms

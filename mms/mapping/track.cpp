@@ -1,0 +1,162 @@
+#include "mms/mapping/track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mms {
+namespace {
+
+constexpr double kFirstPositionSigma = 0.2;  // [m]
+constexpr double kFirstVelocitySigma = 0.7;  // [m/s]
+constexpr double kRangeSigma = 0.005;        // of a middle per metre of range
+constexpr int kSizeMemory = 30;              // views over which a size is averaged
+constexpr double kGrowth = 0.3;              // share of an excess by which a size grows at once
+constexpr int kFirstViews = 5;               // that tell a size whatever it was taken for
+constexpr double kShrinking = 0.02;          // share of a lack by which a height shrinks
+constexpr int kScoreMemory = 30;             // observations over which a score is averaged
+constexpr float kColorGain = 0.1F;
+constexpr double kHeadingGain = 0.2;
+constexpr double kHeadingSpeed = 0.3;  // from which a way tells the heading [m/s]
+
+/// The middle of a body lies behind that of its visible side by so much of half its mean width: by
+/// less than the pi/4 of a cylinder, since limbs are thinner than the box about them.
+constexpr double kRoundDepth = 0.32;
+
+/// Difference of headings in [-period/2, period/2).
+double turn(double from, double to, double period) {
+  const double difference = to - from;
+  return difference - period * std::floor(difference / period + 0.5);
+}
+
+bool is_round(ObjectClass object_class) {
+  return object_class == ObjectClass::kPerson;
+}
+
+}  // namespace
+
+Track::Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
+             const TrackConfig& config)
+    : config_(config),
+      ground_(ground),
+      id_(id),
+      first_seen_(first.stamp),
+      last_seen_(first.stamp),
+      predicted_(first.stamp),
+      motion_(first.centroid, ground.up(), kFirstPositionSigma, kFirstVelocitySigma),
+      heading_(ground.heading_of(first.sensor - first.centroid)),
+      size_(config.sizes[static_cast<std::size_t>(first.object_class)].vector()) {
+  ++votes_[static_cast<std::size_t>(first.object_class)];
+  learn_heading(first);
+  motion_ = MotionFilter(fit(first, std::nullopt).center, ground.up(), kFirstPositionSigma,
+                         kFirstVelocitySigma);
+  --votes_[static_cast<std::size_t>(first.object_class)];
+  update(first, false);
+}
+
+void Track::predict(Timestamp stamp) {
+  if (stamp <= predicted_) return;
+  motion_.predict(to_seconds(stamp - predicted_), config_.acceleration_noise);
+  predicted_ = stamp;
+}
+
+BoxFit Track::fit(const ObjectMeasurement& object,
+                  const std::optional<Eigen::Vector3d>& expected) const {
+  BoxFit fit = fit_box(object, ground_, heading_, size_, expected);
+  if (!is_round(object_class()) || object.cut.left || object.cut.right) return fit;
+  const Eigen::Vector3d view = ground_.horizontal(object.centroid - object.sensor).normalized();
+  const double radius = 0.25 * (size_.x() + size_.y());
+  const double height = ground_.up().dot(fit.center);
+  fit.center =
+      ground_.horizontal(object.centroid + kRoundDepth * radius * view) + height * ground_.up();
+  return fit;
+}
+
+void Track::update(const ObjectMeasurement& object, bool shared) {
+  if (object.score > 0.0F) {
+    ++votes_[static_cast<std::size_t>(object.object_class)];
+    ++observations_;
+    score_ += (static_cast<double>(object.score) - score_) / std::min(observations_, kScoreMemory);
+  }
+  last_seen_ = object.stamp;
+  if (!shared && !object.cut.any()) learn_heading(object);
+  const BoxFit seen = fit(object);
+  const bool is_cut = shared || !seen.anchored || object.cut.left || object.cut.right;
+  const double range = (object.centroid - object.sensor).norm();
+  motion_.update(seen.center, is_cut ? config_.cut_sigma
+                                     : std::hypot(config_.position_sigma, kRangeSigma * range));
+  motion_.limit_speed(config_.max_speed);
+  judge_motion();
+  if (shared) return;
+  learn_size(seen);
+  learn_color(object);
+}
+
+void Track::learn_size(const BoxFit& fit) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    double& size = size_[static_cast<Eigen::Index>(k)];
+    const double seen = fit.extent[static_cast<Eigen::Index>(k)];
+    if (fit.whole[k]) {
+      whole_views_[k] = std::min(whole_views_[k] + 1, kSizeMemory);
+      // Hair and shoes are often without returns: a height is sooner too small than too large.
+      const bool lacks_some = k == 2 && seen < size && whole_views_[k] > kFirstViews;
+      const double gain = lacks_some ? kShrinking : 1.0 / whole_views_[k];
+      size += gain * (seen - size);
+    } else if (seen > size) {
+      size += kGrowth * (seen - size);  // what is cut off can only be larger
+    }
+  }
+}
+
+void Track::learn_color(const ObjectMeasurement& object) {
+  if (!object.has_color) return;
+  color_ =
+      has_color_ ? Eigen::Vector3f(color_ + kColorGain * (object.color - color_)) : object.color;
+  has_color_ = true;
+}
+
+void Track::learn_heading(const ObjectMeasurement& object) {
+  const Eigen::Vector3d way = ground_.horizontal(motion_.velocity());
+  const bool is_under_way = observations_ > 1 && way.norm() > kHeadingSpeed;
+  const double along_way = ground_.heading_of(way);
+  if (is_round(object_class())) {
+    if (is_under_way) heading_ += kHeadingGain * turn(heading_, along_way, 2.0 * std::numbers::pi);
+    return;
+  }
+  // Sides tell the heading but for quarters of a turn, which its way or the past tells.
+  const double near = is_under_way ? along_way : heading_;
+  const double sides = rectangle_heading(object, ground_);
+  const double seen = near + turn(near, sides, 0.5 * std::numbers::pi);
+  const double gain = has_heading_ ? kHeadingGain : 1.0;
+  heading_ += gain * turn(heading_, seen, 2.0 * std::numbers::pi);
+  has_heading_ = true;
+}
+
+void Track::judge_motion() {
+  const double speed = motion_.velocity().norm();
+  moving_ = speed > (moving_ ? config_.stopped_speed : config_.moving_speed);
+}
+
+ObjectClass Track::object_class() const {
+  return static_cast<ObjectClass>(std::max_element(votes_.begin(), votes_.end()) - votes_.begin());
+}
+
+ObjectBox Track::box() const {
+  ObjectBox box;
+  box.id = id_;
+  box.object_class = object_class();
+  box.T_world_box.linear() = ground_.axes(heading_);
+  box.T_world_box.translation() = motion_.position();
+  box.size = size_;
+  box.velocity = motion_.velocity();
+  box.moving = moving_;
+  box.score = score_;
+  return box;
+}
+
+bool Track::contains(const Eigen::Vector3d& point, double margin) const {
+  const Eigen::Vector3d local = ground_.axes(heading_).transpose() * (point - motion_.position());
+  return (local.array().abs() <= 0.5 * size_.array() + margin).all();
+}
+
+}  // namespace mms

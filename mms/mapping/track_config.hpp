@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "mms/core/config.hpp"
+#include "mms/core/segmentation.hpp"
+
+namespace mms {
+
+/// What an object of a class is taken for until its sides were seen.
+struct TypicalSize {
+  double length = 0.5;  ///< along its way [m]
+  double width = 0.5;   ///< [m]
+  double height = 1.7;  ///< [m]
+
+  Eigen::Vector3d vector() const { return {length, width, height}; }
+
+  void visit(ConfigVisitor& v) {
+    constexpr Range kSize = {0.05, 30.0};
+    v.number({"length", "m", "along its way"}, length, kSize);
+    v.number({"width", "m", "across its way"}, width, kSize);
+    v.number({"height", "m", "from the floor up"}, height, kSize);
+  }
+};
+
+/// How a tracked object moves and is seen.
+struct TrackConfig {
+  double acceleration_noise = 0.2;  ///< spectral density [m^2/s^3]
+  double position_sigma = 0.03;     ///< of a box's middle [m]
+  double cut_sigma = 0.25;          ///< of one whose ends are out of view [m]
+  double max_speed = 3.0;           ///< [m/s]
+  double moving_speed = 0.3;        ///< [m/s]
+  double stopped_speed = 0.15;      ///< [m/s]
+  std::array<TypicalSize, kObjectClassCount> sizes{{{0.5, 0.5, 1.7}, {1.2, 0.8, 1.2}}};
+
+  void visit(ConfigVisitor& v) {
+    v.number({"acceleration_noise", "m^2/s^3", "how quickly objects change their velocity"},
+             acceleration_noise, {1e-4, 100.0});
+    v.number({"position_sigma", "m", "error of the middle of a box in view"}, position_sigma,
+             {1e-3, 10.0});
+    v.number({"cut_sigma", "m", "error of the middle of a box that is partly out of view"},
+             cut_sigma, {1e-3, 10.0});
+    v.number({"max_speed", "m/s", "fastest object"}, max_speed, {0.1, 100.0});
+    v.number({"moving_speed", "m/s", "from which a standing object is said to move"}, moving_speed,
+             {0.0, 10.0});
+    v.number({"stopped_speed", "m/s", "below which a moving object is said to stand"},
+             stopped_speed, {0.0, 10.0});
+    v.group({"person", "", "a person's size before it was seen"}, sizes[0]);
+    v.group({"agv", "", "a vehicle's size before it was seen"}, sizes[1]);
+  }
+};
+
+}  // namespace mms

@@ -1,0 +1,68 @@
+#include "mms/mapping/cluster_cuts.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/mapping/synthetic_cloud.hpp"
+
+namespace mms {
+namespace {
+
+/// A wall 5 m ahead and before it a board at 3 m over the given pixels, which is a cluster.
+LabeledCloud board(int x_begin, int x_end, int y_begin, int y_end) {
+  const auto is_board = [=](int x, int y) {
+    return x >= x_begin && x < x_end && y >= y_begin && y < y_end;
+  };
+  LabeledCloud cloud = test::organised_cloud(
+      [&](int x, int y, const Eigen::Vector3f&) { return is_board(x, y) ? 3.0F : 5.0F; });
+  cloud.clusters.resize(1);
+  for (int y = 0; y < cloud.height; ++y) {
+    for (int x = 0; x < cloud.width; ++x) {
+      if (is_board(x, y)) cloud.cluster[static_cast<std::size_t>(y * cloud.width + x)] = 0;
+    }
+  }
+  return cloud;
+}
+
+/// Puts something at a depth over pixels; no return for NaN.
+void cover(LabeledCloud& cloud, int x_begin, int x_end, int y_begin, int y_end, float z) {
+  for (int y = y_begin; y < y_end; ++y) {
+    for (int x = x_begin; x < x_end; ++x) {
+      const auto i = static_cast<std::size_t>(y * cloud.width + x);
+      cloud.points[i] = std::isfinite(z)
+                            ? Eigen::Vector3f(cloud.points[i] * (z / cloud.points[i].z()))
+                            : Eigen::Vector3f::Constant(NAN);
+      cloud.cluster[i] = -1;
+    }
+  }
+}
+
+TEST(ClusterCuts, FreeOnAllSidesIsNotCut) {
+  EXPECT_FALSE(find_cuts(board(40, 90, 30, 100)).at(0).any());
+}
+
+TEST(ClusterCuts, TheImagesBordersCut) {
+  const auto corner = find_cuts(board(0, 50, 60, 120)).at(0);
+  EXPECT_TRUE(corner.left);
+  EXPECT_TRUE(corner.bottom);
+  EXPECT_FALSE(corner.right);
+  EXPECT_FALSE(corner.top);
+}
+
+TEST(ClusterCuts, SomethingNearerCutsThoughNoReturnLiesBetween) {
+  LabeledCloud cloud = board(40, 90, 30, 100);
+  cover(cloud, 80, 110, 20, 110, 2.0F);
+  cover(cloud, 78, 80, 20, 110, NAN);
+  const auto cut = find_cuts(cloud).at(0);
+  EXPECT_TRUE(cut.right);
+  EXPECT_FALSE(cut.left);
+  EXPECT_FALSE(cut.top);
+}
+
+TEST(ClusterCuts, ASmallThingBeforeTheRimDoesNotCut) {
+  LabeledCloud cloud = board(40, 90, 30, 100);
+  cover(cloud, 86, 100, 30, 40, 2.0F);
+  EXPECT_FALSE(find_cuts(cloud).at(0).right);
+}
+
+}  // namespace
+}  // namespace mms

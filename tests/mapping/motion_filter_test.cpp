@@ -1,0 +1,80 @@
+#include "mms/mapping/motion_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mms/core/random_stream.hpp"
+
+namespace mms {
+namespace {
+
+const Eigen::Vector3d kUp(0, 0, 1);
+
+TEST(MotionFilter, FollowsASteadyPointExactlyInTheEnd) {
+  MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.2, 1.0);
+  const Eigen::Vector3d velocity(1.0, -0.5, 0.0);
+  for (int i = 1; i <= 300; ++i) {
+    filter.predict(1.0 / 30.0, 0.1);
+    filter.update(velocity * (i / 30.0), 0.05);
+  }
+  EXPECT_TRUE(filter.velocity().isApprox(velocity, 1e-3));
+  EXPECT_TRUE(filter.position().isApprox(10.0 * velocity, 1e-4));
+}
+
+TEST(MotionFilter, TwoShortStepsAreOneLongOne) {
+  MotionFilter once(Eigen::Vector3d(1, 2, 3), kUp, 0.1, 0.5);
+  MotionFilter twice = once;
+  once.predict(0.4, 0.2);
+  twice.predict(0.1, 0.2);
+  twice.predict(0.3, 0.2);
+  EXPECT_TRUE(once.position_covariance().isApprox(twice.position_covariance(), 1e-12));
+  EXPECT_TRUE(once.velocity_covariance().isApprox(twice.velocity_covariance(), 1e-12));
+}
+
+TEST(MotionFilter, ItsCovarianceIsHonest) {
+  // White noise of the measurements: errors are within three sigma nearly always.
+  RandomStream random(5);
+  const double sigma = 0.05;
+  int outside = 0;
+  const int runs = 200;
+  for (int run = 0; run < runs; ++run) {
+    MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.05, 1.0);
+    for (int i = 1; i <= 60; ++i) {
+      filter.predict(1.0 / 30.0, 1e-4);
+      Eigen::Vector3d noise;
+      for (double& value : noise) {
+        double sum = -6.0;
+        for (int k = 0; k < 12; ++k) sum += static_cast<double>(random.uniform());
+        value = sigma * sum;
+      }
+      filter.update(Eigen::Vector3d(i / 30.0, 0, 0) + noise, sigma);
+    }
+    const double error = filter.velocity().x() - 1.0;
+    if (std::abs(error) > 3.0 * std::sqrt(filter.velocity_covariance()(0, 0))) ++outside;
+  }
+  EXPECT_LT(outside, runs / 25);
+}
+
+TEST(MotionFilter, WhatComesIntoViewDoesNotRise) {
+  MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.1, 1.0);
+  for (int i = 1; i <= 60; ++i) {
+    filter.predict(1.0 / 30.0, 0.1);
+    filter.update({0.0, 0.0, std::min(1.0, 0.05 * i)}, 0.05);
+  }
+  EXPECT_NEAR(filter.velocity().norm(), 0.0, 1e-9);
+  EXPECT_NEAR(filter.position().z(), 1.0, 0.02);
+}
+
+TEST(MotionFilter, LimitsTheSpeedButNotTheDirection) {
+  MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.01, 100.0);
+  filter.predict(1.0, 0.1);
+  filter.update({3.0, 4.0, 0.0}, 0.001);
+  filter.limit_speed(2.5);
+  EXPECT_NEAR(filter.velocity().norm(), 2.5, 1e-9);
+  EXPECT_NEAR(filter.velocity().y() / filter.velocity().x(), 4.0 / 3.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace mms
