@@ -22,6 +22,7 @@ row() {
     --weights "$folder/weights.safetensors" -o "$folder/found"
   local ms
   ms="$(grep -oP '[0-9.]+(?= ms a picture)' "$out/log")"
+  echo "$ms" > "$folder/ms"
   "$mms" eval segmentation "$holdout/annotations.json" "$folder/found/results.json" --json \
     > "$folder/ap.json"
   # In the order of the file: of all classes, of people, of vehicles.

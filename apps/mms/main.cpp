@@ -13,6 +13,7 @@
 #include "info_command.hpp"
 #include "mms/core/error.hpp"
 #include "quantize_command.hpp"
+#include "reproduce_command.hpp"
 #include "run_command.hpp"
 #include "segment_command.hpp"
 #include "simulate_command.hpp"
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   mms::add_run_command(app);
   mms::add_eval_command(app);
+  mms::add_reproduce_command(app);
   mms::add_simulate_command(app);
   mms::add_segment_command(app);
   mms::add_quantize_command(app);

@@ -6,9 +6,13 @@
 
 namespace mms {
 
+PointCloudFile file_of(const MapCloud& map) {
+  return {map.points, map.normals, map.colors, {}, map.observations};
+}
+
 void write_result_files(const std::filesystem::path& folder, const Trajectory& trajectory,
                         const Trajectory& keyframes, const MapCloud& map) {
-  const PointCloudFile file{map.points, map.normals, map.colors, {}, map.observations};
+  const PointCloudFile file = file_of(map);
   write_trajectory_tum(folder / "trajectory.tum", trajectory);
   write_trajectory_kitti(folder / "trajectory_kitti.txt", trajectory);
   write_trajectory_tum(folder / "keyframes.tum", keyframes);

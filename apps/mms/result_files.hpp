@@ -3,9 +3,13 @@
 #include <filesystem>
 
 #include "mms/core/trajectory.hpp"
+#include "mms/io/point_cloud_file.hpp"
 #include "mms/mapping/map_cloud.hpp"
 
 namespace mms {
+
+/// A map as the files of point clouds take it.
+PointCloudFile file_of(const MapCloud& map);
 
 /// Writes trajectory.tum, trajectory_kitti.txt, keyframes.tum, static_map.ply and static_map.pcd.
 /// @throws FileError naming the file that cannot be written.

@@ -17,7 +17,7 @@ void write_robot_maps(const std::filesystem::path& folder, const OccupancyMap& o
   if (!config.enabled) return;
   const SensorAxes axes = is_depth ? SensorAxes::camera() : SensorAxes::lidar();
   const Floor floor = find_floor(map, axes.up, config.floor);
-  if (!floor.found) {
+  if (!floor.found && map.size() > 0) {
     fmt::print(stderr,
                "warning: no floor of {} m^2 was found within {} deg of level: map.yaml and map.bt "
                "take the first sensor pose for level and the lowest points for the floor (see "

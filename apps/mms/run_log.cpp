@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "mms/evaluation/statistics.hpp"
 #include "mms/evaluation/truth_frame.hpp"
 #include "overlay.hpp"
 #include "peak_memory.hpp"
@@ -41,7 +42,7 @@ void RunLog::add(const Processed& processed) {
   last_ = now;
   frames_.push_back({processed.frame.name, processed.frame.stamp, result.odometry.T_world_sensor,
                      result.odometry.status, result.keyframe, result.dynamic_share,
-                     processed.read_ms, interval.count(), result.stage_ms});
+                     processed.read_ms, interval.count(), result.stage_ms, processed.latency_ms});
   ObjectFrame& seen = objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
   for (const TrackedObject& object : result.objects) seen.objects.push_back(object.box);
   has_image_ = has_image_ || result.cloud.organised();
@@ -64,10 +65,11 @@ void RunLog::keep_picture(const Processed& processed) {
   picture_stride_ *= 2;
 }
 
-void RunLog::finish(std::size_t skipped, const SlamSystem& system) {
+void RunLog::finish(std::size_t skipped, const AsyncPipeline& pipeline, const SlamSystem& system) {
   sum_up_times();
+  sum_up_latency(pipeline);
   sum_up_accuracy();
-  metrics_.frames_skipped = static_cast<std::int64_t>(skipped);
+  metrics_.frames_skipped = static_cast<std::int64_t>(skipped + pipeline.dropped());
   metrics_.peak_rss_mb = peak_memory_mb();
   for (const LoggedFrame& frame : frames_) {
     ++metrics_.status[static_cast<std::size_t>(frame.status)];
@@ -89,6 +91,17 @@ void RunLog::sum_up_times() {
         to_string(static_cast<Stage>(i)),
         time_statistics(column(frames_, [i](const LoggedFrame& f) { return f.stage_ms[i]; })));
   }
+}
+
+void RunLog::sum_up_latency(const AsyncPipeline& pipeline) {
+  std::vector<double> latencies;
+  for (const LoggedFrame& frame : frames_) {
+    if (frame.latency_ms) latencies.push_back(*frame.latency_ms);
+  }
+  if (latencies.empty()) return;
+  metrics_.realtime = {time_statistics(latencies), maximum(latencies),
+                       static_cast<std::int64_t>(pipeline.dropped()),
+                       static_cast<std::int64_t>(pipeline.without_masks())};
 }
 
 void RunLog::sum_up_accuracy() {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct LoggedFrame {
   double read_ms = 0.0;
   double interval_ms = 0.0;  ///< wall time since the frame before was done
   StageTimes stage_ms{};
+  std::optional<double> latency_ms;  ///< in real time
 
   double stages_ms() const;  ///< sum of reading and all stages
 };
@@ -38,8 +40,8 @@ class RunLog {
   void add(const Processed& processed);
 
   /// Sums the run up once all frames are in.
-  /// @param skipped  frames that could not be read or were dropped
-  void finish(std::size_t skipped, const SlamSystem& system);
+  /// @param skipped  frames that could not be read
+  void finish(std::size_t skipped, const AsyncPipeline& pipeline, const SlamSystem& system);
 
   /// Compares the tracked objects with the true ones, in the frame of the truth poses.
   void compare_objects(const ObjectHistory& truth);
@@ -63,6 +65,7 @@ class RunLog {
  private:
   void keep_picture(const Processed& processed);
   void sum_up_times();
+  void sum_up_latency(const AsyncPipeline& pipeline);
   void sum_up_accuracy();
 
   Trajectory truth_;

@@ -12,6 +12,8 @@
 #include "mms/io/config_yaml.hpp"
 #include "mms/io/image_io.hpp"
 #include "mms/io/objects_io.hpp"
+#include "mms/io/ply_io.hpp"
+#include "mms/mapping/semantic_map.hpp"
 #include "result_files.hpp"
 #include "robot_maps.hpp"
 
@@ -53,16 +55,19 @@ std::vector<ReportFrame> report_frames(const RunLog& log) {
   return frames;
 }
 
-RunReport make_report(const std::string& data, const MapCloud& map, double voxel_size,
-                      const RunLog& log) {
+RunReport make_report(const std::string& data, const MapCloud& map, const MapCloud& with_objects,
+                      double voxel_size, const RunLog& log) {
   RunReport report;
   report.name = data;
   report.up = log.has_image() ? UpAxis::kNegativeY : UpAxis::kPositiveZ;
   for (const auto& [name, unused] : log.metrics().stages) report.stages.push_back(name);
   report.frames = report_frames(log);
   report.summary = metric_values(log.metrics());
-  report.map_view = draw_map(map.points, map.colors,
-                             {.up = report.up, .point_size = voxel_size, .max_height = kCeiling});
+  const MapPictureOptions view{.up = report.up, .point_size = voxel_size, .max_height = kCeiling};
+  report.map_view = draw_map(map.points, map.colors, view);
+  if (log.metrics().tracks > 0) {
+    report.objects_view = draw_map(with_objects.points, with_objects.colors, view);
+  }
   report.pictures = log.pictures();
   return report;
 }
@@ -77,6 +82,7 @@ void write_pictures(const std::filesystem::path& folder, const RunReport& report
                     "choose another folder with -o");
   }
   if (!report.map_view.empty()) write_png(folder / "map.png", report.map_view);
+  if (!report.objects_view.empty()) write_png(folder / "objects.png", report.objects_view);
   for (std::size_t i = 0; i < report.pictures.size(); ++i) {
     write_png(folder / fmt::format("frame_{:02}.png", i + 1), report.pictures[i].image);
   }
@@ -90,10 +96,13 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
   write_result_files(folder, log.trajectory(), log.keyframes(), map);
   write_robot_maps(folder, system.occupancy_map(), map, log.has_image());
   write_file(folder / "objects.json", objects_json(log.objects()));
+  const MapCloud with_objects = semantic_map(map, log.objects());
+  write_ply(folder / "semantic_map.ply", file_of(with_objects));
   write_file(folder / "config.yaml", dump_config(config));
   write_metrics(folder / "metrics.json", log.metrics());
   write_file(folder / "timing.csv", timing_csv(log));
-  const RunReport report = make_report(data, map, system.static_map().voxel_size(), log);
+  const RunReport report =
+      make_report(data, map, with_objects, system.static_map().voxel_size(), log);
   write_report_html(folder / "report.html", report);
   write_pictures(folder / "pictures", report);
 }

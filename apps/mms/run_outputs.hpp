@@ -10,8 +10,9 @@
 namespace mms {
 
 /// Writes a run's files into `folder`: trajectory.tum, trajectory_kitti.txt, keyframes.tum,
-/// static_map.ply, static_map.pcd, map.pgm, map.yaml, map.bt, objects.json, config.yaml,
-/// metrics.json, timing.csv, report.html, and the pictures in it as PNG files in pictures/.
+/// static_map.ply, static_map.pcd, semantic_map.ply, map.pgm, map.yaml, map.bt, objects.json,
+/// config.yaml, metrics.json, timing.csv, report.html, and the pictures in it as PNG files in
+/// pictures/.
 /// @param data  what was run, for the report's title
 /// @throws FileError naming the file that cannot be written.
 void write_outputs(const std::filesystem::path& folder, const std::string& data,

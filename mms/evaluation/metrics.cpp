@@ -30,6 +30,23 @@ Json status_json(const RunMetrics& metrics) {
   return object;
 }
 
+Json realtime_json(const RealtimeMetrics& metrics) {
+  Json latency = json_of(metrics.latency_ms);
+  latency["max"] = metrics.latency_max_ms;
+  return {{"latency_ms", std::move(latency)},
+          {"frames_dropped", metrics.dropped},
+          {"frames_without_masks", metrics.without_masks}};
+}
+
+std::vector<MetricValue> metric_values(const RealtimeMetrics& metrics) {
+  return {{"latency_mean", "latency, mean", metrics.latency_ms.mean, "ms", 1},
+          {"latency_p99", "latency, 99 % within", metrics.latency_ms.p99, "ms", 1},
+          {"latency_max", "latency, largest", metrics.latency_max_ms, "ms", 1},
+          {"frames_dropped", "frames dropped", static_cast<double>(metrics.dropped), "", 0},
+          {"frames_without_masks", "frames without masks of their own",
+           static_cast<double>(metrics.without_masks), "", 0}};
+}
+
 void append(std::vector<MetricValue>& values, const std::vector<MetricValue>& more) {
   values.insert(values.end(), more.begin(), more.end());
 }
@@ -50,6 +67,7 @@ std::string to_json(const RunMetrics& metrics) {
                  {"status", status_json(metrics)},
                  {"dynamic_share", metrics.dynamic_share},
                  {"tracks", metrics.tracks}};
+  if (metrics.realtime) object["realtime"] = realtime_json(*metrics.realtime);
   if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
   if (metrics.drift) object["drift"] = json_object(metric_values(*metrics.drift));
   if (metrics.map) object["map"] = json_object(metric_values(*metrics.map));
@@ -73,6 +91,7 @@ std::vector<MetricValue> metric_values(const RunMetrics& metrics) {
       {"peak_rss_mb", "peak memory", metrics.peak_rss_mb, "MiB", 0},
       {"dynamic_share", "dynamic share of the points", 100.0 * metrics.dynamic_share, "%", 1},
       {"tracks", "tracked objects", static_cast<double>(metrics.tracks), "", 0}};
+  if (metrics.realtime) append(values, metric_values(*metrics.realtime));
   if (metrics.trajectory) append(values, metric_values(*metrics.trajectory));
   if (metrics.drift && metrics.stood_still) {
     std::vector<MetricValue> drift = metric_values(*metrics.drift);

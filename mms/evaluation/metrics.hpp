@@ -29,6 +29,14 @@ struct TimeStatistics {
 /// All NaN for no times.
 TimeStatistics time_statistics(std::span<const double> milliseconds);
 
+/// How a run kept up with its sensor.
+struct RealtimeMetrics {
+  TimeStatistics latency_ms;  ///< from the sensor's giving a frame to its result
+  double latency_max_ms = 0.0;
+  std::int64_t dropped = 0;        ///< frames
+  std::int64_t without_masks = 0;  ///< frames that the network had no time for
+};
+
 /// What one run is summed up in: the content of metrics.json.
 struct RunMetrics {
   std::int64_t frames = 0;          ///< processed
@@ -40,6 +48,7 @@ struct RunMetrics {
   std::array<std::int64_t, kStatusCount> status{};             ///< frames of each mms::Status
   double dynamic_share = 0.0;                                  ///< mean over the frames, in [0, 1]
   std::int64_t tracks = 0;                                     ///< dynamic objects confirmed
+  std::optional<RealtimeMetrics> realtime;                     ///< of a run at the sensor's pace
   std::optional<TrajectoryError> trajectory;                   ///< where truth is there
   std::optional<Drift> drift;                                  ///< where truth is there
   std::optional<MapError> map;                                 ///< where the true map is known
@@ -48,8 +57,9 @@ struct RunMetrics {
   bool stood_still = true;  ///< by the truth; for a moving sensor drift is left out of tables
 };
 
-/// The JSON object with the contract's keys, indented, ended by a newline; `trajectory`, `drift`,
-/// `map`, `masks` and `objects` only where they are there, every status name always.
+/// The JSON object with the contract's keys, indented, ended by a newline; `realtime`,
+/// `trajectory`, `drift`, `map`, `masks` and `objects` only where they are there, every status name
+/// always.
 std::string to_json(const RunMetrics& metrics);
 
 /// Writes `to_json` to a file, at once or not at all. @throws FileError

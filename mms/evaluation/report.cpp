@@ -40,10 +40,9 @@ std::string image_element(const std::string& title, const Image<Rgb>& image,
          ";base64," + base64(bytes) + "\">";
 }
 
-std::string map_section(const RunReport& report) {
-  const std::string title = "Static map from above";
-  if (report.map_view.empty()) return section(title, "<p class=\"note\">no data</p>");
-  return section(title, image_element(title, report.map_view, "png", encode_png(report.map_view)));
+std::string map_section(const std::string& title, const Image<Rgb>& view) {
+  if (view.empty()) return section(title, "<p class=\"note\">no data</p>");
+  return section(title, image_element(title, view, "png", encode_png(view)));
 }
 
 std::string picture_section(const std::vector<ReportPicture>& pictures) {
@@ -72,7 +71,10 @@ std::string report_html(const RunReport& report) {
           escape_html(subtitle(report)) + "</p>\n";
   page += section("Summary", summary_table(report.summary));
   page += "<div class=\"pair\">" + section("Trajectory from above", trajectory_plot(report)) +
-          map_section(report) + "</div>\n";
+          map_section("Static map from above", report.map_view) + "</div>\n";
+  if (!report.objects_view.empty()) {
+    page += map_section("Where objects went and were last seen", report.objects_view);
+  }
   page += section(error_plot_title(report), error_plot(report));
   page += section("Time per stage", stage_plot(report));
   page += section("Dynamic share of the points", share_plot(report));

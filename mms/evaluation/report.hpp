@@ -38,7 +38,8 @@ struct RunReport {
   std::vector<std::string> stages;  ///< names, in the order of the pipeline
   std::vector<ReportFrame> frames;  ///< in the order of time
   std::vector<MetricValue> summary;
-  Image<Rgb> map_view;  ///< static map from above (draw_map)
+  Image<Rgb> map_view;      ///< static map from above (draw_map)
+  Image<Rgb> objects_view;  ///< the same with the tracked objects in it
   std::vector<ReportPicture> pictures;
 };
 

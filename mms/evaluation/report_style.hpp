@@ -24,6 +24,9 @@ tbody{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(310px,100%)
 tr{display:flex;justify-content:space-between;gap:12px;border-bottom:1px solid var(--rule)}
 th,td{padding:4px 0;font-weight:400;text-align:left}th{color:var(--dim)}
 td{font-variant-numeric:tabular-nums;font-weight:600;white-space:nowrap}
+.plain tbody{display:table-row-group}.plain tr{display:table-row}
+.plain th,.plain td{padding:4px 12px 4px 0;border-bottom:1px solid var(--rule);text-align:right}
+.plain th:first-child,.plain td:first-child{text-align:left}
 .plot{display:block;width:100%;height:auto}
 .plot text{fill:var(--dim);font-size:12px}
 .grid{stroke:var(--rule);stroke-width:1;fill:none}

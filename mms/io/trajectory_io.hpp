@@ -24,7 +24,8 @@ Trajectory read_trajectory_tum(const std::filesystem::path& path);
 Trajectory read_trajectory_kitti(const std::filesystem::path& path,
                                  std::span<const Timestamp> stamps = {});
 
-/// Whether the first pose of a file has KITTI's 12 numbers. @throws FileError when it cannot be read.
+/// Whether the first pose of a file has KITTI's 12 numbers. @throws FileError when it cannot be
+/// read.
 bool is_kitti_trajectory(const std::filesystem::path& path);
 
 /// Either of the two, told apart by the number of columns. @throws FileError, DataError.

@@ -2,23 +2,39 @@
 
 #include <tbb/global_control.h>
 
-#include <chrono>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "mms/core/bounded_queue.hpp"
+#include "mms/pipeline/mask_policy.hpp"
+#include "mms/pipeline/pace.hpp"
 
 namespace mms {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = Pace::Clock;
+
 constexpr std::size_t kQueueCapacity = 3;
+/// In real time a frame that waits is a frame that grows old.
+constexpr std::size_t kRealtimeCapacity = 1;
+
+constexpr std::chrono::milliseconds kPrompt{10};
+
+double milliseconds(Clock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
 
 struct Input {
   Frame frame;
   double read_ms = 0.0;
+  std::optional<Clock::time_point> due;  // in real time
+};
+
+struct Segmented {
+  Input input;
+  TimedSegmentation masks;
 };
 
 struct Perceived {
@@ -26,29 +42,23 @@ struct Perceived {
   Perception perception;
 };
 
+/// Whether a frame that comes to the segmentation has been there for a while.
+bool had_to_wait(const Input& input) {
+  return input.due && Clock::now() - *input.due > kPrompt;
+}
+
 std::optional<Input> read(const AsyncPipeline::Source& source) {
   const Clock::time_point start = Clock::now();
   std::optional<Frame> frame = source();
   if (!frame) return std::nullopt;
-  const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
-  return Input{std::move(*frame), elapsed.count()};
+  return Input{std::move(*frame), milliseconds(Clock::now() - start), std::nullopt};
 }
 
-/// Lets time pass until a frame would have come from the sensor.
-class Pace {
- public:
-  void wait_for(Timestamp stamp) {
-    if (!first_) {
-      first_ = stamp;
-      start_ = Clock::now();
-    }
-    std::this_thread::sleep_until(start_ + (stamp - *first_));
-  }
-
- private:
-  std::optional<Timestamp> first_;
-  Clock::time_point start_;
-};
+Processed finished(Input input, FrameResult result) {
+  std::optional<double> latency;
+  if (input.due) latency = milliseconds(Clock::now() - *input.due);
+  return {std::move(input.frame), std::move(result), input.read_ms, latency};
+}
 
 /// The first exception any of several threads threw.
 class FirstError {
@@ -66,6 +76,86 @@ class FirstError {
   std::exception_ptr error_;
 };
 
+/// The steps of one run, each for a thread of its own, and the queues between them.
+class Line {
+ public:
+  Line(SlamSystem& system, const AsyncOptions& options)
+      : system_(system),
+        options_(options),
+        inputs_(capacity(options)),
+        segmented_(capacity(options)),
+        perceived_(capacity(options)) {}
+
+  void read_all(const AsyncPipeline::Source& source, std::atomic<std::size_t>& dropped) {
+    Pace pace;
+    while (std::optional<Input> input = read(source)) {
+      if (options_.realtime) {
+        input->due = pace.wait_for(input->frame.stamp);
+        if (!inputs_.try_push(std::move(*input))) ++dropped;
+      } else if (!inputs_.push(std::move(*input))) {
+        break;
+      }
+    }
+    inputs_.close();
+  }
+
+  void segment_all(std::atomic<std::size_t>& without_masks) {
+    MaskPolicy policy(options_.max_mask_age);
+    while (std::optional<Input> input = inputs_.pop()) {
+      TimedSegmentation masks;
+      if (!options_.realtime || policy.wants_masks(input->frame.stamp, had_to_wait(*input))) {
+        masks = system_.segment(input->frame);
+      } else {
+        ++without_masks;
+      }
+      if (!segmented_.push({std::move(*input), std::move(masks)})) break;
+    }
+    segmented_.close();
+  }
+
+  void perceive_all() {
+    while (std::optional<Segmented> item = segmented_.pop()) {
+      Perception perception = system_.perceive(item->input.frame, item->masks);
+      if (!perceived_.push({std::move(item->input), std::move(perception)})) break;
+    }
+    perceived_.close();
+  }
+
+  void localize_all(const AsyncPipeline::Sink& sink) {
+    while (std::optional<Perceived> item = perceived_.pop()) {
+      FrameResult result = system_.localize(std::move(item->perception));
+      sink(finished(std::move(item->input), std::move(result)));
+    }
+  }
+
+  /// Runs one of the steps; when it throws all of them end.
+  template <class Step>
+  void guarded(const Step& step) {
+    try {
+      step();
+    } catch (...) {
+      error_.keep_current();
+      inputs_.close();
+      segmented_.close();
+      perceived_.close();
+    }
+  }
+
+  void rethrow() const { error_.rethrow(); }
+
+ private:
+  static std::size_t capacity(const AsyncOptions& options) {
+    return options.realtime ? kRealtimeCapacity : kQueueCapacity;
+  }
+
+  SlamSystem& system_;
+  AsyncOptions options_;
+  BoundedQueue<Input> inputs_;
+  BoundedQueue<Segmented> segmented_;
+  BoundedQueue<Perceived> perceived_;
+  FirstError error_;
+};
+
 }  // namespace
 
 void AsyncPipeline::run(SlamSystem& system, const Source& source, const Sink& sink) {
@@ -81,56 +171,20 @@ void AsyncPipeline::run(SlamSystem& system, const Source& source, const Sink& si
 void AsyncPipeline::run_serial(SlamSystem& system, const Source& source, const Sink& sink) {
   while (std::optional<Input> input = read(source)) {
     FrameResult result = system.process(input->frame);
-    sink({std::move(input->frame), std::move(result), input->read_ms});
+    sink(finished(std::move(*input), std::move(result)));
   }
 }
 
 void AsyncPipeline::run_threaded(SlamSystem& system, const Source& source, const Sink& sink) {
-  BoundedQueue<Input> inputs(kQueueCapacity);
-  BoundedQueue<Perceived> perceived(kQueueCapacity);
-  FirstError error;
-  const auto guarded = [&](const auto& work) {
-    try {
-      work();
-    } catch (...) {
-      error.keep_current();
-      inputs.close();
-      perceived.close();
-    }
-  };
-
-  std::thread reader([&] {
-    guarded([&] {
-      Pace pace;
-      while (std::optional<Input> input = read(source)) {
-        if (options_.realtime) {
-          pace.wait_for(input->frame.stamp);
-          if (!inputs.try_push(std::move(*input))) ++dropped_;
-        } else if (!inputs.push(std::move(*input))) {
-          break;
-        }
-      }
-      inputs.close();
-    });
-  });
-  std::thread perceiver([&] {
-    guarded([&] {
-      while (std::optional<Input> input = inputs.pop()) {
-        Perception perception = system.perceive(input->frame);
-        if (!perceived.push({std::move(*input), std::move(perception)})) break;
-      }
-      perceived.close();
-    });
-  });
-  guarded([&] {
-    while (std::optional<Perceived> item = perceived.pop()) {
-      FrameResult result = system.localize(std::move(item->perception));
-      sink({std::move(item->input.frame), std::move(result), item->input.read_ms});
-    }
-  });
+  Line line(system, options_);
+  std::thread reader([&] { line.guarded([&] { line.read_all(source, dropped_); }); });
+  std::thread segmenter([&] { line.guarded([&] { line.segment_all(without_masks_); }); });
+  std::thread perceiver([&] { line.guarded([&] { line.perceive_all(); }); });
+  line.guarded([&] { line.localize_all(sink); });
   reader.join();
+  segmenter.join();
   perceiver.join();
-  error.rethrow();
+  line.rethrow();
 }
 
 }  // namespace mms

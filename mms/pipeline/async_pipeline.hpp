@@ -13,20 +13,25 @@ namespace mms {
 
 struct AsyncOptions {
   int threads = 2;  ///< 1 runs every step in the calling thread
-  bool realtime =
-      false;  ///< frames come at their stamps' pace; those that find no room are dropped
+  /// Frames come at the pace of their stamps. Those that find no room are dropped; those that wait
+  /// while the network is at work on another go without masks of their own, as long as the last
+  /// ones are not older than `max_mask_age`: the fusion follows the objects meanwhile.
+  bool realtime = false;
+  double max_mask_age = 0.1;  ///< [s]; 0: every frame has masks of its own
 };
 
 /// A frame on its way out of the pipeline.
 struct Processed {
   Frame frame;
   FrameResult result;
-  double read_ms = 0.0;  ///< time the source took for the frame
+  double read_ms = 0.0;              ///< time the source took for the frame
+  std::optional<double> latency_ms;  ///< in real time: since the sensor gave the frame
 };
 
-/// Runs a SlamSystem over a stream: reading, perception and localisation of successive frames
-/// overlap in threads joined by bounded queues. The steps and their order are those of
-/// `SlamSystem::process`, so the results are the same bits for any number of threads.
+/// Runs a SlamSystem over a stream: reading, segmentation, fusion with features, and localisation
+/// of successive frames overlap in threads joined by bounded queues. The steps and their order are
+/// those of `SlamSystem::process`, so that without `realtime` the results are the same bits for any
+/// number of threads.
 class AsyncPipeline {
  public:
   using Source = std::function<std::optional<Frame>()>;
@@ -41,12 +46,16 @@ class AsyncPipeline {
   /// Frames dropped in real time so far.
   std::size_t dropped() const { return dropped_; }
 
+  /// Frames processed without masks of their own in real time so far.
+  std::size_t without_masks() const { return without_masks_; }
+
  private:
   void run_serial(SlamSystem& system, const Source& source, const Sink& sink);
   void run_threaded(SlamSystem& system, const Source& source, const Sink& sink);
 
   AsyncOptions options_;
-  std::atomic<std::size_t> dropped_ = 0;  // counted by the reading thread
+  std::atomic<std::size_t> dropped_ = 0;        // counted by the reading thread
+  std::atomic<std::size_t> without_masks_ = 0;  // counted by the segmenting thread
 };
 
 }  // namespace mms

@@ -40,16 +40,22 @@ SlamSystem::SlamSystem(const SystemConfig& given, std::unique_ptr<Segmenter> seg
       dynamic_map_(given.dynamic_map) {}
 
 FrameResult SlamSystem::process(const Frame& frame) {
-  return localize(perceive(frame));
+  return localize(perceive(frame, segment(frame)));
 }
 
-Perception SlamSystem::perceive(const Frame& frame) {
-  Perception p;
-  const Segmentation segmentation = timed(p.stage_ms, Stage::kSegmentation, [&] {
+TimedSegmentation SlamSystem::segment(const Frame& frame) {
+  StageTimes times{};
+  Segmentation segmentation = timed(times, Stage::kSegmentation, [&] {
     return segmenter_->segment(frame);  // III-A, eq. (1)
   });
+  return {std::move(segmentation), times[static_cast<std::size_t>(Stage::kSegmentation)]};
+}
+
+Perception SlamSystem::perceive(const Frame& frame, const TimedSegmentation& masks) {
+  Perception p;
+  p.stage_ms[static_cast<std::size_t>(Stage::kSegmentation)] = masks.ms;
   p.labeled = timed(p.stage_ms, Stage::kFusion, [&] {
-    return fusion_.fuse(frame, segmentation);  // III-B
+    return fusion_.fuse(frame, masks.segmentation);  // III-B
   });
   p.features = timed(p.stage_ms, Stage::kFeatures, [&] {
     return extractor_.extract(p.labeled);  // III-C.1, eq. (2)

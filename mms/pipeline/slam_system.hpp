@@ -16,7 +16,13 @@
 
 namespace mms {
 
-/// Output of a frame's steps that need no other frame (III-A, III-B, III-C.1).
+/// Output of III-A.
+struct TimedSegmentation {
+  Segmentation segmentation;
+  double ms = 0.0;
+};
+
+/// Output of a frame's steps before its pose is sought (III-A, III-B, III-C.1).
 struct Perception {
   LabeledCloud labeled;
   FeatureCloud features;
@@ -35,8 +41,9 @@ class SlamSystem {
   /// @throws DataError when the frame's images and calibration disagree in size.
   FrameResult process(const Frame& frame);
 
-  /// The two halves of `process`, for a pipeline that overlaps them between frames.
-  Perception perceive(const Frame& frame);
+  /// The parts of `process`, for a pipeline that overlaps them between frames.
+  TimedSegmentation segment(const Frame& frame);
+  Perception perceive(const Frame& frame, const TimedSegmentation& masks);
   FrameResult localize(Perception perception);
 
   const StaticMap& static_map() const { return static_map_; }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 
@@ -60,6 +62,7 @@ TEST_P(AsyncPipelineThreads, GivesTheBitsOfTheSynchronousSystem) {
   });
   EXPECT_EQ(next, kFrames);
   EXPECT_EQ(pipeline_.dropped(), 0U);
+  EXPECT_EQ(pipeline_.without_masks(), 0U);
   const MapCloud map = system.static_map().cloud();
   EXPECT_EQ(map.points, reference.static_map().cloud().points);
   EXPECT_EQ(map.colors, reference.static_map().cloud().colors);
@@ -131,11 +134,45 @@ TEST_P(AsyncPipelineThreads, EveryRealtimeFrameIsProcessedOrDropped) {
   std::int64_t last = -1;
   pipeline.run(system, burst, [&](const Processed& p) {
     EXPECT_GT(p.frame.index, last);
+    EXPECT_GE(p.latency_ms.value_or(-1.0), 0.0);
     last = p.frame.index;
     ++processed;
   });
   EXPECT_GT(processed, 0U);
   EXPECT_EQ(processed + pipeline.dropped(), 30U);
+}
+
+/// Finds nothing, slowly.
+class SlowSegmenter : public Segmenter {
+ public:
+  Segmentation segment(const Frame&) override {
+    ++calls;
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    return {};
+  }
+  static inline std::atomic<int> calls = 0;
+};
+
+TEST(AsyncPipelineRealtime, ASlowNetworkCostsMasksBeforeItCostsFrames) {
+  SlowSegmenter::calls = 0;
+  SystemConfig config;
+  config.fusion.stride = 4;
+  SlamSystem system(config, std::make_unique<SlowSegmenter>());
+  AsyncPipeline pipeline({.threads = 2, .realtime = true, .max_mask_age = 1.0});
+  std::size_t next = 0;
+  const auto source = [&]() -> std::optional<Frame> {
+    if (next == 20) return std::nullopt;
+    Frame frame = scene_frame(next % kFrames);
+    frame.index = static_cast<std::int64_t>(next);
+    frame.stamp = Timestamp(static_cast<std::int64_t>(next) * 40'000'000);
+    ++next;
+    return frame;
+  };
+  std::size_t processed = 0;
+  pipeline.run(system, source, [&](const Processed&) { ++processed; });
+  EXPECT_GT(pipeline.without_masks(), 0U);
+  EXPECT_EQ(static_cast<std::size_t>(SlowSegmenter::calls) + pipeline.without_masks(), processed);
+  EXPECT_EQ(processed + pipeline.dropped(), 20U);
 }
 
 }  // namespace

@@ -165,7 +165,8 @@ TEST(SlamSystem, ProcessIsPerceiveThenLocalize) {
   SlamSystem halves = mask_system();
   for (std::size_t i = 0; i < 5; ++i) {
     const FrameResult a = whole.process(scene_frame(i));
-    const FrameResult b = halves.localize(halves.perceive(scene_frame(i)));
+    const FrameResult b =
+        halves.localize(halves.perceive(scene_frame(i), halves.segment(scene_frame(i))));
     EXPECT_TRUE(testing::same_bits(a, b)) << i;
   }
 }

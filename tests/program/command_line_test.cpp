@@ -15,7 +15,8 @@ using Words = std::vector<std::string>;
 
 /// Commands and the words their help must name.
 const std::map<Words, Words> kCommands = {
-    {{}, {"run", "eval", "simulate", "convert", "info", "config", "doctor", "--version"}},
+    {{},
+     {"run", "eval", "reproduce", "simulate", "convert", "info", "config", "doctor", "--version"}},
     {{"run"},
      {"DATA", "-c,--config", "-o,--output", "--segmenter", "network", "masks", "none", "--masks",
       "--fusion", "multimodal", "vision", "--frames", "--start", "--realtime", "--threads",
@@ -27,6 +28,8 @@ const std::map<Words, Words> kCommands = {
     {{"import"}, {"CHECKPOINT", "-o,--output", "--classes", "--half"}},
     {{"eval", "trajectory"},
      {"REFERENCE", "ESTIMATE", "--json", "--max-difference", "--rpe-delta", "--rpe-unit"}},
+    {{"reproduce"},
+     {"DATA", "--ride", "-o,--output", "--trainings", "--segmenter", "--frames", "--threads"}},
     {{"eval", "drift"}, {"ESTIMATE", "--json"}},
     {{"eval", "map"}, {"TRUTH", "MAP", "--json"}},
     {{"eval", "residue"}, {"DATA", "MAP", "--json"}},
@@ -66,8 +69,8 @@ TEST(CommandLine, VersionIsOneLine) {
 TEST(CommandLine, WrongWordsAreUsageFaultsThatNameThem) {
   const TempFolder folder;
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
-  expect_usage_fault(run({}),
-                     "a command is wanted: run, eval, simulate, segment, quantize, import, ");
+  expect_usage_fault(
+      run({}), "a command is wanted: run, eval, reproduce, simulate, segment, quantize, import, ");
   expect_usage_fault(run({"rum"}), "'rum'");
   expect_usage_fault(run({"eval"}),
                      "a command is wanted: trajectory, drift, map, residue, segmentation or "

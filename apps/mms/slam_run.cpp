@@ -1,0 +1,142 @@
+#include "slam_run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "interrupt.hpp"
+#include "mms/core/error.hpp"
+#include "mms/dataset/open_dataset.hpp"
+#include "mms/io/config_yaml.hpp"
+#include "mms/pipeline/async_pipeline.hpp"
+#include "mms/segmentation/mask_segmenter.hpp"
+#include "mms/segmentation/none_segmenter.hpp"
+#include "network_detector.hpp"
+#include "run_outputs.hpp"
+
+namespace mms {
+namespace {
+
+void check_range(const RunOptions& options, const FrameSource& source) {
+  if (options.start < source.size()) return;
+  throw DataError("--start", fmt::format("is {}, but {} has {} frames", options.start, options.data,
+                                         source.size()));
+}
+
+SystemConfig load_settings(const RunOptions& options, const FrameSource& source) {
+  SystemConfig config;
+  const auto calibration = source.calibration();
+  if (calibration && calibration->max_depth) {
+    config.static_map.surface.max_depth = *calibration->max_depth;
+  }
+  if (!options.config.empty()) load_config(options.config, config);
+  if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
+  if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
+  if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;
+  return config;
+}
+
+std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
+  auto source = open_dataset(options.data,
+                             {.masks = options.masks, .load_masks = options.segmenter != "none"});
+  check_range(options, *source);
+  return source;
+}
+
+std::unique_ptr<Segmenter> make_segmenter(const RunOptions& options, const SystemConfig& config,
+                                          const FrameSource& source) {
+  if (options.segmenter == "none") return std::make_unique<NoneSegmenter>();
+  if (options.segmenter == "network") return make_network_segmenter(config.segmentation);
+  if (!source.has_masks()) {
+    throw DataError(options.data, "has no masks",
+                    "put label images into its masks/ folder, give --masks DIR, or choose "
+                    "--segmenter network or none");
+  }
+  return std::make_unique<MaskSegmenter>();
+}
+
+/// The frames asked for, and no more; none after Ctrl-C.
+AsyncPipeline::Source limited(FrameSource& source, const RunOptions& options) {
+  source.skip(options.start);
+  return [&source, left = options.frames]() mutable -> std::optional<Frame> {
+    if (left == 0 || InterruptGuard::requested()) return std::nullopt;
+    --left;
+    return source.next();
+  };
+}
+
+AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
+  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  AsyncOptions async{.threads = options.threads > 0 ? options.threads : cores,
+                     .realtime = options.realtime};
+  // Only the geometry follows an object without a mask.
+  if (config.fusion.mode != FusionMode::kMultimodal) async.max_mask_age = 0.0;
+  return async;
+}
+
+}  // namespace
+
+SlamRun::SlamRun(const RunOptions& options)
+    : options_(options),
+      source_(open_source(options)),
+      config_(load_settings(options, *source_)),
+      system_(config_, make_segmenter(options, config_, *source_)),
+      progress_(std::min(options.frames, source_->size() - options.start)) {}
+
+void SlamRun::play(const std::filesystem::path& folder) {
+  try {
+    process(folder);
+  } catch (...) {
+    journal_.reset();  // it keeps the frames there are, or goes before its folder does
+    throw;
+  }
+}
+
+void SlamRun::process(const std::filesystem::path& folder) {
+  const auto warn = [this](const std::string& message) { progress_.warn(message); };
+  source_->on_warning(warn);
+  journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, warn);
+  log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network");
+  const InterruptGuard interrupt;
+  AsyncPipeline pipeline(threads_of(options_, config_));
+  pipeline.run(system_, limited(*source_, options_), [&](const Processed& processed) {
+    journal_->add(processed, system_);
+    log_->add(processed);
+    progress_.show(*log_);
+  });
+  progress_.finish();
+  if (InterruptGuard::requested()) progress_.warn("interrupted, writing what is done so far");
+  log_->finish(source_->skipped(), pipeline, system_);
+  if (log_->frames().empty()) {
+    throw DataError(options_.data,
+                    fmt::format("none of its {} frames could be processed", source_->size()),
+                    "the warnings above say why; mms info DATA explains what was found");
+  }
+  compare_with_truth();
+}
+
+/// Truth that cannot be read costs the comparison, not the run.
+void SlamRun::compare_with_truth() {
+  const auto attempt = [&](const std::string& what, const auto& compare) {
+    try {
+      compare();
+    } catch (const Error& error) {
+      progress_.warn(what + " not evaluated: " + error.what());
+    }
+  };
+  attempt("the map is", [&] {
+    const std::optional<TruthCloud> truth = source_->map_truth();
+    if (truth) log_->compare_map(*truth, system_.static_map().cloud().points);
+  });
+  attempt("the objects are", [&] { log_->compare_objects(source_->objects_truth()); });
+}
+
+void SlamRun::write(const std::filesystem::path& folder) {
+  write_outputs(folder, options_.data, config_, system_, *log_);
+  if (!options_.keep_journal) journal_->remove();
+}
+
+}  // namespace mms
