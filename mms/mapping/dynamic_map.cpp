@@ -56,8 +56,9 @@ void DynamicMap::begin_new(const std::vector<ObjectMeasurement>& objects,
 }
 
 void DynamicMap::confirm(Track& track) {
+  const auto& prior = config_.track.classes[static_cast<std::size_t>(track.object_class())];
   const bool enough = track.observations() >= config_.confirm_after;
-  if (track.confirmed() || !enough || track.score() < config_.min_score) return;
+  if (track.confirmed() || !enough || track.score() < prior.min_score) return;
   track.confirm();
   ++confirmed_;
 }

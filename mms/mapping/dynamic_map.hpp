@@ -16,8 +16,7 @@ struct DynamicMapConfig {
   AssociationConfig association;
   TrackConfig track;
   int confirm_after = 4;
-  double min_score = 0.5;
-  double max_missed = 2.0;  ///< [s]
+  double max_missed = 4.0;  ///< [s]
   double max_shown = 0.5;   ///< [s]
 
   void visit(ConfigVisitor& v) {
@@ -25,8 +24,6 @@ struct DynamicMapConfig {
     v.group({"track", "", "how objects move and are seen"}, track);
     v.integer({"confirm_after", "", "observations that make a tentative track one"}, confirm_after,
               {1.0, 100.0});
-    v.number({"min_score", "", "mean confidence of a track's masks that makes it an object"},
-             min_score, {0.0, 1.0});
     v.number({"max_missed", "s", "longest time a track goes on unseen"}, max_missed, {0.0, 60.0});
     v.number({"max_shown", "s", "longest time an unseen object is given as there"}, max_shown,
              {0.0, 60.0});

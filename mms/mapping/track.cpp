@@ -45,7 +45,7 @@ Track::Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
       predicted_(first.stamp),
       motion_(first.centroid, ground.up(), kFirstPositionSigma, kFirstVelocitySigma),
       heading_(ground.heading_of(first.sensor - first.centroid)),
-      size_(config.sizes[static_cast<std::size_t>(first.object_class)].vector()) {
+      size_(config.classes[static_cast<std::size_t>(first.object_class)].size()) {
   ++votes_[static_cast<std::size_t>(first.object_class)];
   learn_heading(first);
   motion_ = MotionFilter(fit(first, std::nullopt).center, ground.up(), kFirstPositionSigma,

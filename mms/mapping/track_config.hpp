@@ -8,19 +8,22 @@
 
 namespace mms {
 
-/// What an object of a class is taken for until its sides were seen.
-struct TypicalSize {
+/// What is known of the objects of a class before one was seen.
+struct ClassPrior {
   double length = 0.5;  ///< along its way [m]
   double width = 0.5;   ///< [m]
   double height = 1.7;  ///< [m]
+  double min_score = 0.35;
 
-  Eigen::Vector3d vector() const { return {length, width, height}; }
+  Eigen::Vector3d size() const { return {length, width, height}; }
 
   void visit(ConfigVisitor& v) {
     constexpr Range kSize = {0.05, 30.0};
     v.number({"length", "m", "along its way"}, length, kSize);
     v.number({"width", "m", "across its way"}, width, kSize);
     v.number({"height", "m", "from the floor up"}, height, kSize);
+    v.number({"min_score", "", "mean confidence of its masks that makes it an object"}, min_score,
+             {0.0, 1.0});
   }
 };
 
@@ -32,7 +35,7 @@ struct TrackConfig {
   double max_speed = 3.0;           ///< [m/s]
   double moving_speed = 0.3;        ///< [m/s]
   double stopped_speed = 0.15;      ///< [m/s]
-  std::array<TypicalSize, kObjectClassCount> sizes{{{0.5, 0.5, 1.7}, {1.2, 0.8, 1.2}}};
+  std::array<ClassPrior, kObjectClassCount> classes{{{0.5, 0.5, 1.7, 0.35}, {1.2, 0.8, 1.2, 0.5}}};
 
   void visit(ConfigVisitor& v) {
     v.number({"acceleration_noise", "m^2/s^3", "how quickly objects change their velocity"},
@@ -46,8 +49,8 @@ struct TrackConfig {
              {0.0, 10.0});
     v.number({"stopped_speed", "m/s", "below which a moving object is said to stand"},
              stopped_speed, {0.0, 10.0});
-    v.group({"person", "", "a person's size before it was seen"}, sizes[0]);
-    v.group({"agv", "", "a vehicle's size before it was seen"}, sizes[1]);
+    v.group({"person", "", "a person before it was seen"}, classes[0]);
+    v.group({"agv", "", "a vehicle before it was seen"}, classes[1]);
   }
 };
 

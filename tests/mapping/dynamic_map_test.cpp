@@ -88,8 +88,8 @@ TEST(DynamicMap, CoastsBehindAPillarAndEndsAfterThat) {
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].box.id, 1);
   EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
-  for (int i = 33; i < 70; ++i) give(map, i, {});
-  for (int i = 70; i < 75; ++i) give(map, i, {at(i)});
+  for (int i = 33; i < 100; ++i) give(map, i, {});
+  for (int i = 100; i < 105; ++i) give(map, i, {at(i)});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].box.id, 2);
 }
@@ -114,7 +114,7 @@ TEST(DynamicMap, OneThatStandsForTwentySecondsStaysTheSameObject) {
 TEST(DynamicMap, DropsWhatWasSeenOnlyOnce) {
   DynamicMap map;
   give(map, 0, {cluster_at({0.0F, 0.0F, 2.0F})});
-  for (int i = 1; i < 40; ++i) give(map, i, {});
+  for (int i = 1; i < 80; ++i) give(map, i, {});
   EXPECT_TRUE(map.objects().empty());
   EXPECT_EQ(map.confirmed(), 0);
 }
@@ -166,13 +166,13 @@ TEST(DynamicMap, OneWhoJoinsAnotherAndLeavesIsTheSame) {
 TEST(DynamicMap, WhatTheNetworkDoubtsIsNoObject) {
   DynamicMap map;
   DynamicCluster doubtful = cluster_at({0.0F, 0.0F, 2.0F});
-  doubtful.score = 0.35F;
+  doubtful.score = 0.2F;
   for (int i = 0; i < 10; ++i) give(map, i, {doubtful});
   EXPECT_TRUE(map.objects().empty());
   doubtful.score = 0.9F;
   for (int i = 10; i < 15; ++i) give(map, i, {doubtful});
   ASSERT_EQ(map.objects().size(), 1U);
-  EXPECT_NEAR(map.objects()[0].box.score, (10 * 0.35 + 5 * 0.9) / 15, 1e-6);
+  EXPECT_NEAR(map.objects()[0].box.score, (10 * 0.2 + 5 * 0.9) / 15, 1e-6);
 }
 
 TEST(DynamicMap, WhatIsOnlyRememberedBeginsNoObjectButKeepsOne) {
