@@ -7,12 +7,20 @@
 namespace mms {
 namespace {
 
+/// Nobody knows the way of an object that was unseen for longer [s].
+constexpr double kLongestGap = 0.5;
+
 constexpr Rgb kRed = {230, 30, 30};
 constexpr Rgb kGreen = {30, 190, 60};
 
 Rgb color_of(ObjectClass object_class) {
   return object_class == ObjectClass::kPerson ? kRed : kGreen;
 }
+
+struct Seen {
+  Timestamp stamp;
+  const ObjectBox* box = nullptr;
+};
 
 /// Draws lines of points into a map.
 class Pen {
@@ -64,15 +72,18 @@ Eigen::Vector3d foot(const ObjectBox& object) {
 
 MapCloud semantic_map(MapCloud map, const ObjectHistory& history, double spacing) {
   Pen pen(map, spacing);
-  std::map<int, const ObjectBox*> last;
+  std::map<int, Seen> last;
   for (const ObjectFrame& frame : history) {
     for (const ObjectBox& object : frame.objects) {
-      const auto [known, is_new] = last.try_emplace(object.id, &object);
-      if (!is_new) pen.line(foot(*known->second), foot(object), color_of(object.object_class));
-      known->second = &object;
+      const auto [known, is_new] = last.try_emplace(object.id, Seen{frame.stamp, &object});
+      const Seen& before = known->second;
+      if (!is_new && to_seconds(frame.stamp - before.stamp) <= kLongestGap) {
+        pen.line(foot(*before.box), foot(object), color_of(object.object_class));
+      }
+      known->second = {frame.stamp, &object};
     }
   }
-  for (const auto& [id, object] : last) pen.box(*object);
+  for (const auto& [id, seen] : last) pen.box(*seen.box);
   return map;
 }
 

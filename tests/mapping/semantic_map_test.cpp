@@ -66,5 +66,16 @@ TEST(SemanticMap, AWayRunsOverTheFloorToTheLastBox) {
   EXPECT_TRUE(std::all_of(map.colors.begin(), map.colors.end(), [](Rgb c) { return c.r > c.g; }));
 }
 
+TEST(SemanticMap, TheWayHasAGapWhereNobodySawIt) {
+  ObjectHistory history;
+  for (const int second : {0, 2}) {
+    history.push_back({Timestamp(second * 1'000'000'000LL),
+                       {object(3, ObjectClass::kPerson, {3.0 * second, 0, 1})}});
+  }
+  const MapCloud map = semantic_map({}, history, kSpacing);
+  EXPECT_TRUE(std::all_of(map.points.begin(), map.points.end(),
+                          [](const Eigen::Vector3f& p) { return p.x() > 5.0F; }));
+}
+
 }  // namespace
 }  // namespace mms
