@@ -36,8 +36,8 @@ void localise(const std::string& data) {
     print(*frame, system.process(*frame));
   }
 
-  std::printf("static map: %zu points without the %zu objects that moved\n",
-              system.static_map().cloud().points.size(), system.dynamic_map().tracks().size());
+  std::printf("static map: %zu points without the %d people and vehicles\n",
+              system.static_map().cloud().points.size(), system.dynamic_map().confirmed());
 }
 
 }  // namespace
