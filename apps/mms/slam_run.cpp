@@ -95,12 +95,22 @@ void SlamRun::play(const std::filesystem::path& folder) {
   }
 }
 
+/// The network plans its work at its first picture, which would cost the first frames in real time.
+void SlamRun::warm_up() {
+  const auto calibration = source_->calibration();
+  if (options_.segmenter != "network" || !calibration || !calibration->camera) return;
+  Frame frame;
+  frame.color = Image<Rgb>(calibration->camera->width, calibration->camera->height);
+  system_.segment(frame);
+}
+
 void SlamRun::process(const std::filesystem::path& folder) {
   const auto warn = [this](const std::string& message) { progress_.warn(message); };
   source_->on_warning(warn);
   journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, warn);
   log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network");
   const InterruptGuard interrupt;
+  if (options_.realtime) warm_up();
   AsyncPipeline pipeline(threads_of(options_, config_));
   pipeline.run(system_, limited(*source_, options_), [&](const Processed& processed) {
     journal_->add(processed, system_);

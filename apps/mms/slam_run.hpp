@@ -32,6 +32,7 @@ class SlamRun {
   const RunOptions& options() const { return options_; }
 
  private:
+  void warm_up();
   void process(const std::filesystem::path& folder);
   void compare_with_truth();
 
