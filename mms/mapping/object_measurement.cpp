@@ -65,7 +65,10 @@ std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
   if (cloud.organised()) cuts = find_cuts(cloud);
   std::vector<ObjectMeasurement> objects;
   for (std::size_t c = 0; c < cloud.clusters.size(); ++c) {
-    if (is_secondary(cloud, c)) continue;
+    const DynamicCluster& cluster = cloud.clusters[c];
+    const bool has_place =
+        !indices[c].empty() || (cluster.box_min.allFinite() && cluster.box_max.allFinite());
+    if (!has_place || is_secondary(cloud, c)) continue;
     ObjectMeasurement& object = objects.emplace_back();
     object.stamp = cloud.stamp;
     object.object_class = cloud.clusters[c].object_class;
@@ -75,7 +78,7 @@ std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
     object.cut = cuts[c];
     if (indices[c].empty()) {
       object.points = corners(cloud.clusters[c]);
-      object.centroid = cloud.clusters[c].centroid.cast<double>();
+      object.centroid = 0.5 * (object.points.front() + object.points.back());
     } else {
       measure_points(cloud, indices[c], object);
     }

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "mms/core/object_box.hpp"
@@ -18,10 +17,6 @@ enum class TrackState {
   kActive,
   kCoasting,  ///< not seen; expected where its velocity takes it
 };
-
-constexpr std::string_view to_string(TrackState state) {
-  return state == TrackState::kActive ? "active" : "coasting";
-}
 
 /// One dynamic object over time, in the world frame: a box with heading and size learned from all
 /// views, and a motion.

@@ -198,6 +198,17 @@ TEST(DynamicMap, WhatElseAMaskCoversIsNoObject) {
   EXPECT_LT(map.objects()[0].box.center().z(), 2.5);
 }
 
+TEST(DynamicMap, AClusterWithoutPointsIsWhereItsBoxIsAndOneWithoutABoxIsNowhere) {
+  DynamicMap map;
+  DynamicCluster lost_points = cluster_at({0.0F, 0.0F, 3.0F});
+  lost_points.centroid.setZero();
+  DynamicCluster no_box = lost_points;
+  no_box.box_min.setConstant(NAN);
+  for (int i = 0; i < 10; ++i) give(map, i, {no_box, lost_points});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_NEAR(map.objects()[0].box.center().z(), 3.0, 0.3);
+}
+
 TEST(DynamicMap, IgnoresFramesOutOfOrder) {
   DynamicMap map;
   for (const int index : {3, 3, 1, 3}) give(map, index, {cluster_at({0.0F, 0.0F, 2.0F})});
