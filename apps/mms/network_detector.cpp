@@ -32,13 +32,6 @@ engine::Quantization quantization_of(const SegmentationModel& model, const std::
                   "calibrate it with mms quantize");
 }
 
-/// Takes another size of input, of the same shape.
-void resize_input(NetworkConfig& network, int long_side) {
-  const double scale = static_cast<double>(long_side) / network.long_side;
-  network.short_side = static_cast<int>(std::lround(scale * network.short_side));
-  network.long_side = long_side;
-}
-
 std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig& config) {
   const std::string where = path.string();
   SegmentationModel model = unpack_model(read_safetensors(path), where);
@@ -69,6 +62,12 @@ std::unique_ptr<Detector> make_detector(const SegmentationConfig& config) {
     return std::make_unique<OnnxDetector>(path, config.onnx, config.threads);
   }
   return make_solo(path, config);
+}
+
+void resize_input(NetworkConfig& network, int long_side) {
+  const double scale = static_cast<double>(long_side) / network.long_side;
+  network.short_side = static_cast<int>(std::lround(scale * network.short_side));
+  network.long_side = long_side;
 }
 
 std::unique_ptr<Segmenter> make_network_segmenter(const SegmentationConfig& config) {

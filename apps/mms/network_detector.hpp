@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "mms/segmentation/detector.hpp"
+#include "mms/segmentation/network_config.hpp"
 #include "mms/segmentation/segmentation_config.hpp"
 #include "mms/segmentation/segmenter.hpp"
 
@@ -17,6 +18,9 @@ std::filesystem::path default_weights();
 /// @throws FileError, DataError when the file cannot be read or holds no such network; Error when
 ///         the program was built without what it takes.
 std::unique_ptr<Detector> make_detector(const SegmentationConfig& config);
+
+/// Gives the network's input another long side [px] and keeps its shape.
+void resize_input(NetworkConfig& network, int long_side);
 
 std::unique_ptr<Segmenter> make_network_segmenter(const SegmentationConfig& config);
 

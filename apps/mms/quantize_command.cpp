@@ -11,6 +11,7 @@
 #include "mms/core/error.hpp"
 #include "mms/io/safetensors.hpp"
 #include "mms/segmentation/engine/calibration.hpp"
+#include "network_detector.hpp"
 #include "picture_source.hpp"
 #include "rate_progress.hpp"
 
@@ -25,6 +26,7 @@ struct QuantizeArguments {
   std::vector<std::string> data;
   std::vector<std::string> float_layers;
   std::size_t images = 300;
+  int long_side = 0;
   std::size_t judged = 8;
   bool sensitivity = false;
 };
@@ -100,6 +102,7 @@ void quantize(const QuantizeArguments& arguments) {
   const InterruptGuard interrupt;
   const std::string where = arguments.weights.string();
   SegmentationModel model = unpack_model(read_safetensors(arguments.weights), where);
+  if (arguments.long_side > 0) resize_input(model.network, arguments.long_side);
   const std::vector<PreparedImage> pictures = pictures_of(arguments, model.network);
   const engine::Quantization quantization = calibrated(model, arguments, pictures);
   const std::vector<PreparedImage> judged = some_of(pictures, arguments.judged);
@@ -132,6 +135,10 @@ void add_quantize_command(CLI::App& app) {
   command->add_option("--images", arguments->images, "pictures to look at")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100000}))
       ->capture_default_str();
+  command
+      ->add_option("--long-side", arguments->long_side,
+                   "input of the written network [px]; without it that of the training")
+      ->check(CLI::Range(96, 4096));
   command
       ->add_option("--float-layers", arguments->float_layers,
                    "convolutions to leave in float32, with commas")
