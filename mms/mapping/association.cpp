@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "mms/geometry/assignment.hpp"
 
@@ -11,7 +12,6 @@ namespace {
 
 constexpr double kGateSigmas = 2.0;
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr float kColorRange = 255.0F;
 
 double gate_of(const Track& track, const AssociationConfig& config) {
   const double sigma = std::sqrt(track.position_covariance().diagonal().maxCoeff());
@@ -26,11 +26,11 @@ double cost_of(const Track& track, const ObjectMeasurement& object,
   if (!is_near && !track.contains(object.centroid, 0.0)) return kNever;
   double cost = distance / config.gate_radius;
   if (track.object_class() != object.object_class) cost += config.class_penalty;
-  if (track.has_color() && object.has_color) {
-    const float difference = (track.color() - object.color).norm() / kColorRange;
-    cost += config.color_penalty * static_cast<double>(difference);
-  }
-  return cost;
+  const std::optional<double> difference = track.appearance().difference(object.appearance);
+  const bool is_back = distance > config.gate_radius;
+  const double allowed = is_back ? config.returning_color_difference : config.max_color_difference;
+  if (difference && *difference > allowed) return kNever;
+  return cost + config.color_penalty * difference.value_or(0.0);
 }
 
 }  // namespace

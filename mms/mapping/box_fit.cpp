@@ -13,6 +13,8 @@ constexpr double kFacing = 0.25;        // sine of the angle at which a face is 
 constexpr double kRightness = 0.3;      // cosine at which an end is at the image's left or right
 constexpr double kMuchOfIt = 0.8;       // share of a size, below which a part is missing
 constexpr double kSidePoint = 0.02;     // distance to a rectangle's side that counts as on it [m]
+constexpr double kFloorError = 0.2;     // of its height [m]
+constexpr double kHiddenBelow = 1.2;    // of what stands on the floor [m]
 constexpr int kHeadingSteps = 45;       // over a quarter of a turn
 constexpr std::size_t kHeadingPoints = 100;  // that a heading is found from
 
@@ -74,6 +76,12 @@ double middle_of(const Interval& seen, const Ends& ends, double size) {
   return ends.low ? seen.low + 0.5 * size : seen.high - 0.5 * size;
 }
 
+/// Whether what was seen of something reaches, seen or not, down to the floor.
+bool stands_on(const std::optional<double>& floor, const Interval& seen) {
+  return floor && seen.low > *floor - kFloorError && seen.low < *floor + kHiddenBelow &&
+         seen.high > *floor;
+}
+
 }  // namespace
 
 BoxFit fit_box(const ObjectMeasurement& object, const GroundFrame& ground, double heading,
@@ -85,16 +93,19 @@ BoxFit fit_box(const ObjectMeasurement& object, const GroundFrame& ground, doubl
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = axes.col(k);
     const bool upright = k == 2;
-    const Interval seen = interval_along(object, axis, upright ? kUprightTrim : kTrim);
+    Interval seen = interval_along(object, axis, upright ? kUprightTrim : kTrim);
+    const bool stands = upright && stands_on(ground.floor(), seen);
+    if (stands) seen.low = *ground.floor();
     // A horizontal axis runs along the face that looks along the other one.
     const bool side_in_view = upright || std::abs(view.dot(axes.col(1 - k))) > kFacing;
-    const Ends uncut = uncut_ends(object, axis, upright);
+    Ends uncut = uncut_ends(object, axis, upright);
+    uncut.low = uncut.low || stands;
     const Ends unhidden = unhidden_ends(axis.dot(object.sensor), seen, side_in_view);
     Ends ends = {uncut.low && unhidden.low, uncut.high && unhidden.high};
     // More than the size known was seen: nothing is hidden.
     if (seen.high - seen.low >= size[k]) ends = {};
     const bool both = ends.low && ends.high;
-    if (both && expected && seen.high - seen.low < kMuchOfIt * size[k]) {
+    if (both && expected && !stands && seen.high - seen.low < kMuchOfIt * size[k]) {
       ends = nearer_end(seen, axis.dot(*expected), size[k]);
     }
     const auto i = static_cast<std::size_t>(k);

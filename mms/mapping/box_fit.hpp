@@ -23,7 +23,7 @@ struct BoxFit {
 /// is hidden, cut off or turned away does not pull the box. The far end of an axis is in view where
 /// the sensor looks at a face along it.
 /// Points that fill much less than the size known hold to the end that is nearer to where it is
-/// expected: a part of the object gives no returns.
+/// expected: a part of the object gives no returns. Where the floor is known, objects stand on it.
 /// @param heading   of the box's length [rad]
 /// @param size      length, width, height as known so far [m]
 /// @param expected  where the middle is expected (world frame [m]); nothing for a new object

@@ -21,15 +21,38 @@ Eigen::Vector3d nominal_up(const LabeledCloud& cloud) {
 void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odometry) {
   if (cloud.stamp <= last_stamp_ || !odometry.T_world_sensor.is_finite()) return;
   last_stamp_ = cloud.stamp;
-  if (!ground_) ground_.emplace(nominal_up(cloud));
-  for (Track& track : tracks_) track.predict(cloud.stamp);
-  const std::vector<ObjectMeasurement> objects = measure_objects(cloud, odometry.T_world_sensor);
+  watch_ground(cloud, odometry.T_world_sensor);
+  for (Track& track : tracks_) {
+    track.set_ground(*ground_);
+    track.predict(cloud.stamp);
+  }
+  const std::vector<ObjectMeasurement> objects =
+      measure_objects(cloud, odometry.T_world_sensor, *ground_);
   const std::vector<int> track_of = associate(tracks_, objects, config_.association);
   extend(objects, track_of);
   begin_new(objects, track_of);
-  std::erase_if(tracks_, [&](const Track& track) {
-    return to_seconds(last_stamp_ - track.last_seen()) > config_.max_missed;
-  });
+  let_go();
+}
+
+void DynamicMap::let_go() {
+  for (const Track& track : tracks_) {
+    if (track.confirmed() && is_over(track)) lost_.add(track);
+  }
+  std::erase_if(tracks_, [&](const Track& track) { return is_over(track); });
+  lost_.forget(last_stamp_);
+}
+
+bool DynamicMap::is_over(const Track& track) const {
+  return track.confirmed() ? to_seconds(last_stamp_ - track.last_seen()) > config_.max_missed
+                           : to_seconds(last_stamp_ - track.last_named()) > config_.max_tentative;
+}
+
+void DynamicMap::watch_ground(const LabeledCloud& cloud,
+                              const Transform<World, Sensor>& T_world_sensor) {
+  if (!ground_) ground_.emplace(nominal_up(cloud));
+  floor_watch_.update(cloud, T_world_sensor, ground_->up());
+  const std::optional<Floor>& floor = floor_watch_.floor();
+  if (floor) ground_.emplace(floor->up, floor->height);
 }
 
 void DynamicMap::extend(const std::vector<ObjectMeasurement>& objects,
@@ -59,6 +82,10 @@ void DynamicMap::confirm(Track& track) {
   const auto& prior = config_.track.classes[static_cast<std::size_t>(track.object_class())];
   const bool enough = track.observations() >= config_.confirm_after;
   if (track.confirmed() || !enough || track.score() < prior.min_score) return;
+  if (const std::optional<Track> lost = lost_.take(track)) {
+    track.continue_as(*lost);
+    return;
+  }
   track.confirm();
   ++confirmed_;
 }

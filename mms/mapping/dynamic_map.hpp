@@ -8,6 +8,8 @@
 #include "mms/core/object_box.hpp"
 #include "mms/core/odometry_estimate.hpp"
 #include "mms/mapping/association.hpp"
+#include "mms/mapping/floor_watch.hpp"
+#include "mms/mapping/lost_tracks.hpp"
 #include "mms/mapping/track.hpp"
 
 namespace mms {
@@ -16,8 +18,10 @@ struct DynamicMapConfig {
   AssociationConfig association;
   TrackConfig track;
   int confirm_after = 4;
-  double max_missed = 4.0;  ///< [s]
-  double max_shown = 0.5;   ///< [s]
+  double max_missed = 1.5;     ///< [s]
+  double max_tentative = 0.3;  ///< [s]
+  double max_shown = 0.5;      ///< [s]
+  ReturnConfig returning;
 
   void visit(ConfigVisitor& v) {
     v.group({"association", "", "which object continues which track"}, association);
@@ -25,8 +29,11 @@ struct DynamicMapConfig {
     v.integer({"confirm_after", "", "observations that make a tentative track one"}, confirm_after,
               {1.0, 100.0});
     v.number({"max_missed", "s", "longest time a track goes on unseen"}, max_missed, {0.0, 60.0});
+    v.number({"max_tentative", "s", "the same for a tentative one, unseen by the network"},
+             max_tentative, {0.0, 60.0});
     v.number({"max_shown", "s", "longest time an unseen object is given as there"}, max_shown,
              {0.0, 60.0});
+    v.group({"returning", "", "objects that come back after they were lost"}, returning);
   }
 };
 
@@ -45,7 +52,8 @@ struct TrackedObject {
 /// and cost do not grow with the length of a run.
 class DynamicMap {
  public:
-  explicit DynamicMap(const DynamicMapConfig& config = {}) : config_(config) {}
+  explicit DynamicMap(const DynamicMapConfig& config = {})
+      : config_(config), lost_(config.returning) {}
 
   /// Adds a frame; every frame, keyframe or not. A frame that is not later than the last one or has
   /// no finite pose changes nothing.
@@ -58,15 +66,20 @@ class DynamicMap {
   int confirmed() const { return confirmed_; }
 
  private:
+  void watch_ground(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
   void extend(const std::vector<ObjectMeasurement>& objects, const std::vector<int>& track_of);
   void begin_new(const std::vector<ObjectMeasurement>& objects, const std::vector<int>& track_of);
   bool is_part_of_a_track(const ObjectMeasurement& object) const;
   bool is_shared(const ObjectMeasurement& object, const std::vector<bool>& has_own) const;
   void confirm(Track& track);
+  void let_go();
+  bool is_over(const Track& track) const;
 
   DynamicMapConfig config_;
+  FloorWatch floor_watch_;
   std::optional<GroundFrame> ground_;
   std::vector<Track> tracks_;
+  LostTracks lost_;
   Timestamp last_stamp_{-1};
   int next_id_ = 1;
   int confirmed_ = 0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 
 namespace mms {
 
@@ -9,8 +10,10 @@ namespace mms {
 /// view) or, where that is the upright one, its x axis, taken to the horizontal.
 class GroundFrame {
  public:
-  /// @param up  in the world frame; any length but 0
-  explicit GroundFrame(const Eigen::Vector3d& up) : up_(up.normalized()) {
+  /// @param up     in the world frame; any length but 0
+  /// @param floor  height of the floor along it over the world's origin [m], where known
+  explicit GroundFrame(const Eigen::Vector3d& up, std::optional<double> floor = {})
+      : up_(up.normalized()), floor_(floor) {
     const Eigen::Vector3d ahead =
         std::abs(up_.z()) < 0.7 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
     ahead_ = (ahead - up_.dot(ahead) * up_).normalized();
@@ -18,6 +21,7 @@ class GroundFrame {
   }
 
   const Eigen::Vector3d& up() const { return up_; }
+  const std::optional<double>& floor() const { return floor_; }
 
   Eigen::Vector3d horizontal(const Eigen::Vector3d& v) const { return v - up_.dot(v) * up_; }
 
@@ -37,6 +41,7 @@ class GroundFrame {
 
  private:
   Eigen::Vector3d up_;
+  std::optional<double> floor_;
   Eigen::Vector3d ahead_;
   Eigen::Vector3d left_;
 };

@@ -1,6 +1,8 @@
 #include "mms/mapping/motion_filter.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 namespace mms {
 
@@ -10,6 +12,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kHeightNoise = 0.01;  // spectral density of the height's drift [m^2/s]
+constexpr double kLikely = 2.5;        // standard deviations
 
 }  // namespace
 
@@ -34,11 +37,22 @@ void MotionFilter::predict(double seconds, double noise) {
   covariance_ = transition * covariance_ * transition.transpose() + added;
 }
 
+void MotionFilter::set_up(const Vector3d& up) {
+  horizontal_ = Matrix3d::Identity() - up * up.transpose();
+  Covariance level = Covariance::Identity();
+  level.bottomRightCorner<3, 3>() = horizontal_;
+  state_ = level * state_;
+  covariance_ = level * covariance_ * level;
+}
+
 void MotionFilter::update(const Vector3d& position, double sigma) {
-  const Matrix3d innovation =
-      covariance_.topLeftCorner<3, 3>() + sigma * sigma * Matrix3d::Identity();
+  const Vector3d off = position - state_.head<3>();
+  const Matrix3d expected = covariance_.topLeftCorner<3, 3>();
+  const Matrix3d noise = sigma * sigma * Matrix3d::Identity();
+  const double sigmas = std::sqrt(off.dot((expected + noise).inverse() * off));
+  const Matrix3d innovation = expected + std::max(1.0, sigmas / kLikely) * noise;
   const Eigen::Matrix<double, 6, 3> gain = covariance_.leftCols<3>() * innovation.inverse();
-  state_ += gain * (position - state_.head<3>());
+  state_ += gain * off;
   covariance_ -= (gain * covariance_.topRows<3>()).eval();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
 }

@@ -21,8 +21,15 @@ class MotionFilter {
   /// @param noise    spectral density of the acceleration [m^2/s^3]
   void predict(double seconds, double noise);
 
-  /// Takes in a measured position with its standard deviation [m].
+  /// Takes another direction for the upright one.
+  void set_up(const Eigen::Vector3d& up);
+
+  /// Takes in a measured position with its standard deviation [m]. One that is farther off than is
+  /// likely counts as little as that is unlikely (Huber's weights).
   void update(const Eigen::Vector3d& position, double sigma);
+
+  /// Moves the point without a motion: it was taken for another.
+  void shift(const Eigen::Vector3d& by) { state_.head<3>() += by; }
 
   /// Shortens the velocity to a length [m/s].
   void limit_speed(double speed);

@@ -9,6 +9,11 @@ namespace {
 
 constexpr std::size_t kMaxPoints = 400;
 
+/// Every so many of a cluster's points are looked at.
+std::size_t stride_of(std::size_t points) {
+  return 1 + (points - 1) / kMaxPoints;
+}
+
 /// Indices of every cluster's points.
 std::vector<std::vector<std::size_t>> members(const LabeledCloud& cloud) {
   std::vector<std::vector<std::size_t>> lists(cloud.clusters.size());
@@ -39,27 +44,37 @@ std::vector<Eigen::Vector3d> corners(const DynamicCluster& cluster) {
   return points;
 }
 
+/// Points and middle in the world frame.
 void measure_points(const LabeledCloud& cloud, const std::vector<std::size_t>& indices,
-                    ObjectMeasurement& object) {
+                    const Transform<World, Sensor>& T_world_sensor, ObjectMeasurement& object) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Vector3f color = Eigen::Vector3f::Zero();
-  const std::size_t stride = 1 + (indices.size() - 1) / kMaxPoints;
+  const std::size_t stride = stride_of(indices.size());
   for (std::size_t k = 0; k < indices.size(); ++k) {
-    const std::size_t i = indices[k];
-    sum += cloud.points[i].cast<double>();
-    if (k % stride == 0) object.points.emplace_back(cloud.points[i].cast<double>());
-    if (cloud.colors.empty()) continue;
-    color += Eigen::Vector3f(cloud.colors[i].r, cloud.colors[i].g, cloud.colors[i].b);
+    const Eigen::Vector3d point = cloud.points[indices[k]].cast<double>();
+    sum += point;
+    if (k % stride == 0) object.points.emplace_back(T_world_sensor * point);
   }
-  object.centroid = sum / static_cast<double>(indices.size());
-  object.color = color / static_cast<float>(indices.size());
-  object.has_color = !cloud.colors.empty();
+  object.centroid = T_world_sensor * (sum / static_cast<double>(indices.size()));
+}
+
+void measure_colors(const LabeledCloud& cloud, const std::vector<std::size_t>& indices,
+                    const GroundFrame& ground, ObjectMeasurement& object) {
+  if (cloud.colors.empty()) return;
+  std::vector<double> heights;
+  for (const Eigen::Vector3d& point : object.points) heights.push_back(ground.up().dot(point));
+  const double floor = ground.floor().value_or(*std::min_element(heights.begin(), heights.end()));
+  const std::size_t stride = stride_of(indices.size());
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    const Rgb& color = cloud.colors[indices[k * stride]];
+    object.appearance.add(heights[k] - floor, Eigen::Vector3f(color.r, color.g, color.b));
+  }
 }
 
 }  // namespace
 
 std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
-                                               const Transform<World, Sensor>& T_world_sensor) {
+                                               const Transform<World, Sensor>& T_world_sensor,
+                                               const GroundFrame& ground) {
   const auto indices = members(cloud);
   std::vector<ObjectMeasurement::Cut> cuts(cloud.clusters.size());
   if (cloud.organised()) cuts = find_cuts(cloud);
@@ -71,19 +86,18 @@ std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
     if (!has_place || is_secondary(cloud, c)) continue;
     ObjectMeasurement& object = objects.emplace_back();
     object.stamp = cloud.stamp;
-    object.object_class = cloud.clusters[c].object_class;
-    object.score = cloud.clusters[c].score;
+    object.object_class = cluster.object_class;
+    object.score = cluster.score;
     object.sensor = T_world_sensor.translation();
     object.right = T_world_sensor.rotation().col(0);
     object.cut = cuts[c];
     if (indices[c].empty()) {
-      object.points = corners(cloud.clusters[c]);
+      for (const Eigen::Vector3d& p : corners(cluster)) object.points.push_back(T_world_sensor * p);
       object.centroid = 0.5 * (object.points.front() + object.points.back());
     } else {
-      measure_points(cloud, indices[c], object);
+      measure_points(cloud, indices[c], T_world_sensor, object);
+      measure_colors(cloud, indices[c], ground, object);
     }
-    for (Eigen::Vector3d& point : object.points) point = T_world_sensor * point;
-    object.centroid = T_world_sensor * object.centroid;
   }
   return objects;
 }

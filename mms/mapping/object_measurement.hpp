@@ -5,6 +5,8 @@
 
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/core/transform.hpp"
+#include "mms/mapping/appearance.hpp"
+#include "mms/mapping/ground_frame.hpp"
 
 namespace mms {
 
@@ -17,8 +19,7 @@ struct ObjectMeasurement {
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();  ///< the image's axis to the right
   std::vector<Eigen::Vector3d> points;               ///< a few hundred, evenly chosen; never empty
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  Eigen::Vector3f color = Eigen::Vector3f::Zero();  ///< mean R G B, 0 to 255
-  bool has_color = false;
+  Appearance appearance;  ///< empty without colours
 
   /// Where the object may go on unseen: at the image's border, or behind something nearer.
   struct Cut {
@@ -32,8 +33,10 @@ struct ObjectMeasurement {
 
 /// Measures the clusters of `cloud` in their order, of those under one mask the first. Cuts are
 /// known of organised clouds only. Clusters that list no points of theirs (as in tests) are taken
-/// for the corners of their boxes.
+/// for the corners of their boxes. Without a floor the lowest point of an object is taken to stand
+/// on it.
 std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
-                                               const Transform<World, Sensor>& T_world_sensor);
+                                               const Transform<World, Sensor>& T_world_sensor,
+                                               const GroundFrame& ground);
 
 }  // namespace mms

@@ -42,7 +42,9 @@ Track::Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
       id_(id),
       first_seen_(first.stamp),
       last_seen_(first.stamp),
+      last_named_(first.stamp),
       predicted_(first.stamp),
+      last_position_(first.centroid),
       motion_(first.centroid, ground.up(), kFirstPositionSigma, kFirstVelocitySigma),
       heading_(ground.heading_of(first.sensor - first.centroid)),
       size_(config.classes[static_cast<std::size_t>(first.object_class)].size()) {
@@ -52,6 +54,11 @@ Track::Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
                          kFirstVelocitySigma);
   --votes_[static_cast<std::size_t>(first.object_class)];
   update(first, false);
+}
+
+void Track::set_ground(const GroundFrame& ground) {
+  ground_ = ground;
+  motion_.set_up(ground.up());
 }
 
 void Track::predict(Timestamp stamp) {
@@ -72,27 +79,54 @@ BoxFit Track::fit(const ObjectMeasurement& object,
   return fit;
 }
 
+void Track::take_name(const ObjectMeasurement& object) {
+  const ObjectClass before = object_class();
+  ++votes_[static_cast<std::size_t>(object.object_class)];
+  ++observations_;
+  last_named_ = object.stamp;
+  score_ += (static_cast<double>(object.score) - score_) / std::min(observations_, kScoreMemory);
+  if (object_class() == before) return;
+  size_ = config_.classes[static_cast<std::size_t>(object_class())].size();
+  whole_views_ = {};
+}
+
 void Track::update(const ObjectMeasurement& object, bool shared) {
-  if (object.score > 0.0F) {
-    ++votes_[static_cast<std::size_t>(object.object_class)];
-    ++observations_;
-    score_ += (static_cast<double>(object.score) - score_) / std::min(observations_, kScoreMemory);
-  }
+  if (object.score > 0.0F) take_name(object);
   last_seen_ = object.stamp;
-  if (!shared && !object.cut.any()) learn_heading(object);
   const BoxFit seen = fit(object);
-  const bool is_cut = shared || !seen.anchored || object.cut.left || object.cut.right;
-  const double range = (object.centroid - object.sensor).norm();
-  motion_.update(seen.center, is_cut ? config_.cut_sigma
-                                     : std::hypot(config_.position_sigma, kRangeSigma * range));
+  motion_.update(seen.center, sigma_of(object, shared || !seen.anchored));
   motion_.limit_speed(config_.max_speed);
   judge_motion();
-  if (shared) return;
-  learn_size(seen);
-  learn_color(object);
+  if (!shared) learn_shape(object);
+  last_position_ = motion_.position();
+}
+
+double Track::sigma_of(const ObjectMeasurement& object, bool is_loose) const {
+  if (is_loose || object.cut.left || object.cut.right) return config_.cut_sigma;
+  return std::hypot(config_.position_sigma, kRangeSigma * (object.centroid - object.sensor).norm());
+}
+
+void Track::learn_shape(const ObjectMeasurement& object) {
+  const Eigen::Vector3d expected = motion_.position();
+  const Eigen::Vector3d before = fit(object, expected).center;
+  if (!object.cut.any()) learn_heading(object);
+  learn_size(fit(object, expected));
+  appearance_.learn(object.appearance, kColorGain);
+  // Another size or heading puts the middle elsewhere, which is no motion.
+  motion_.shift(fit(object, expected).center - before);
+}
+
+void Track::continue_as(const Track& lost) {
+  id_ = lost.id_;
+  first_seen_ = lost.first_seen_;
+  for (std::size_t i = 0; i < votes_.size(); ++i) votes_[i] += lost.votes_[i];
+  size_ = lost.size_;
+  whole_views_ = lost.whole_views_;
+  confirmed_ = true;
 }
 
 void Track::learn_size(const BoxFit& fit) {
+  const ClassPrior& prior = config_.classes[static_cast<std::size_t>(object_class())];
   for (std::size_t k = 0; k < 3; ++k) {
     double& size = size_[static_cast<Eigen::Index>(k)];
     const double seen = fit.extent[static_cast<Eigen::Index>(k)];
@@ -100,19 +134,12 @@ void Track::learn_size(const BoxFit& fit) {
       whole_views_[k] = std::min(whole_views_[k] + 1, kSizeMemory);
       // Hair and shoes are often without returns: a height is sooner too small than too large.
       const bool lacks_some = k == 2 && seen < size && whole_views_[k] > kFirstViews;
-      const double gain = lacks_some ? kShrinking : 1.0 / whole_views_[k];
+      const double gain = lacks_some ? kShrinking : 1.0 / (prior.views + whole_views_[k]);
       size += gain * (seen - size);
     } else if (seen > size) {
       size += kGrowth * (seen - size);  // what is cut off can only be larger
     }
   }
-}
-
-void Track::learn_color(const ObjectMeasurement& object) {
-  if (!object.has_color) return;
-  color_ =
-      has_color_ ? Eigen::Vector3f(color_ + kColorGain * (object.color - color_)) : object.color;
-  has_color_ = true;
 }
 
 void Track::learn_heading(const ObjectMeasurement& object) {

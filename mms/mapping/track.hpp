@@ -25,6 +25,9 @@ class Track {
   Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
         const TrackConfig& config);
 
+  /// Takes what is known of the ground now.
+  void set_ground(const GroundFrame& ground);
+
   /// Moves the expectation on to a stamp, not earlier than the last.
   void predict(Timestamp stamp);
 
@@ -37,18 +40,22 @@ class Track {
 
   /// Makes it an object for as long as it lives.
   void confirm() { confirmed_ = true; }
+
+  /// Goes on with the id and the size of an object that was lost and is this one.
+  void continue_as(const Track& lost);
   bool confirmed() const { return confirmed_; }
 
   int id() const { return id_; }
   int observations() const { return observations_; }  ///< with a mask of their own
   Timestamp first_seen() const { return first_seen_; }
   Timestamp last_seen() const { return last_seen_; }
+  Eigen::Vector3d last_position() const { return last_position_; }  ///< at last_seen
+  Timestamp last_named() const { return last_named_; }              ///< seen with a mask of its own
   Eigen::Vector3d position() const { return motion_.position(); }
   Eigen::Matrix3d position_covariance() const { return motion_.position_covariance(); }
   Eigen::Matrix3d velocity_covariance() const { return motion_.velocity_covariance(); }
   const Eigen::Vector3d& size() const { return size_; }
-  const Eigen::Vector3f& color() const { return color_; }  ///< mean R G B, 0 to 255
-  bool has_color() const { return has_color_; }
+  const Appearance& appearance() const { return appearance_; }
   double score() const { return score_; }  ///< mean over the last observations, in [0, 1]
   ObjectClass object_class() const;        ///< the one that most frames saw
 
@@ -59,8 +66,10 @@ class Track {
 
  private:
   BoxFit fit(const ObjectMeasurement& object, const std::optional<Eigen::Vector3d>& expected) const;
+  void take_name(const ObjectMeasurement& object);
+  double sigma_of(const ObjectMeasurement& object, bool is_loose) const;
+  void learn_shape(const ObjectMeasurement& object);
   void learn_size(const BoxFit& fit);
-  void learn_color(const ObjectMeasurement& object);
   void learn_heading(const ObjectMeasurement& object);
   void judge_motion();
 
@@ -72,7 +81,9 @@ class Track {
   bool confirmed_ = false;
   Timestamp first_seen_;
   Timestamp last_seen_;
+  Timestamp last_named_;
   Timestamp predicted_;
+  Eigen::Vector3d last_position_;
   std::array<int, kObjectClassCount> votes_{};
   MotionFilter motion_;
   double heading_ = 0.0;
@@ -80,8 +91,7 @@ class Track {
   bool moving_ = false;
   Eigen::Vector3d size_;
   std::array<int, 3> whole_views_{};  ///< by axis: measurements with both ends in view
-  Eigen::Vector3f color_ = Eigen::Vector3f::Zero();
-  bool has_color_ = false;
+  Appearance appearance_;
 };
 
 }  // namespace mms

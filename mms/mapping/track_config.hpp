@@ -13,6 +13,7 @@ struct ClassPrior {
   double length = 0.5;  ///< along its way [m]
   double width = 0.5;   ///< [m]
   double height = 1.7;  ///< [m]
+  int views = 0;
   double min_score = 0.35;
 
   Eigen::Vector3d size() const { return {length, width, height}; }
@@ -22,6 +23,8 @@ struct ClassPrior {
     v.number({"length", "m", "along its way"}, length, kSize);
     v.number({"width", "m", "across its way"}, width, kSize);
     v.number({"height", "m", "from the floor up"}, height, kSize);
+    v.integer({"views", "", "views of an object that this knowledge counts for"}, views,
+              {0.0, 1000.0});
     v.number({"min_score", "", "mean confidence of its masks that makes it an object"}, min_score,
              {0.0, 1.0});
   }
@@ -35,7 +38,8 @@ struct TrackConfig {
   double max_speed = 3.0;           ///< [m/s]
   double moving_speed = 0.3;        ///< [m/s]
   double stopped_speed = 0.15;      ///< [m/s]
-  std::array<ClassPrior, kObjectClassCount> classes{{{0.5, 0.5, 1.7, 0.35}, {1.2, 0.8, 1.2, 0.5}}};
+  std::array<ClassPrior, kObjectClassCount> classes{
+      {{0.6, 0.5, 1.7, 20, 0.35}, {1.2, 0.8, 1.2, 1, 0.5}}};
 
   void visit(ConfigVisitor& v) {
     v.number({"acceleration_noise", "m^2/s^3", "how quickly objects change their velocity"},

@@ -28,6 +28,7 @@ void give(DynamicMap& map, int index, const std::vector<DynamicCluster>& cluster
   cloud.width = 1;  // a camera's, whose y axis is down
   cloud.height = 2;
   cloud.points.assign(2, Eigen::Vector3f::Constant(NAN));
+  cloud.labels.assign(2, PointLabel::kInvalid);
   cloud.cluster.assign(2, -1);
   OdometryEstimate odometry;
   odometry.stamp = cloud.stamp;
