@@ -140,6 +140,14 @@ void Track::learn_size(const BoxFit& fit) {
       size += kGrowth * (seen - size);  // what is cut off can only be larger
     }
   }
+  if (is_round(object_class())) return;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    // What was only seen from one side is taken to be as deep as wide.
+    if (whole_views_[i] == 0 && whole_views_[1 - i] > 0) {
+      size_[k] = std::max(size_[1 - k], fit.extent[k]);
+    }
+  }
 }
 
 void Track::learn_heading(const ObjectMeasurement& object) {
