@@ -35,7 +35,9 @@ void FloorWatch::update(const LabeledCloud& cloud, const Transform<World, Sensor
   if (frames_++ % kEvery != 0) return;
   const Floor seen =
       find_floor(static_points(cloud, T_world_sensor), floor_ ? floor_->up : up, config_);
-  if (seen.found) follow(seen, T_world_sensor.translation());
+  const Eigen::Vector3d sensor = T_world_sensor.translation();
+  const bool is_ceiling = seen.up.dot(sensor) < seen.height;
+  if (seen.found && !is_ceiling) follow(seen, sensor);
 }
 
 void FloorWatch::follow(const Floor& seen, const Eigen::Vector3d& sensor) {

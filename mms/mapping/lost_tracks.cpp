@@ -42,7 +42,7 @@ std::optional<Track> LostTracks::take(const Track& track) {
       second = std::min(second, now);
     }
   }
-  if (best == lost_.end() || least > kClearlyLess * second) return std::nullopt;
+  if (best == lost_.end() || least >= kClearlyLess * second) return std::nullopt;
   const Track found = *best;
   lost_.erase(best);
   return found;

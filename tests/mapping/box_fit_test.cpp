@@ -66,6 +66,26 @@ TEST(BoxFit, FindsTheMiddleFromAnySide) {
   }
 }
 
+TEST(BoxFit, StandsOnTheFloorThoughItsFootIsHidden) {
+  const Eigen::Vector3d center(0.4, 0.3, 4.0);  // its foot at y = 0.9
+  ObjectMeasurement object = view_of(center, 0.4);
+  std::erase_if(object.points, [](const Eigen::Vector3d& point) { return point.y() > 0.3; });
+  object.cut.bottom = true;
+  const GroundFrame with_floor(kGround.up(), -0.9);
+  const BoxFit fit = fit_box(object, with_floor, 0.4, kSize);
+  EXPECT_NEAR(fit.center.y(), 0.3, 0.03);
+  EXPECT_TRUE(fit.whole[2]);
+  EXPECT_NEAR(fit.extent.z(), kSize.z(), 0.05);
+  EXPECT_FALSE(fit_box(object, kGround, 0.4, kSize).whole[2]);
+}
+
+TEST(BoxFit, WhatIsHighAboveTheFloorDoesNotReachDownToIt) {
+  const GroundFrame low_floor(kGround.up(), -3.0);
+  const Eigen::Vector3d center(0.4, 0.3, 4.0);
+  const BoxFit fit = fit_box(view_of(center, 0.4), low_floor, 0.4, kSize);
+  EXPECT_NEAR(fit.center.y(), 0.3, 0.03);
+}
+
 TEST(BoxFit, FromTheFrontOnlyWidthAndHeightAreWhole) {
   const BoxFit fit = fit_box(view_of({0, 0.3, 4}, 0.0), kGround, 0.0, kSize);
   EXPECT_FALSE(fit.whole[0]);

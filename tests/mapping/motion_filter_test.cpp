@@ -67,6 +67,38 @@ TEST(MotionFilter, WhatComesIntoViewDoesNotRise) {
   EXPECT_NEAR(filter.position().z(), 1.0, 0.02);
 }
 
+TEST(MotionFilter, AJumpCountsLittle) {
+  // By how much one measurement that is so far off [m] changes the velocity.
+  const auto effect_of = [](double off) {
+    MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.1, 1.0);
+    for (int i = 1; i <= 61; ++i) {
+      filter.predict(1.0 / 30.0, 0.1);
+      filter.update({i / 30.0 + (i == 61 ? off : 0.0), 0.0, 0.0}, 0.03);
+    }
+    return filter.velocity().x() - 1.0;
+  };
+  EXPECT_NEAR(effect_of(0.04), 2.0 * effect_of(0.02), 1e-3);
+  EXPECT_LT(effect_of(1.0), 3.0 * effect_of(0.1));
+}
+
+TEST(MotionFilter, AShiftIsNoMotion) {
+  MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.1, 1.0);
+  filter.shift({0.5, 0.0, 0.0});
+  EXPECT_EQ(filter.position().x(), 0.5);
+  EXPECT_EQ(filter.velocity().norm(), 0.0);
+}
+
+TEST(MotionFilter, AnotherUpLeavesNoVelocityAlongIt) {
+  MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.01, 10.0);
+  filter.predict(1.0, 0.1);
+  filter.update({1.0, 0.0, 0.0}, 0.001);
+  const Eigen::Vector3d up = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
+  filter.set_up(up);
+  EXPECT_NEAR(filter.velocity().dot(up), 0.0, 1e-12);
+  EXPECT_NEAR(up.dot(filter.velocity_covariance() * up), 0.0, 1e-12);
+  EXPECT_NEAR(filter.velocity().norm(), 1.0, 0.02);
+}
+
 TEST(MotionFilter, LimitsTheSpeedButNotTheDirection) {
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.01, 100.0);
   filter.predict(1.0, 0.1);

@@ -1,0 +1,109 @@
+#include "mms/mapping/lost_tracks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "mms/mapping/dynamic_map.hpp"
+
+namespace mms {
+namespace {
+
+constexpr double kPeriod = 0.1;  // [s]
+const Rgb kRed{200, 40, 40};
+const Rgb kBlue{40, 40, 200};
+
+struct Person {
+  double x;
+  double y;
+  Rgb shirt;
+};
+
+/// A scan in which the persons stand on the floor, in grey trousers; z is up.
+LabeledCloud scan_of(const std::vector<Person>& persons, double seconds) {
+  LabeledCloud cloud;
+  cloud.stamp = Timestamp::from_seconds(1.0 + seconds);
+  for (const Person& person : persons) {
+    DynamicCluster cluster;
+    cluster.instance = static_cast<int>(cloud.clusters.size());
+    for (int i = 0; i < 170; ++i) {
+      const double height = 0.01 * i;
+      const double angle = 2.4 * i;
+      cloud.points.push_back(Eigen::Vector3d(person.x + 0.2 * std::cos(angle),
+                                             person.y + 0.2 * std::sin(angle), height)
+                                 .cast<float>());
+      cloud.colors.push_back(height < 0.9 ? Rgb{90, 90, 90} : person.shirt);
+      cloud.cluster.push_back(static_cast<std::int16_t>(cluster.instance));
+    }
+    cloud.clusters.push_back(cluster);
+  }
+  cloud.labels.assign(cloud.points.size(), PointLabel::kDynamic);
+  cloud.width = static_cast<int>(cloud.points.size());
+  cloud.height = 1;
+  return cloud;
+}
+
+/// Gives the map ten frames of the same persons, from a second on.
+void show(DynamicMap& map, double from, const std::vector<Person>& persons) {
+  for (int i = 0; i < 10; ++i) {
+    const LabeledCloud cloud = scan_of(persons, from + kPeriod * i);
+    OdometryEstimate odometry;
+    odometry.stamp = cloud.stamp;
+    map.update(cloud, odometry);
+  }
+}
+
+/// The ids there are now, by their order.
+std::vector<int> ids(const DynamicMap& map) {
+  std::vector<int> ids;
+  for (const TrackedObject& object : map.objects()) ids.push_back(object.box.id);
+  return ids;
+}
+
+TEST(LostTracks, WhoComesBackElsewhereInTheSameDressKeepsTheId) {
+  DynamicMap map;
+  show(map, 0.0, {{3.0, -2.0, kRed}, {3.0, 2.0, kBlue}});
+  show(map, 1.0, {});
+  show(map, 8.0, {{5.0, 2.0, kRed}});
+  EXPECT_EQ(ids(map), std::vector<int>{1});
+  EXPECT_EQ(map.confirmed(), 2);
+}
+
+TEST(LostTracks, WhoIsDressedOtherwiseIsSomebodyElse) {
+  DynamicMap map;
+  show(map, 0.0, {{3.0, -2.0, kRed}});
+  show(map, 1.0, {});
+  show(map, 8.0, {{3.0, -2.0, kBlue}});
+  ASSERT_EQ(ids(map).size(), 1U);
+  EXPECT_NE(ids(map)[0], 1);
+  EXPECT_EQ(map.confirmed(), 2);
+}
+
+TEST(LostTracks, WhoCannotHaveComeSoFarIsSomebodyElse) {
+  DynamicMap map;
+  show(map, 0.0, {{3.0, -2.0, kRed}});
+  show(map, 1.0, {});
+  show(map, 4.0, {{20.0, 10.0, kRed}});
+  EXPECT_EQ(map.confirmed(), 2);
+}
+
+TEST(LostTracks, OfTwoInTheSameDressNeitherIsGuessed) {
+  DynamicMap map;
+  show(map, 0.0, {{3.0, -2.0, kRed}, {3.0, 2.0, kRed}});
+  show(map, 1.0, {});
+  show(map, 8.0, {{4.0, 0.0, kRed}});
+  EXPECT_EQ(map.confirmed(), 3);
+}
+
+TEST(LostTracks, AreForgottenInTheEnd) {
+  DynamicMapConfig config;
+  config.returning.max_away = 5.0;
+  DynamicMap map(config);
+  show(map, 0.0, {{3.0, -2.0, kRed}});
+  show(map, 10.0, {});
+  show(map, 12.0, {{3.0, -2.0, kRed}});
+  EXPECT_EQ(map.confirmed(), 2);
+}
+
+}  // namespace
+}  // namespace mms
