@@ -10,7 +10,6 @@
 #include "mms/core/error.hpp"
 #include "mms/evaluation/drift.hpp"
 #include "mms/evaluation/trajectory_error.hpp"
-#include "mms/io/text_table.hpp"
 #include "mms/io/trajectory_io.hpp"
 
 namespace mms {
@@ -35,16 +34,9 @@ std::string unit_name(DeltaUnit unit) {
   return "";
 }
 
-/// KITTI's pose files have 12 numbers a line and no stamps.
-bool is_kitti(const std::string& path) {
-  constexpr std::size_t kMatrixNumbers = 12;
-  const TextTable table(path);
-  return !table.lines().empty() && table.lines().front().fields.size() == kMatrixNumbers;
-}
-
 Matching matching_of(const TrajectoryArguments& arguments) {
-  const bool by_index = is_kitti(arguments.reference);
-  if (by_index != is_kitti(arguments.estimate)) {
+  const bool by_index = is_kitti_trajectory(arguments.reference);
+  if (by_index != is_kitti_trajectory(arguments.estimate)) {
     throw DataError(arguments.estimate,
                     "is of another form than " + arguments.reference +
                         ": one has stamps (TUM, 8 numbers a line), the other has none (KITTI, 12)",

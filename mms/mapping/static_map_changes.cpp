@@ -50,10 +50,10 @@ bool is_news(const Voxel& voxel, int min_observations) {
 }
 
 void check(const VoxelChange& change) {
-  if (change.cell < VoxelBlock::kCells) return;
+  if (change.cell < BlockCells::kCount) return;
   throw DataError("map changes", "a voxel is at place " + std::to_string(change.cell) +
                                      " of its block, allowed is 0 to " +
-                                     std::to_string(VoxelBlock::kCells - 1));
+                                     std::to_string(BlockCells::kCount - 1));
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ void StaticMap::apply(const MapChanges& changes) {
   for (const BlockChange& change : changes.blocks) {
     for (const VoxelChange& voxel_change : change.voxels) {
       check(voxel_change);
-      const VoxelKey key = VoxelBlock::voxel_key(change.key, voxel_change.cell);
+      const VoxelKey key = BlockCells::voxel_of(change.key, voxel_change.cell);
       Voxel& voxel = grid_.place(key).voxel();
       take_over(voxel_change, key, grid_.voxel_size(), voxel);
       voxel.last_keyframe = keyframe;

@@ -5,18 +5,6 @@
 namespace mms {
 namespace {
 
-constexpr int kBits = VoxelBlock::kBits;
-constexpr int kMask = VoxelBlock::kSide - 1;
-
-VoxelKey block_of(const VoxelKey& key) {
-  return {key.x >> kBits, key.y >> kBits, key.z >> kBits};
-}
-
-std::uint16_t cell_of(const VoxelKey& key) {
-  return static_cast<std::uint16_t>((key.x & kMask) | ((key.y & kMask) << kBits) |
-                                    ((key.z & kMask) << (2 * kBits)));
-}
-
 void merge(const Voxel& from, Voxel& into) {
   const bool first = into.hits == 0;
   into.weight += from.weight;
@@ -31,11 +19,6 @@ void merge(const Voxel& from, Voxel& into) {
 
 }  // namespace
 
-VoxelKey VoxelBlock::voxel_key(const VoxelKey& block, std::uint16_t cell) {
-  return {block.x * kSide + (cell & kMask), block.y * kSide + ((cell >> kBits) & kMask),
-          block.z * kSide + (cell >> (2 * kBits))};
-}
-
 VoxelGrid::VoxelGrid(double voxel_size)
     : voxel_size_(voxel_size), inverse_size_(static_cast<float>(1.0 / voxel_size)) {}
 
@@ -47,8 +30,8 @@ std::size_t VoxelGrid::block_index(const VoxelKey& key) {
 }
 
 VoxelGrid::Place VoxelGrid::place(const VoxelKey& key) {
-  VoxelBlock& block = blocks_[block_index(block_of(key))];
-  const std::uint16_t cell = cell_of(key);
+  VoxelBlock& block = blocks_[block_index(BlockCells::block_of(key))];
+  const std::uint16_t cell = BlockCells::cell_of(key);
   if (block.slot[cell] == 0) {
     const std::size_t before = block.voxels.capacity();
     block.voxels.emplace_back().cell = cell;
@@ -60,10 +43,10 @@ VoxelGrid::Place VoxelGrid::place(const VoxelKey& key) {
 }
 
 const Voxel* VoxelGrid::find(const VoxelKey& key) const {
-  const auto entry = index_.find(block_of(key));
+  const auto entry = index_.find(BlockCells::block_of(key));
   if (entry == index_.end()) return nullptr;
   const VoxelBlock& block = blocks_[entry->second];
-  const std::uint16_t slot = block.slot[cell_of(key)];
+  const std::uint16_t slot = block.slot[BlockCells::cell_of(key)];
   return slot == 0 ? nullptr : &block.voxels[slot - 1U];
 }
 
@@ -73,9 +56,9 @@ VoxelBlock* VoxelGrid::find_block(const VoxelKey& key) {
 }
 
 void VoxelGrid::erase(const VoxelKey& key) {
-  VoxelBlock* block = find_block(block_of(key));
+  VoxelBlock* block = find_block(BlockCells::block_of(key));
   if (block == nullptr) return;
-  const std::uint16_t slot = block->slot[cell_of(key)];
+  const std::uint16_t slot = block->slot[BlockCells::cell_of(key)];
   if (slot != 0) erase(*block, slot - 1U);
 }
 

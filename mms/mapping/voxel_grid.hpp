@@ -11,6 +11,7 @@
 
 #include "mms/core/image.hpp"
 #include "mms/geometry/voxel_key.hpp"
+#include "mms/mapping/block_cells.hpp"
 
 namespace mms {
 
@@ -36,21 +37,16 @@ inline Rgb to_rgb(const Eigen::Vector3f& color) {
   return {channel(color.x()), channel(color.y()), channel(color.z())};
 }
 
-/// A cube of kSide^3 voxels of which only the occupied ones are stored.
+/// A cube of voxels (`BlockCells`) of which only the occupied ones are stored.
 struct VoxelBlock {
-  static constexpr int kBits = 3;
-  static constexpr int kSide = 1 << kBits;
-  static constexpr int kCells = kSide * kSide * kSide;
-
-  VoxelKey key;                              ///< in units of the block's side
-  std::array<std::uint16_t, kCells> slot{};  ///< 1 + index into `voxels` by cell, 0 for none
+  VoxelKey key;                                          ///< in units of the block's side
+  std::array<std::uint16_t, BlockCells::kCount> slot{};  ///< 1 + index into `voxels`, 0 for none
   std::vector<Voxel> voxels;
   std::uint32_t last_keyframe = 0;  ///< number of the last one that measured in it
   std::uint16_t views = 0;          ///< keyframes that measured in it
 
   /// In units of the voxel's side.
-  static VoxelKey voxel_key(const VoxelKey& block, std::uint16_t cell);
-  VoxelKey voxel_key(const Voxel& voxel) const { return voxel_key(key, voxel.cell); }
+  VoxelKey voxel_key(const Voxel& voxel) const { return BlockCells::voxel_of(key, voxel.cell); }
 };
 
 /// Sparse voxels in hashed blocks, so that whole blocks can be culled against a camera's view.
@@ -101,7 +97,7 @@ class VoxelGrid {
   const std::deque<VoxelBlock>& blocks() const { return blocks_; }
 
   double voxel_size() const { return voxel_size_; }
-  double block_size() const { return voxel_size_ * VoxelBlock::kSide; }
+  double block_size() const { return voxel_size_ * BlockCells::kSide; }
   std::size_t size() const { return size_; }
   std::size_t memory_bytes() const;
 

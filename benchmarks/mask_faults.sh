@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# What faulty masks cost: three in ten dropped, eroded and with parts missing, and all of them late
+# by one frame, against exact ones; and the filter in a scene where nothing moves.
+# usage: benchmarks/mask_faults.sh [SEED] [FRAMES]
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
+seed="${1:-1}"
+frames="${2:-0}"
+faults=(--set mask_errors.enabled=true --set mask_errors.missed=0.3 --set mask_errors.lost_parts=0.3)
+[ "$frames" = 0 ] && length=() || length=(--frames "$frames")
+
+simulate() {
+  local scene="$1"
+  shift
+  rm -rf "$out/scene"
+  quietly "$mms" simulate "$scene" --seed "$seed" -o "$out/scene" "${length[@]}" "$@"
+}
+
+# Gives every frame the mask of the one before it.
+make_late() {
+  local before="" name
+  mkdir "$out/scene/late"
+  while read -r name; do
+    cp "$out/scene/masks/${before:-$name}" "$out/scene/late/$name"
+    before="$name"
+  done < <(find "$out/scene/masks" -name '*.png' -printf '%f\n' | sort)
+  rm -r "$out/scene/masks"
+  mv "$out/scene/late" "$out/scene/masks"
+}
+
+row() {
+  local scene="$1" masks="$2"
+  shift 2
+  quietly "$mms" run "$out/scene" --segmenter masks -o "$out/run" "$@"
+  local json="$out/run/metrics.json"
+  printf '| %s | %s | %.2f | %.1f | %.1f | %.1f | %s |\n' "$scene" "$masks" \
+    "$(cm "$json" ate_rmse_m)" "$(value "$json" SA)" "$(value "$json" DA)" "$(value "$json" AA)" \
+    "$(value "$json" lost)"
+}
+
+echo "| scene | masks | ATE rmse [cm] | SA | DA | AA | lost |"
+echo "| --- | --- | --- | --- | --- | --- | --- |"
+for scene in warehouse_loop crowd stop_and_go; do
+  simulate "$scene"
+  row "$scene" exact
+  simulate "$scene" "${faults[@]}"
+  row "$scene" "dropped and eroded"
+  make_late
+  row "$scene" "the same, a frame late"
+done
+simulate static
+row static "network" --segmenter network
+row static "no filter" --fusion none
