@@ -14,6 +14,7 @@ constexpr double kGateSigmas = 2.0;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double gate_of(const Track& track, const AssociationConfig& config) {
+  if (!track.confirmed()) return config.gate_radius;  // may be nothing, and is lost quickly
   const double sigma = std::sqrt(track.position_covariance().diagonal().maxCoeff());
   return std::clamp(kGateSigmas * sigma, config.gate_radius,
                     std::max(config.gate_radius, config.max_gate));

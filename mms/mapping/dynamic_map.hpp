@@ -19,7 +19,7 @@ struct DynamicMapConfig {
   TrackConfig track;
   int confirm_after = 4;
   double max_missed = 1.5;     ///< [s]
-  double max_tentative = 0.3;  ///< [s]
+  double max_tentative = 1.0;  ///< [s]
   double max_shown = 0.5;      ///< [s]
   ReturnConfig returning;
 

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kHeightNoise = 0.01;  // spectral density of the height's drift [m^2/s]
-constexpr double kLikely = 2.5;        // standard deviations
+constexpr double kLikely = 5.0;        // standard deviations
 
 }  // namespace
 
