@@ -1,0 +1,19 @@
+/** The colours that mean something; style.css has the same ones for the page around the scene. */
+export const kColors = {
+  background: '#0a0e14',
+  person: '#ff4d5e',
+  vehicle: '#3ddc84',
+  object: '#ffb84d',
+  trajectory: '#4db8ff',
+  truth: '#f2e3b6',
+  staticScan: '#62d6e8',
+  dynamicScan: '#ff9f43',
+  camera: '#ffffff',
+  grid: '#2a3646',
+} as const;
+
+/** Red for people, green for vehicles of any name, amber for what the page does not know. */
+export function classColor(name: string): string {
+  if (name === 'person') return kColors.person;
+  return ['vehicle', 'agv', 'car', 'truck', 'forklift', 'robot'].includes(name) ? kColors.vehicle : kColors.object;
+}

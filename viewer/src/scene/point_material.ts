@@ -1,0 +1,81 @@
+import { Color, ShaderMaterial, Vector2 } from 'three';
+import { kColors } from './palette';
+
+/** Higher than anything [m]; shaders know no infinity. */
+export const kHigh = 1e6;
+
+/** Uniforms that all points of the scene share. */
+export const pointUniforms = {
+  /** Pixels a metre covers at a distance of one metre (perspective), or anywhere (orthographic). */
+  pixelsPerMetre: { value: 1000 },
+  orthographic: { value: false },
+  /** Points higher than this in the scene's frame are not drawn [m]. */
+  ceiling: { value: kHigh },
+  /** Points fade into the background between these distances [m]. */
+  fog: { value: new Vector2(30, 120) },
+  background: { value: new Color(kColors.background).convertLinearToSRGB() },
+};
+
+const kVertex = /* glsl */ `
+  uniform float size, pixelsPerMetre, smallest;
+  uniform bool orthographic;
+  uniform float ceiling, nearer;
+  uniform vec2 fog;
+  uniform vec3 background, tint;
+  uniform float tintShare, saturation;
+  attribute vec3 color;
+  varying vec3 shade;
+  varying float pixels;
+  void main() {
+    vec4 world = modelMatrix * vec4(position, 1.0);
+    vec4 eye = viewMatrix * world;
+    gl_Position = projectionMatrix * vec4(eye.xyz * (1.0 - nearer), 1.0);
+    pixels = clamp(size * pixelsPerMetre / (orthographic ? 1.0 : -eye.z), smallest, 48.0);
+    gl_PointSize = pixels;
+    if (world.y > ceiling) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    vec3 own = mix(vec3(dot(color, vec3(0.3, 0.59, 0.11))), color, saturation);
+    float far = orthographic ? 0.0 : smoothstep(fog.x, fog.y, -eye.z);
+    shade = mix(mix(own, tint, tintShare), background, far);
+  }`;
+
+const kFragment = /* glsl */ `
+  varying vec3 shade;
+  varying float pixels;
+  void main() {
+    vec2 from = gl_PointCoord - 0.5;
+    if (pixels > 3.0 && dot(from, from) > 0.25) discard;
+    gl_FragColor = vec4(shade, 1.0);
+  }`;
+
+export interface PointLook {
+  /** Diameter [m]. */
+  size: number;
+  /** Smallest diameter on the screen [px]. */
+  smallest?: number;
+  tint?: string;
+  /** 0: the points' own colours, 1: the tint. */
+  tintShare?: number;
+  saturation?: number;
+  /** Drawn to its full height whatever the ceiling is. */
+  whole?: boolean;
+  /** By which share of the distance it is drawn nearer, to stand out from what is at the same place. */
+  nearer?: number;
+}
+
+/** Points as discs of a size in metres, in sRGB as the sensor gave them. */
+export function pointMaterial(look: PointLook): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: kVertex,
+    fragmentShader: kFragment,
+    uniforms: {
+      ...pointUniforms,
+      ...(look.whole ? { ceiling: { value: kHigh } } : {}),
+      nearer: { value: look.nearer ?? 0 },
+      size: { value: look.size },
+      smallest: { value: look.smallest ?? 1.5 },
+      tint: { value: new Color(look.tint ?? '#ffffff').convertLinearToSRGB() },
+      tintShare: { value: look.tintShare ?? 0 },
+      saturation: { value: look.saturation ?? 1 },
+    },
+  });
+}

@@ -1,0 +1,213 @@
+import { Box3, Group, Matrix4, type Object3D, Quaternion, Vector3 } from 'three';
+import type { FrameMessage, Hello, MapMessage, SceneObject, Vector3 as Triple } from '../protocol/messages';
+import type { Run } from '../state/run';
+import type { Layer, Settings } from '../state/settings';
+import { floorGrid, floorHeight } from './floor';
+import type { Label } from './label_overlay';
+import { MapLayer } from './map_layer';
+import { ObjectLayer } from './object_layer';
+import { classColor } from './palette';
+import { kHigh, pointUniforms } from './point_material';
+import { SensorLayer } from './sensor_layer';
+import { Stage } from './stage';
+import { TrailLayer } from './trail_layer';
+import { TrajectoryLayer } from './trajectory_layer';
+
+/** What lies higher above the sensor than this is cut off, so that one can look into the room [m]. */
+const kCeiling = 1;
+
+/** The 3D panel: the layers of the scene, kept as the run and the settings say. */
+export class SceneView {
+  private readonly stage: Stage;
+  /** The map's frame, turned so that its up is the scene's y. */
+  private readonly world = new Group();
+  private readonly map = new MapLayer();
+  private readonly sensor = new SensorLayer();
+  private readonly objects = new ObjectLayer();
+  private readonly trails = new TrailLayer();
+  private readonly trajectory = new TrajectoryLayer();
+  private readonly grid = floorGrid();
+  private readonly up = new Vector3(0, -1, 0);
+  private readonly layers: Partial<Record<Layer, Object3D>>;
+  private pending = false;
+  private measured = false;
+  private lastFrame = -1;
+  /** In the scene's frame. */
+  private ceiling = kHigh;
+
+  constructor(
+    container: HTMLElement,
+    private readonly run: Run,
+    private readonly settings: Settings,
+  ) {
+    this.stage = new Stage(container, {
+      draw: (budget) => this.prepare(budget),
+      drawn: () => this.drawLabels(),
+    });
+    this.world.add(this.map.group, this.sensor.group, this.objects.group, this.trails.object);
+    this.world.add(this.trajectory.estimate, this.trajectory.truth);
+    this.stage.scene.add(this.world, this.grid);
+    this.layers = {
+      map: this.map.group,
+      scan: this.sensor.scan,
+      boxes: this.objects.group,
+      trails: this.trails.object,
+      trajectory: this.trajectory.estimate,
+      truth: this.trajectory.truth,
+      camera: this.sensor.camera,
+      grid: this.grid,
+    };
+    this.stage.rig.setMode(settings.camera);
+    this.listen();
+  }
+
+  /** Back to where the camera mode starts. */
+  resetView(): void {
+    this.stage.rig.reset();
+    this.stage.invalidate();
+  }
+
+  picture(): Promise<Blob | null> {
+    return this.stage.picture();
+  }
+
+  /** What the user looks at, in the map's frame. */
+  get focus(): Triple {
+    return this.world.worldToLocal(this.stage.rig.target.clone()).toArray();
+  }
+
+  private listen(): void {
+    this.run.on('hello', ({ hello, again }) => this.begin(hello, again));
+    this.run.on('map', (message) => this.addMap(message));
+    this.run.on('frame', () => this.refresh());
+    this.run.on('history', () => {
+      this.trajectory.clear();
+      this.measured = false;
+      this.refresh();
+    });
+    this.settings.on('layer', () => this.refresh());
+    this.settings.on('camera', (mode) => {
+      this.stage.rig.setMode(mode);
+      this.stage.invalidate();
+    });
+  }
+
+  private begin(hello: Hello, again: boolean): void {
+    this.map.clear();
+    this.trajectory.clear();
+    this.objects.setUp(this.up.fromArray(hello.up).normalize());
+    this.world.quaternion.copy(upright(this.up));
+    this.world.updateMatrixWorld(true);
+    this.sensor.setIntrinsics(hello.image);
+    this.sensor.setScan(null);
+    this.measured = false;
+    this.lastFrame = -1;
+    if (!again) this.stage.rig.setMode(this.settings.camera);
+    this.refresh();
+  }
+
+  private addMap(message: MapMessage): void {
+    this.map.set(message);
+    this.measured = false;
+    this.stage.invalidate();
+  }
+
+  /** Many messages, one picture: what they changed is taken over just before it is drawn. */
+  private refresh(): void {
+    this.pending = true;
+    this.stage.invalidate();
+  }
+
+  private prepare(budget: number): number {
+    if (this.pending) this.update();
+    if (!this.measured) this.measure();
+    return this.map.choose(this.stage.rig.camera, budget);
+  }
+
+  private update(): void {
+    this.pending = false;
+    const { frame, trajectory, tracks, playback } = this.run;
+    const at = frame?.frame ?? playback.frame;
+    if (frame) this.showFrame(frame);
+    this.objects.update(frame?.objects ?? []);
+    this.trails.update(tracks, at);
+    this.trajectory.update(trajectory, at);
+    this.applyLayers();
+  }
+
+  private showFrame(frame: FrameMessage): void {
+    const jump = Math.abs(frame.frame - this.lastFrame) > 5;
+    this.lastFrame = frame.frame;
+    this.sensor.setScan(frame.scan);
+    if (!frame.pose) return;
+    this.sensor.setPose(frame.pose);
+    const at = new Vector3().fromArray(frame.pose);
+    const forward = new Vector3(0, 0, 1).applyQuaternion(this.sensor.group.quaternion).applyQuaternion(this.world.quaternion);
+    at.applyMatrix4(this.world.matrixWorld);
+    this.ceiling = at.y + kCeiling;
+    this.stage.rig.setSensor(at, forward, jump);
+  }
+
+  private applyLayers(): void {
+    for (const [layer, object] of Object.entries(this.layers)) object.visible = this.settings.shows(layer as Layer);
+    pointUniforms.ceiling.value = this.settings.shows('ceiling') ? kHigh : this.ceiling;
+  }
+
+  /** How large the scene is and where its floor lies. */
+  private measure(): void {
+    this.measured = true;
+    const bounds = new Box3();
+    const { values, length } = this.run.trajectory.poses;
+    const point = new Vector3();
+    for (let i = 0; i < length; ++i) {
+      point.fromArray(values, 7 * i);
+      if (Number.isFinite(point.x)) bounds.expandByPoint(point.applyMatrix4(this.world.matrixWorld));
+    }
+    bounds.expandByScalar(1.5);
+    const heights: number[] = [];
+    this.map.forEachSample(40, (x, y, z) => {
+      point.set(x, y, z);
+      heights.push(this.up.dot(point));
+      bounds.expandByPoint(point.applyMatrix4(this.world.matrixWorld));
+    });
+    this.grid.position.y = floorHeight(heights) ?? -1;
+    this.stage.rig.setBounds(bounds);
+  }
+
+  private drawLabels(): void {
+    const shown = this.settings.shows('labels') ? (this.run.frame?.objects ?? []) : [];
+    this.stage.labels.draw(shown.map((object) => this.label(object)), this.stage.rig.camera);
+  }
+
+  private label(object: SceneObject): Label {
+    const top = new Vector3().fromArray(object.center).addScaledVector(this.up, halfHeight(object, this.up));
+    return {
+      at: top.applyMatrix4(this.world.matrixWorld),
+      text: labelText(object),
+      color: classColor(object.class),
+      faint: !object.seen,
+    };
+  }
+}
+
+/** id, class and speed in words. */
+export function labelText({ id, class: name, velocity, moving }: SceneObject): string {
+  return `${name} ${id} · ${moving ? `${Math.hypot(...velocity).toFixed(1)} m/s` : 'still'}`;
+}
+
+/** Half of what the box takes up along `up`. */
+function halfHeight({ size, orientation }: SceneObject, up: Vector3): number {
+  const local = up.clone().applyQuaternion(new Quaternion().fromArray(orientation).invert());
+  return 0.5 * (Math.abs(local.x) * size[0] + Math.abs(local.y) * size[1] + Math.abs(local.z) * size[2]);
+}
+
+/** Turns the map's frame so that `up` becomes y and what the camera first looked along (z) points away from us. */
+export function upright(up: Vector3 | Triple): Quaternion {
+  const y = (up instanceof Vector3 ? up.clone() : new Vector3(...up)).normalize();
+  const ahead = Math.abs(y.z) > 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
+  const forward = ahead.addScaledVector(y, -ahead.dot(y)).normalize();
+  const right = forward.clone().cross(y);
+  // Rows are the scene's axes seen from the map.
+  const rotation = new Matrix4().makeBasis(right, y, forward.negate()).transpose();
+  return new Quaternion().setFromRotationMatrix(rotation);
+}

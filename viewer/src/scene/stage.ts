@@ -1,0 +1,100 @@
+import { Color, Scene, WebGLRenderer } from 'three';
+import { CameraRig } from './camera_rig';
+import { LabelOverlay } from './label_overlay';
+import { kColors } from './palette';
+import { PointBudget, rendersInSoftware } from './point_budget';
+import { pointUniforms } from './point_material';
+
+export interface StageEvents {
+  /** Before a picture is drawn; `budget` is how many points of the map it may have, and the answer how many it has. */
+  draw(budget: number): number;
+  /** After it. */
+  drawn(): void;
+}
+
+/** How long the scene has to be at rest before it is drawn in full [ms]. */
+const kRest = 250;
+
+/** The canvas: draws when something changed, coarse while it moves, in full when it rests. */
+export class Stage {
+  readonly scene = new Scene();
+  readonly renderer: WebGLRenderer;
+  readonly labels = new LabelOverlay();
+  readonly rig: CameraRig;
+  private readonly budget: PointBudget;
+  private readonly software = rendersInSoftware();
+  private requested = false;
+  private last = 0;
+  private restTimer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(
+    private readonly container: HTMLElement,
+    private readonly events: StageEvents,
+  ) {
+    this.renderer = new WebGLRenderer({ antialias: !this.software, powerPreference: 'high-performance' });
+    this.scene.background = new Color(kColors.background);
+    const small = matchMedia('(pointer: coarse)').matches;
+    this.budget = new PointBudget(small ? 2_000_000 : 6_000_000, this.software ? 150_000 : 1_000_000);
+    this.renderer.domElement.classList.add('scene-canvas');
+    this.labels.canvas.classList.add('label-canvas');
+    container.append(this.renderer.domElement, this.labels.canvas);
+    this.rig = new CameraRig(this.renderer.domElement, () => this.invalidate());
+    new ResizeObserver(() => this.resize()).observe(container);
+  }
+
+  /** Something changed: draws a picture soon. */
+  invalidate(): void {
+    if (this.requested) return;
+    this.requested = true;
+    requestAnimationFrame((now) => this.step(now));
+  }
+
+  /** The scene with its labels. */
+  picture(): Promise<Blob | null> {
+    this.render(this.budget.resting); // what was drawn before may be gone from the canvas
+    const canvas = document.createElement('canvas');
+    const { width, height } = this.renderer.domElement;
+    Object.assign(canvas, { width, height });
+    const context = canvas.getContext('2d') as CanvasRenderingContext2D;
+    context.drawImage(this.renderer.domElement, 0, 0);
+    context.drawImage(this.labels.canvas, 0, 0, width, height);
+    return new Promise((resolve) => canvas.toBlob(resolve, 'image/png'));
+  }
+
+  private step(now: number): void {
+    this.requested = false;
+    const interval = now - this.last;
+    this.last = now;
+    const moves = this.rig.update(Math.min(0.1, interval / 1000));
+    const points = this.render(this.budget.moving);
+    requestAnimationFrame(() => this.budget.learn(points, performance.now() - now));
+    if (moves) this.invalidate();
+    clearTimeout(this.restTimer);
+    this.restTimer = setTimeout(() => this.render(this.budget.resting), kRest);
+  }
+
+  /** Returns how many points of the map were drawn. */
+  private render(budget: number): number {
+    const { camera } = this.rig;
+    camera.updateMatrixWorld();
+    const ratio = this.renderer.getPixelRatio();
+    pointUniforms.pixelsPerMetre.value = this.rig.pixelsPerMetre * ratio;
+    pointUniforms.orthographic.value = this.rig.mode === 'top';
+    const points = this.events.draw(budget);
+    this.renderer.render(this.scene, camera);
+    this.events.drawn();
+    return points;
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.container;
+    if (width === 0 || height === 0) return;
+    const ratio = this.software ? 1 : Math.min(2, devicePixelRatio);
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height);
+    this.labels.resize(width, height, Math.min(2, devicePixelRatio));
+    this.rig.resize(width, height);
+    this.render(this.budget.moving);
+    this.invalidate();
+  }
+}

@@ -1,0 +1,77 @@
+import type { FrameMessage, Hello, MapMessage, Message, StateMessage } from '../protocol/messages';
+import { Emitter } from './emitter';
+import { SeriesTable } from './series';
+import { Tracks } from './tracks';
+import { Trajectory } from './trajectory';
+
+export type RunEvents = {
+  /** A run begins, or is told anew after a reconnect: everything known before is gone. */
+  hello: { hello: Hello; again: boolean };
+  /** The trajectory, the series or the tracks were told as a whole. */
+  history: void;
+  frame: FrameMessage;
+  map: MapMessage;
+  playback: StateMessage;
+  error: string;
+};
+
+const kStopped: StateMessage = { type: 'state', playing: false, frame: 0, speed: 1, ended: false, dropped: 0 };
+
+/** What the page knows of the run it shows: the sum of the messages that came. */
+export class Run extends Emitter<RunEvents> {
+  hello: Hello | null = null;
+  frame: FrameMessage | null = null;
+  playback = kStopped;
+  trajectory = new Trajectory();
+  series = new SeriesTable();
+  tracks = new Tracks();
+
+  /** How many frames there are to scrub through. */
+  get frames(): number {
+    return Math.max(this.hello?.frames ?? 0, this.trajectory.frames);
+  }
+
+  apply(message: Message): void {
+    switch (message.type) {
+      case 'hello':
+        return this.begin(message);
+      case 'trajectory':
+        this.trajectory.set(message);
+        return this.emit('history', undefined);
+      case 'series':
+        this.series.set(message);
+        return this.emit('history', undefined);
+      case 'tracks':
+        this.tracks.set(message, this.hello?.classes ?? []);
+        return this.emit('history', undefined);
+      case 'frame':
+        return this.show(message);
+      case 'map':
+        return this.emit('map', message);
+      case 'state':
+        this.playback = message;
+        return this.emit('playback', message);
+      case 'error':
+        return this.emit('error', message.message);
+    }
+  }
+
+  private begin(hello: Hello): void {
+    const again = this.hello !== null && this.hello.run === hello.run && this.hello.name === hello.name;
+    this.hello = hello;
+    this.frame = null;
+    this.playback = kStopped;
+    this.trajectory = new Trajectory();
+    this.series = new SeriesTable();
+    this.tracks = new Tracks();
+    this.emit('hello', { hello, again });
+  }
+
+  private show(frame: FrameMessage): void {
+    this.frame = frame;
+    this.trajectory.add(frame);
+    this.series.add(frame.frame, frame.series);
+    this.tracks.add(frame.frame, frame.objects);
+    this.emit('frame', frame);
+  }
+}

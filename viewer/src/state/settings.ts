@@ -1,0 +1,77 @@
+import { Emitter } from './emitter';
+
+export const kLayers = [
+  'map',
+  'scan',
+  'boxes',
+  'labels',
+  'trails',
+  'trajectory',
+  'truth',
+  'camera',
+  'grid',
+  'ceiling',
+  'masks',
+] as const;
+export type Layer = (typeof kLayers)[number];
+
+export const kCameraModes = ['follow', 'orbit', 'top'] as const;
+export type CameraMode = (typeof kCameraModes)[number];
+
+type SettingEvents = { layer: Layer; camera: CameraMode };
+
+const kKey = 'mms-viewer';
+const kHiddenAtFirst: Layer[] = ['ceiling'];
+
+/** What the user chose to see; kept by the browser. */
+export class Settings extends Emitter<SettingEvents> {
+  private readonly hidden: Set<Layer>;
+  private mode: CameraMode = 'follow';
+
+  constructor(private readonly storage: Pick<Storage, 'getItem' | 'setItem'> | null) {
+    super();
+    const saved = read(storage);
+    this.hidden = new Set(saved.hidden ?? kHiddenAtFirst);
+    this.mode = saved.camera ?? 'follow';
+  }
+
+  get camera(): CameraMode {
+    return this.mode;
+  }
+
+  set camera(mode: CameraMode) {
+    this.mode = mode;
+    this.save();
+    this.emit('camera', mode);
+  }
+
+  shows(layer: Layer): boolean {
+    return !this.hidden.has(layer);
+  }
+
+  toggle(layer: Layer): void {
+    if (!this.hidden.delete(layer)) this.hidden.add(layer);
+    this.save();
+    this.emit('layer', layer);
+  }
+
+  private save(): void {
+    try {
+      this.storage?.setItem(kKey, JSON.stringify({ hidden: [...this.hidden], camera: this.mode }));
+    } catch {
+      // A full or forbidden storage only means that the choice is not kept.
+    }
+  }
+}
+
+function read(storage: Pick<Storage, 'getItem'> | null): { hidden?: Layer[]; camera?: CameraMode } {
+  try {
+    const saved = JSON.parse(storage?.getItem(kKey) ?? '{}') as { hidden?: unknown; camera?: unknown };
+    return {
+      hidden: Array.isArray(saved.hidden) ? kLayers.filter((layer) => (saved.hidden as unknown[]).includes(layer)) : undefined,
+      camera: kCameraModes.find((mode) => mode === saved.camera),
+    };
+  } catch {
+    return {};
+  }
+}

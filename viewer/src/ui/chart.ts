@@ -1,0 +1,180 @@
+import uPlot from 'uplot';
+import { h, setText } from './dom';
+
+export interface Line {
+  name: string;
+  color: string;
+  values: Float32Array;
+}
+
+export interface ChartLook {
+  title: string;
+  /** A value as text, for the axis and the heading. */
+  format(value: number | undefined): string;
+  /** Where a frame is on the axis below, and what is written there. */
+  position(frame: number): number;
+  formatPosition(position: number): string;
+  /** Lines are stacked upon each other and filled. */
+  stacked?: boolean;
+  onSeek(frame: number): void;
+}
+
+/** More columns than this are never plotted: a column then shows the largest value of its frames. */
+const kColumns = 1500;
+const kAxis = '#7f8fa3';
+const kFont = '11px system-ui, "Segoe UI", Roboto, sans-serif';
+
+/** One plot over the frames, with a heading that tells the values at the playhead; a click seeks. */
+export class Chart {
+  readonly root: HTMLElement;
+  private readonly value = h('b');
+  private readonly legend = h('div', { class: 'legend' });
+  private readonly area = h('div', { class: 'plot' });
+  private readonly playhead = h('div', { class: 'playhead' });
+  private plot: uPlot | null = null;
+  private lines: Line[] = [];
+  private names = '';
+  private frame = 0;
+
+  constructor(private readonly look: ChartLook) {
+    const heading = h('header', {}, h('h3', {}, look.title), this.value);
+    this.root = h('div', { class: 'chart' }, heading, this.area, this.legend);
+    new ResizeObserver(() => this.resize()).observe(this.area);
+  }
+
+  setLines(lines: Line[]): void {
+    this.lines = lines;
+    this.root.hidden = lines.length === 0;
+    if (this.root.hidden) return;
+    const names = lines.map(({ name }) => name).join();
+    if (!this.plot || names !== this.names) this.build(names);
+    this.plot?.setData(this.data());
+    this.setFrame(this.frame);
+  }
+
+  /** Moves the playhead and tells the values there. */
+  setFrame(frame: number): void {
+    this.frame = frame;
+    const values = this.lines.map(({ values: all }) => all[frame]);
+    const known = values.filter((value) => Number.isFinite(value));
+    const shown = this.look.stacked ? known.reduce((sum, value) => sum + value, 0) : values[0];
+    setText(this.value, this.look.format(known.length ? shown : undefined));
+    [...this.legend.children].forEach((entry, i) => {
+      setText(entry.lastElementChild as HTMLElement, this.look.format(values[i]));
+    });
+    if (!this.plot) return;
+    const left = this.plot.valToPos(this.look.position(frame), 'x');
+    this.playhead.style.transform = `translateX(${Number.isFinite(left) ? left : -10}px)`;
+  }
+
+  private build(names: string): void {
+    this.names = names;
+    this.plot?.destroy();
+    this.plot = new uPlot(this.options(), this.data(), this.area);
+    this.plot.over.append(this.playhead);
+    this.plot.over.addEventListener('click', () => this.seek());
+    this.legend.replaceChildren(...(this.lines.length > 1 ? this.lines.map(legendEntry) : []));
+  }
+
+  private data(): uPlot.AlignedData {
+    const [frames, ...columns] = plotData(this.lines, this.look.stacked === true);
+    return [Array.from(frames, (frame) => this.look.position(frame)), ...columns];
+  }
+
+  private seek(): void {
+    const left = this.plot?.cursor.left ?? -1;
+    if (this.plot && left >= 0) this.look.onSeek(this.plot.posToIdx(left) * columnFrames(this.lines));
+  }
+
+  private options(): uPlot.Options {
+    const axis: uPlot.Axis = {
+      stroke: kAxis,
+      font: kFont,
+      grid: { stroke: 'rgba(127, 143, 163, 0.14)', width: 1 },
+      ticks: { show: false },
+    };
+    return {
+      ...this.size(),
+      padding: [6, 8, 0, 0],
+      legend: { show: false },
+      cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
+      scales: { x: { time: false }, y: { range: (_, low, high) => axisRange(low, this.highest(high)) } },
+      axes: [
+        { ...axis, size: 22, space: 60, values: (_, at) => at.map((position) => this.look.formatPosition(position)) },
+        { ...axis, size: 52, space: 18, values: (_, values) => values.map((value) => axisText(this.look.format(value))) },
+      ],
+      series: [{}, ...this.lines.map((line) => seriesLook(line, this.look.stacked === true))],
+    };
+  }
+
+  /** The top of the axis: rare peaks, such as the first frame's, do not flatten all the rest. */
+  private highest(high: number): number {
+    if (!this.look.stacked) return high;
+    const totals = stack(this.lines.map(({ values }) => Array.from(values)))[0]?.filter(Number.isFinite) ?? [];
+    const usual = totals.sort((a, b) => a - b)[Math.floor(0.99 * (totals.length - 1))] ?? high;
+    return Math.min(high, 1.25 * usual);
+  }
+
+  private size(): { width: number; height: number } {
+    return { width: Math.max(50, this.area.clientWidth), height: Math.max(40, this.area.clientHeight) };
+  }
+
+  private resize(): void {
+    if (this.area.clientWidth === 0) return;
+    this.plot?.setSize(this.size());
+    this.setFrame(this.frame);
+  }
+}
+
+function legendEntry({ name, color }: Line): HTMLElement {
+  const swatch = h('i');
+  swatch.style.background = color;
+  return h('span', {}, swatch, `${name} `, h('em'));
+}
+
+function seriesLook({ color }: Line, stacked: boolean): uPlot.Series {
+  return { stroke: color, width: stacked ? 1 : 1.6, fill: stacked ? `${color}66` : `${color}1f`, points: { show: false } };
+}
+
+function axisRange(low: number, high: number): [number, number] {
+  if (!Number.isFinite(high)) return [0, 1];
+  return [Math.min(0, low), high > 0 ? 1.08 * high : 1];
+}
+
+/** How many frames a column stands for. */
+function columnFrames(lines: Line[]): number {
+  return Math.max(1, Math.ceil(Math.max(0, ...lines.map(({ values }) => values.length)) / kColumns));
+}
+
+/** Round numbers need no decimals. */
+function axisText(text: string): string {
+  return text.replace(/\.0(?= )/, '');
+}
+
+/** Columns for uPlot: frames, and of each line the values; stacked ones as sums, the last line at the bottom. */
+export function plotData(lines: Line[], stacked: boolean): uPlot.AlignedData {
+  const frames = Math.max(0, ...lines.map(({ values }) => values.length));
+  const step = columnFrames(lines);
+  const x = Array.from({ length: Math.ceil(frames / step) }, (_, i) => i * step);
+  const columns = lines.map(({ values }) => x.map((from) => largest(values, from, from + step)));
+  const shown = stacked ? stack(columns) : columns;
+  return [x, ...shown.map((column) => column.map((value) => (Number.isFinite(value) ? value : null)))];
+}
+
+/** Of every column the sum with those after it. */
+function stack(columns: number[][]): number[][] {
+  const sums = columns.map((column) => [...column]);
+  for (let i = sums.length - 2; i >= 0; --i) {
+    sums[i] = sums[i].map((value, row) => value + (sums[i + 1][row] || 0));
+  }
+  return sums;
+}
+
+/** NaN where there is none. */
+function largest(values: Float32Array, from: number, to: number): number {
+  let most = NaN;
+  for (let i = from; i < Math.min(to, values.length); ++i) {
+    if (!(values[i] <= most) && Number.isFinite(values[i])) most = values[i];
+  }
+  return most;
+}

@@ -1,0 +1,75 @@
+import 'uplot/dist/uPlot.min.css';
+import type { Unit } from '../protocol/messages';
+import { kColors } from '../scene/palette';
+import type { Run } from '../state/run';
+import type { Series } from '../state/series';
+import { Chart, type Line } from './chart';
+import { part, throttled } from './dom';
+import { clock, quantity, words } from './format';
+
+const kStageColors = ['#4db8ff', '#9b8cff', '#ff9f43', '#3ddcc0', '#f2d35e', '#ff6fae', '#8fa3b8', '#b7e06a'];
+const kColorOf: Record<string, string> = {
+  dynamic_share: kColors.dynamicScan,
+  objects: kColors.person,
+  drift_cm: kColors.truth,
+};
+/** Charts of a live run are drawn anew this often [ms]; only the playhead moves with every frame. */
+const kRedraw = 300;
+
+interface Slot {
+  chart: Chart;
+  unit: Unit;
+}
+
+/** Milliseconds a stage, dynamic share, drift and error, objects: all over the frames. */
+export class ChartPanel {
+  private readonly slots: Slot[];
+  private plotted = 0;
+
+  constructor(
+    private readonly run: Run,
+    private readonly seek: (frame: number) => void,
+  ) {
+    this.slots = [
+      { chart: this.chart('Time per frame', 'ms', true), unit: 'ms' },
+      { chart: this.chart('Dynamic share', 'ratio'), unit: 'ratio' },
+      { chart: this.chart('Drift from the truth', 'cm'), unit: 'cm' },
+      { chart: this.chart('Objects', 'count'), unit: 'count' },
+    ];
+    part('charts').append(...this.slots.map(({ chart }) => chart.root));
+    const redraw = throttled(kRedraw, () => this.redraw());
+    run.on('hello', redraw);
+    run.on('history', redraw);
+    run.on('frame', ({ frame }) => {
+      if (run.series.frames > this.plotted) redraw();
+      for (const { chart } of this.slots) chart.setFrame(frame);
+    });
+    this.redraw();
+  }
+
+  private chart(title: string, unit: Unit, stacked = false): Chart {
+    return new Chart({
+      title,
+      stacked,
+      format: (value) => quantity(value, unit),
+      position: (frame) => (this.timed ? (this.run.trajectory.time(frame) ?? NaN) : frame),
+      formatPosition: (position) => (this.timed ? clock(position).replace(/\.0$/, '') : String(position)),
+      onSeek: this.seek,
+    });
+  }
+
+  /** Whether the axis is in seconds; in frames where their stamps are unknown. */
+  private get timed(): boolean {
+    return this.run.trajectory.time(this.run.series.frames - 1) !== null;
+  }
+
+  private redraw(): void {
+    this.plotted = this.run.series.frames;
+    for (const { chart, unit } of this.slots) chart.setLines(this.run.series.of(unit).map(line));
+  }
+}
+
+function line({ name, values }: Series, index: number): Line {
+  const color = kColorOf[name] ?? kStageColors[index % kStageColors.length];
+  return { name: words(name), color, values: values.values };
+}

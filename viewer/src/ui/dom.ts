@@ -1,0 +1,50 @@
+type Attributes = Record<string, string | boolean | ((event: Event) => void)>;
+type Child = Node | string | null;
+
+/** An element with attributes (functions are listeners, true is a bare attribute) and children. */
+export function h<Tag extends keyof HTMLElementTagNameMap>(
+  tag: Tag,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[Tag] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === 'function') element.addEventListener(name, value);
+    else if (value !== false) element.setAttribute(name, value === true ? '' : value);
+  }
+  element.append(...children.filter((child): child is Node | string => child !== null));
+  return element;
+}
+
+/** An element of index.html. */
+export function part<T extends HTMLElement = HTMLElement>(id: string): T {
+  const element = document.getElementById(id);
+  if (!element) throw new Error(`no element #${id}`);
+  return element as T;
+}
+
+/** Sets the text only where it changes, so that nothing is laid out anew for nothing. */
+export function setText(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** Runs `action` at most once every `ms`, and once more at the end. */
+export function throttled(ms: number, action: () => void): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  let due = false;
+  const run = (): void => {
+    if (timer !== undefined) {
+      due = true;
+      return;
+    }
+    action();
+    timer = setTimeout(() => {
+      timer = undefined;
+      if (due) {
+        due = false;
+        run();
+      }
+    }, ms);
+  };
+  return run;
+}

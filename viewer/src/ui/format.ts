@@ -1,0 +1,34 @@
+import type { Unit } from '../protocol/messages';
+
+/** 83.4 s as 1:23.4. */
+export function clock(seconds: number): string {
+  const tenths = Math.round(seconds * 10);
+  const minutes = Math.floor(tenths / 600);
+  return `${minutes}:${((tenths - minutes * 600) / 10).toFixed(1).padStart(4, '0')}`;
+}
+
+/** A value with its unit, as precise as it is worth. */
+export function quantity(value: number | undefined, unit: Unit): string {
+  if (value === undefined || !Number.isFinite(value)) return '–';
+  if (unit === 'ms') return `${value.toFixed(value < 10 ? 1 : 0)} ms`;
+  if (unit === 'ratio') return `${(100 * value).toFixed(1)} %`;
+  if (unit === 'count') return value.toFixed(0);
+  return value < 100 ? `${value.toFixed(1)} cm` : `${(value / 100).toFixed(2)} m`;
+}
+
+/** A series' name in words: dynamic_share as "dynamic share". */
+export function words(name: string): string {
+  return name.replace(/_(cm|ms)$/, '').replaceAll('_', ' ');
+}
+
+const kPlurals: Record<string, string> = { person: 'people', agv: 'AGVs', vehicle: 'vehicles' };
+const kSingulars: Record<string, string> = { agv: 'AGV' };
+
+/** "2 people", "1 AGV". */
+export function counted(count: number, name: string): string {
+  return `${count} ${count === 1 ? className(name) : (kPlurals[name] ?? `${name}s`)}`;
+}
+
+export function className(name: string): string {
+  return kSingulars[name] ?? name;
+}

@@ -1,0 +1,74 @@
+import { kColors } from '../scene/palette';
+import type { Run } from '../state/run';
+import type { Layer, Settings } from '../state/settings';
+import { h, part } from './dom';
+
+interface Row {
+  layer: Layer;
+  name: string;
+  key: string;
+  /** Colours that the layer has in the scene: the panel is the legend as well. */
+  colors: string[];
+  hint: string;
+}
+
+export const kRows: Row[] = [
+  { layer: 'map', name: 'Static map', key: 'M', colors: ['#8fa3b8'], hint: 'What stands still, in its own colours' },
+  {
+    layer: 'scan',
+    name: 'Current scan',
+    key: 'S',
+    colors: [kColors.staticScan, kColors.dynamicScan],
+    hint: 'This frame: static points cyan, dynamic ones orange',
+  },
+  { layer: 'boxes', name: 'Objects', key: 'B', colors: [kColors.person, kColors.vehicle], hint: 'People red, vehicles green' },
+  { layer: 'labels', name: 'Labels', key: 'L', colors: [], hint: 'Class, number and speed' },
+  { layer: 'trails', name: 'Trails', key: 'R', colors: [kColors.person, kColors.vehicle], hint: 'Where objects came from' },
+  { layer: 'trajectory', name: 'Trajectory', key: 'T', colors: [kColors.trajectory], hint: 'The way of the sensor' },
+  { layer: 'truth', name: 'Truth', key: 'G', colors: [kColors.truth], hint: 'Where the sensor really was' },
+  { layer: 'camera', name: 'Sensor', key: 'C', colors: [kColors.camera], hint: 'Where the sensor looks' },
+  { layer: 'masks', name: 'Image masks', key: 'K', colors: [kColors.person, kColors.vehicle], hint: 'What was found in the image' },
+  { layer: 'grid', name: 'Floor grid', key: 'F', colors: ['#4a5d75'], hint: 'A line a metre' },
+  { layer: 'ceiling', name: 'Upper part', key: 'U', colors: [], hint: 'Also what is more than 1 m above the sensor' },
+];
+
+/** A switch a layer. */
+export class LayerPanel {
+  private readonly switches = new Map<Layer, HTMLElement>();
+
+  constructor(
+    run: Run,
+    private readonly settings: Settings,
+  ) {
+    for (const row of kRows) part('layers').append(this.row(row));
+    settings.on('layer', () => this.update());
+    run.on('hello', ({ hello }) => {
+      this.switches.get('truth')?.toggleAttribute('disabled', !hello.hasTruth);
+      this.switches.get('masks')?.toggleAttribute('disabled', hello.image === null);
+    });
+    this.update();
+  }
+
+  private row({ layer, name, key, colors, hint }: Row): HTMLElement {
+    const swatches = h('span', { class: 'swatches' });
+    for (const color of colors.slice(0, 2)) {
+      const swatch = h('i');
+      swatch.style.background = color;
+      swatches.append(swatch);
+    }
+    const button = h(
+      'button',
+      { class: 'layer', type: 'button', role: 'switch', title: hint, 'data-layer': layer, click: () => this.settings.toggle(layer) },
+      h('span', { class: 'knob' }),
+      h('span', { class: 'layer-name' }, name),
+      swatches,
+      h('kbd', {}, key),
+    );
+    this.switches.set(layer, button);
+    return button;
+  }
+
+  private update(): void {
+    for (const [layer, button] of this.switches) button.setAttribute('aria-checked', String(this.settings.shows(layer)));
+  }
+}

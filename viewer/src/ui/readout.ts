@@ -1,0 +1,75 @@
+import type { Run } from '../state/run';
+import { h, part, setText } from './dom';
+import { counted, quantity } from './format';
+
+interface Tile {
+  value: HTMLElement;
+  label: HTMLElement;
+  root: HTMLElement;
+}
+
+/** The run in five numbers, over the scene. */
+export class Readout {
+  private readonly status = tile('tile status');
+  private readonly objects = tile('tile');
+  private readonly dynamic = tile('tile');
+  private readonly error = tile('tile');
+  private readonly time = tile('tile optional');
+
+  constructor(private readonly run: Run) {
+    const tiles = [this.status, this.objects, this.dynamic, this.error, this.time];
+    part('readout').append(...tiles.map(({ root }) => root));
+    run.on('hello', () => this.update());
+    run.on('frame', () => this.update());
+  }
+
+  private update(): void {
+    const { frame } = this.run;
+    part('readout').hidden = frame === null;
+    if (!frame) return;
+    this.status.root.dataset.status = frame.lost ? 'lost' : frame.status;
+    fill(this.status, statusWord(frame.status, frame.lost), 'localisation');
+    fill(this.objects, this.counts(), 'tracked');
+    fill(this.dynamic, quantity(this.value('dynamic_share'), 'ratio'), 'dynamic');
+    const drift = this.value('drift_cm');
+    this.error.root.hidden = drift === undefined;
+    fill(this.error, quantity(drift, 'cm'), 'off the truth');
+    fill(this.time, quantity(this.total(), 'ms'), 'a frame');
+  }
+
+  /** From the frame, or from the run's history where the frame does not say. */
+  private value(name: string): number | undefined {
+    const { frame, series } = this.run;
+    if (!frame) return undefined;
+    const value = frame.series[name] ?? series.all.find((one) => one.name === name)?.values.row(frame.frame)[0];
+    return value === undefined || value === null || !Number.isFinite(value) ? undefined : value;
+  }
+
+  private total(): number | undefined {
+    const stages = this.run.series.of('ms').map(({ name }) => this.value(name));
+    const known = stages.filter((value): value is number => value !== undefined);
+    return known.length ? known.reduce((sum, value) => sum + value, 0) : undefined;
+  }
+
+  private counts(): string {
+    const byClass = new Map<string, number>();
+    for (const object of this.run.frame?.objects ?? []) byClass.set(object.class, (byClass.get(object.class) ?? 0) + 1);
+    if (byClass.size === 0) return 'nobody';
+    return [...byClass].map(([name, count]) => counted(count, name)).join(' · ');
+  }
+}
+
+function statusWord(status: string, lost: boolean): string {
+  if (lost) return 'Lost';
+  return status ? status[0].toUpperCase() + status.slice(1) : 'Unknown';
+}
+
+function tile(className: string): Tile {
+  const [value, label] = [h('b'), h('span')];
+  return { value, label, root: h('div', { class: className }, value, label) };
+}
+
+function fill({ value, label }: Tile, text: string, name: string): void {
+  setText(value, text);
+  setText(label, name);
+}
