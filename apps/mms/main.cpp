@@ -19,6 +19,7 @@
 #include "simulate_command.hpp"
 #include "torch_backend.hpp"
 #include "usage.hpp"
+#include "view_command.hpp"
 
 namespace {
 
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
   mms::add_quantize_command(app);
   mms::add_import_command(app);
   mms::add_train_command(app);
+  mms::add_view_command(app);
   mms::add_convert_command(app);
   mms::add_info_command(app);
   mms::add_config_command(app);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "mms/io/numbers.hpp"
 #include "result_folder.hpp"
 #include "run_options.hpp"
 #include "run_outputs.hpp"
@@ -20,6 +21,20 @@ void run(const RunOptions& options) {
   run.write(folder.path());
   folder.make_latest();
   print_summary(folder.path(), run.log());
+  run.keep_showing(folder.path());
+}
+
+/// What `--view` has after it is a port, or DATA where that is not given elsewhere.
+ViewOptions view_of(const CLI::App& command, const std::string& word, ViewOptions place,
+                    RunOptions& options) {
+  if (word.empty()) return place;
+  const std::optional<std::int64_t> port = parse_integer(word);
+  if (!port && command.count("DATA") == 0) {
+    options.data = word;
+    return place;
+  }
+  place.port = checked_port("--view", word);
+  return place;
 }
 
 }  // namespace
@@ -60,7 +75,16 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--keep-journal", options->keep_journal,
                     "leave journal.bin, from which mms convert recovers a run that was killed, in "
                     "the folder of a run that came to its end");
-  command->callback([options] {
+  const auto view = std::make_shared<std::string>();
+  const auto place = std::make_shared<ViewOptions>();
+  command
+      ->add_option("--view", *view,
+                   "show the run in a browser while it goes on, at this port (8080)")
+      ->expected(0, 1)
+      ->type_name("[PORT]");
+  add_bind_option(*command, *place);
+  command->callback([=] {
+    if (command->count("--view") > 0) options->view = view_of(*command, *view, *place, *options);
     if (options->segmenter.empty())
       options->segmenter = options->masks.empty() ? "network" : "masks";
     run(*options);

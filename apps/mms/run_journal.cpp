@@ -40,19 +40,14 @@ RunJournal::~RunJournal() {
   any_ ? finish() : remove();
 }
 
-void RunJournal::add(const Processed& processed, const SlamSystem& system) {
+void RunJournal::add(const Processed& processed, std::optional<MapChanges> map) {
   any_ = true;
   if (!writer_) return;
   const FrameResult& result = processed.result;
   auto frame = std::make_unique<JournalFrame>();
-  *frame = {processed.frame.stamp,
-            wall_clock(),
-            result.odometry.T_world_sensor,
-            result.odometry.status,
-            result.keyframe,
-            result.cloud.organised(),
-            std::nullopt};
-  if (result.keyframe) frame->map = system.static_map().changes();
+  *frame = {processed.frame.stamp,  wall_clock(),    result.odometry.T_world_sensor,
+            result.odometry.status, result.keyframe, result.cloud.organised(),
+            std::move(map)};
   queue_.push(std::move(frame));
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -11,7 +12,6 @@
 #include "mms/io/journal_writer.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/pipeline/config.hpp"
-#include "mms/pipeline/slam_system.hpp"
 
 namespace mms {
 
@@ -32,8 +32,8 @@ class RunJournal {
   RunJournal(const RunJournal&) = delete;
   RunJournal& operator=(const RunJournal&) = delete;
 
-  /// Takes a frame down. Called right after the system localised it, before the next frame.
-  void add(const Processed& processed, const SlamSystem& system);
+  /// Takes a frame down. @param map  what it did to the static map; nothing where it is no keyframe
+  void add(const Processed& processed, std::optional<MapChanges> map);
 
   /// Ends the journal and removes it: what it holds is in the run's files.
   void remove();

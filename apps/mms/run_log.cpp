@@ -40,9 +40,10 @@ void RunLog::add(const Processed& processed) {
   const Clock::time_point now = Clock::now();
   const std::chrono::duration<double, std::milli> interval = now - last_;
   last_ = now;
-  frames_.push_back({processed.frame.name, processed.frame.stamp, result.odometry.T_world_sensor,
-                     result.odometry.status, result.keyframe, result.dynamic_share,
-                     processed.read_ms, interval.count(), result.stage_ms, processed.latency_ms});
+  frames_.push_back({processed.frame.name, processed.frame.stamp, processed.frame.index,
+                     result.odometry.T_world_sensor, result.odometry.status, result.keyframe,
+                     result.dynamic_share, processed.read_ms, interval.count(), result.stage_ms,
+                     processed.latency_ms});
   ObjectFrame& seen = objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
   for (const TrackedObject& object : result.objects) seen.objects.push_back(object.box);
   has_image_ = has_image_ || result.cloud.organised();

@@ -19,6 +19,7 @@ namespace mms {
 struct LoggedFrame {
   std::string name;
   Timestamp stamp;
+  std::int64_t index = 0;  ///< in the recording
   Transform<World, Sensor> T_world_sensor;
   Status status = Status::kInitialized;
   bool keyframe = false;

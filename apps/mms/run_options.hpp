@@ -3,7 +3,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
+
+#include "view_options.hpp"
 
 namespace mms {
 
@@ -20,6 +23,7 @@ struct RunOptions {
   bool realtime = false;
   bool keep_journal = false;
   int threads = 0;  ///< 0: one a core
+  std::optional<ViewOptions> view;
 };
 
 }  // namespace mms

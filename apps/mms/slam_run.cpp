@@ -1,6 +1,7 @@
 #include "slam_run.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <optional>
@@ -12,10 +13,9 @@
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/io/config_yaml.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
-#include "mms/segmentation/mask_segmenter.hpp"
-#include "mms/segmentation/none_segmenter.hpp"
-#include "network_detector.hpp"
 #include "run_outputs.hpp"
+#include "run_record.hpp"
+#include "run_setup.hpp"
 
 namespace mms {
 namespace {
@@ -46,18 +46,6 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
   return source;
 }
 
-std::unique_ptr<Segmenter> make_segmenter(const RunOptions& options, const SystemConfig& config,
-                                          const FrameSource& source) {
-  if (options.segmenter == "none") return std::make_unique<NoneSegmenter>();
-  if (options.segmenter == "network") return make_network_segmenter(config.segmentation);
-  if (!source.has_masks()) {
-    throw DataError(options.data, "has no masks",
-                    "put label images into its masks/ folder, give --masks DIR, or choose "
-                    "--segmenter network or none");
-  }
-  return std::make_unique<MaskSegmenter>();
-}
-
 /// The frames asked for, and no more; none after Ctrl-C.
 AsyncPipeline::Source limited(FrameSource& source, const RunOptions& options) {
   source.skip(options.start);
@@ -83,8 +71,12 @@ SlamRun::SlamRun(const RunOptions& options)
     : options_(options),
       source_(open_source(options)),
       config_(load_settings(options, *source_)),
-      system_(config_, make_segmenter(options, config_, *source_)),
-      progress_(std::min(options.frames, source_->size() - options.start)) {}
+      system_(config_, make_segmenter(options.segmenter, options.data, config_, *source_)),
+      progress_(std::min(options.frames, source_->size() - options.start)) {
+  if (!options_.view) return;
+  view_ = std::make_unique<LiveView>(*options_.view, options_.data, *source_, config_,
+                                     std::min(options.frames, source_->size() - options.start));
+}
 
 void SlamRun::play(const std::filesystem::path& folder) {
   try {
@@ -112,13 +104,11 @@ void SlamRun::process(const std::filesystem::path& folder) {
   const InterruptGuard interrupt;
   if (options_.realtime) warm_up();
   AsyncPipeline pipeline(threads_of(options_, config_));
-  pipeline.run(system_, limited(*source_, options_), [&](const Processed& processed) {
-    journal_->add(processed, system_);
-    log_->add(processed);
-    progress_.show(*log_);
-  });
+  pipeline.run(system_, limited(*source_, options_),
+               [&](Processed&& processed) { finish_frame(std::move(processed)); });
   progress_.finish();
-  if (InterruptGuard::requested()) progress_.warn("interrupted, writing what is done so far");
+  interrupted_ = InterruptGuard::requested();
+  if (interrupted_) progress_.warn("interrupted, writing what is done so far");
   log_->finish(source_->skipped(), pipeline, system_);
   if (log_->frames().empty()) {
     throw DataError(options_.data,
@@ -126,6 +116,18 @@ void SlamRun::process(const std::filesystem::path& folder) {
                     "the warnings above say why; mms info DATA explains what was found");
   }
   compare_with_truth();
+}
+
+/// Called right after the system localised the frame, before the next one.
+void SlamRun::finish_frame(Processed processed) {
+  std::optional<MapChanges> map;
+  if (processed.result.keyframe) map = system_.static_map().changes();
+  std::shared_ptr<const MapChanges> shown;
+  if (view_ && map) shown = std::make_shared<const MapChanges>(*map);
+  journal_->add(processed, std::move(map));
+  log_->add(processed);
+  progress_.show(*log_);
+  if (view_) view_->show(std::move(processed), std::move(shown));
 }
 
 /// Truth that cannot be read costs the comparison, not the run.
@@ -146,7 +148,25 @@ void SlamRun::compare_with_truth() {
 
 void SlamRun::write(const std::filesystem::path& folder) {
   write_outputs(folder, options_.data, config_, system_, *log_);
+  const auto calibration = source_->calibration();
+  write_run_record(folder,
+                   record_of(options_, calibration ? calibration->camera : std::nullopt,
+                             log_->has_image(), system_.static_map().voxel_size()),
+                   *log_);
   if (!options_.keep_journal) journal_->remove();
+}
+
+void SlamRun::keep_showing(const std::filesystem::path& folder) {
+  if (!view_) return;
+  view_->end(folder, *log_);
+  if (interrupted_) return;
+  if (isatty(STDIN_FILENO) == 0) {
+    fmt::print(stderr, "the viewer ends with the run; mms view {} shows it again\n",
+               folder.string());
+    return;
+  }
+  fmt::print(stderr, "the viewer stays at {} until Ctrl-C\n", view_->url());
+  wait_for_interrupt();
 }
 
 }  // namespace mms

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "live_view.hpp"
 #include "mms/dataset/frame_source.hpp"
 #include "mms/pipeline/config.hpp"
 #include "mms/pipeline/slam_system.hpp"
@@ -27,6 +28,10 @@ class SlamRun {
   /// Writes all files of the run; the journal ends.
   void write(const std::filesystem::path& folder);
 
+  /// Lets viewers know where the files are. Where a person is at the terminal, goes on to show the
+  /// run until Ctrl-C; a script goes on at once.
+  void keep_showing(const std::filesystem::path& folder);
+
   const RunLog& log() const { return *log_; }
   const SlamSystem& system() const { return system_; }
   const RunOptions& options() const { return options_; }
@@ -35,6 +40,7 @@ class SlamRun {
   void warm_up();
   void process(const std::filesystem::path& folder);
   void compare_with_truth();
+  void finish_frame(Processed processed);
 
   RunOptions options_;
   std::unique_ptr<FrameSource> source_;
@@ -43,6 +49,8 @@ class SlamRun {
   Progress progress_;
   std::unique_ptr<RunLog> log_;
   std::unique_ptr<RunJournal> journal_;
+  std::unique_ptr<LiveView> view_;  // null without --view
+  bool interrupted_ = false;
 };
 
 }  // namespace mms

@@ -107,7 +107,7 @@ void write_png(const fs::path& path, const Image<Rgb>& image) {
 }
 
 void write_png(const fs::path& path, const Image<std::uint8_t>& image) {
-  write_file(path, encode(".png", view(image, CV_8UC1)));
+  write_file(path, encode_png(image));
 }
 
 void write_png(const fs::path& path, const Image<std::uint16_t>& image) {
@@ -116,6 +116,10 @@ void write_png(const fs::path& path, const Image<std::uint16_t>& image) {
 
 std::vector<std::uint8_t> encode_png(const Image<Rgb>& image) {
   return encode(".png", to_bgr(image));
+}
+
+std::vector<std::uint8_t> encode_png(const Image<std::uint8_t>& image) {
+  return encode(".png", view(image, CV_8UC1));
 }
 
 std::vector<std::uint8_t> encode_jpeg(const Image<Rgb>& image, int quality) {

@@ -33,6 +33,7 @@ void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& im
 
 /// The bytes of a PNG file. @throws DataError for an empty image.
 std::vector<std::uint8_t> encode_png(const Image<Rgb>& image);
+std::vector<std::uint8_t> encode_png(const Image<std::uint8_t>& image);
 
 /// The bytes of a JPEG file; `quality` in [0, 100]. @throws DataError for an empty image.
 std::vector<std::uint8_t> encode_jpeg(const Image<Rgb>& image, int quality = 85);

@@ -35,11 +35,12 @@ struct Processed {
 class AsyncPipeline {
  public:
   using Source = std::function<std::optional<Frame>()>;
-  using Sink = std::function<void(const Processed&)>;
+  using Sink = std::function<void(Processed&&)>;
 
   explicit AsyncPipeline(const AsyncOptions& options) : options_(options) {}
 
-  /// Processes all frames of `source` and hands them to `sink`, in order and in the calling thread.
+  /// Processes all frames of `source` and hands them to `sink`, which may keep them, in order and
+  /// in the calling thread.
   /// @throws what source, system or sink throw, after the threads have ended.
   void run(SlamSystem& system, const Source& source, const Sink& sink);
 

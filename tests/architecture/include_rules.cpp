@@ -102,6 +102,7 @@ const Arrows& arrows() {
       {"simulation", {"core", "geometry"}},
       {"dataset", {"core", "geometry", "io", "simulation"}},
       {"evaluation", {"core", "geometry", "io"}},
+      {"server", {"core", "geometry", "io"}},
   };
   return kArrows;
 }

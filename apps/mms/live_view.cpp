@@ -1,0 +1,129 @@
+#include "live_view.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "mms/evaluation/trajectory_error.hpp"
+#include "mms/mapping/floor.hpp"
+#include "run_record.hpp"
+
+namespace mms {
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+SceneInfo info_of(const std::string& data, const FrameSource& source, const SystemConfig& config,
+                  std::size_t frames, bool has_truth) {
+  SceneInfo info;
+  info.name = std::filesystem::path(data).lexically_normal().filename().string();
+  if (info.name.empty()) info.name = data;
+  info.data = data;
+  info.live = true;
+  info.frames = frames;
+  info.has_truth = has_truth;
+  info.voxel_size = config.static_map.voxel_size;
+  info.series = run_series(has_truth);
+  const auto calibration = source.calibration();
+  if (calibration) info.camera = calibration->camera;
+  return info;
+}
+
+std::vector<float> series_of(const Processed& processed, const SceneFrame& frame, bool has_truth) {
+  const FrameResult& result = processed.result;
+  std::vector<float> values = {static_cast<float>(processed.read_ms)};
+  for (const double ms : result.stage_ms) values.push_back(static_cast<float>(ms));
+  values.push_back(static_cast<float>(result.dynamic_share));
+  values.push_back(static_cast<float>(result.objects.size()));
+  if (!has_truth) return values;
+  const Eigen::Vector3d position = frame.T_world_sensor.translation();
+  values.push_back(frame.truth ? static_cast<float>(100.0 * (position - *frame.truth).norm())
+                               : kUnknown);
+  return values;
+}
+
+std::vector<ObjectBox> objects_of(const FrameResult& result, Timestamp stamp) {
+  std::vector<ObjectBox> boxes;
+  for (const TrackedObject& object : result.objects) {
+    boxes.push_back(object.box);
+    boxes.back().visible = object.last_seen == stamp ? 1.0 : 0.0;
+  }
+  return boxes;
+}
+
+}  // namespace
+
+std::vector<SeriesName> run_series(bool has_truth) {
+  std::vector<SeriesName> series = {{"read", "ms"}};
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    series.push_back({std::string(to_string(static_cast<Stage>(i))), "ms"});
+  }
+  series.push_back({"dynamic_share", ""});
+  series.push_back({"objects", ""});
+  if (has_truth) series.push_back({"drift_cm", "cm"});
+  return series;
+}
+
+LiveTruth::LiveTruth(Trajectory truth) : truth_(std::move(truth)) {
+  std::erase_if(truth_, [](const StampedPose& pose) { return !pose.T_world_sensor.is_finite(); });
+  std::sort(truth_.begin(), truth_.end(),
+            [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; });
+}
+
+std::optional<Eigen::Vector3d> LiveTruth::at(const StampedPose& estimate) {
+  const auto later =
+      std::lower_bound(truth_.begin(), truth_.end(), estimate.stamp,
+                       [](const StampedPose& pose, Timestamp stamp) { return pose.stamp < stamp; });
+  const StampedPose* nearest = later == truth_.end() ? nullptr : &*later;
+  if (later != truth_.begin()) {
+    const StampedPose& earlier = *std::prev(later);
+    const bool is_nearer =
+        nearest == nullptr || estimate.stamp - earlier.stamp < nearest->stamp - estimate.stamp;
+    if (is_nearer) nearest = &earlier;
+  }
+  if (nearest == nullptr) return std::nullopt;
+  const auto difference = std::chrono::abs(nearest->stamp - estimate.stamp);
+  if (difference > TrajectoryErrorOptions{}.max_difference) return std::nullopt;
+  const Eigen::Isometry3d& pose = nearest->T_world_sensor.isometry();
+  if (!T_world_truth_) T_world_truth_ = estimate.T_world_sensor.isometry() * pose.inverse();
+  return *T_world_truth_ * pose.translation();
+}
+
+LiveView::LiveView(const ViewOptions& options, const std::string& data, const FrameSource& source,
+                   const SystemConfig& config, std::size_t frames)
+    : truth_(source.ground_truth()),
+      scene_(std::make_shared<Scene>(info_of(data, source, config, frames, !truth_.empty()),
+                                     config.static_map.min_observations)),
+      server_(serve(options, scene_, "--view PORT", true)) {}
+
+void LiveView::show(Processed processed, std::shared_ptr<const MapChanges> map) {
+  FrameResult& result = processed.result;
+  SceneFrame frame;
+  frame.stamp = processed.frame.stamp;
+  frame.T_world_sensor = result.odometry.T_world_sensor;
+  frame.status = result.odometry.status;
+  frame.truth = truth_.at({frame.stamp, frame.T_world_sensor});
+  frame.series = series_of(processed, frame, !truth_.empty());
+  frame.objects = objects_of(result, frame.stamp);
+  if (scene_->size() == 0) {
+    const bool depth_camera = result.cloud.organised();
+    scene_->set_sensor(processed.frame.calibration->camera,
+                       (depth_camera ? SensorAxes::camera() : SensorAxes::lidar()).up);
+  }
+  auto view = std::make_shared<const SensorView>(
+      SensorView{scene_->size(), std::move(processed.frame.color), std::move(result.cloud)});
+  scene_->add(std::move(frame), std::move(view), std::move(map));
+}
+
+void LiveView::end(const std::filesystem::path& folder, const RunLog& log) {
+  const Trajectory truth = aligned_truth(log.truth(), log.trajectory());
+  std::vector<std::optional<Eigen::Vector3d>> positions(log.frames().size());
+  auto next = truth.begin();
+  for (std::size_t i = 0; i < positions.size() && next != truth.end(); ++i) {
+    if (next->stamp == log.frames()[i].stamp) positions[i] = (next++)->T_world_sensor.translation();
+  }
+  if (!truth.empty()) scene_->replace_truth(positions);
+  scene_->end(folder);
+}
+
+}  // namespace mms

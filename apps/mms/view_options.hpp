@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace mms {
+
+/// Where the viewer is served.
+struct ViewOptions {
+  std::uint16_t port = 8080;
+  std::string bind = "127.0.0.1";
+};
+
+}  // namespace mms

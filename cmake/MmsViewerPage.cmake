@@ -1,0 +1,42 @@
+# mms_viewer_page(TARGET): the files of viewer/dist as a part of the program, so that running it
+# needs neither Node nor a folder beside it.
+function(mms_viewer_page target)
+  set(page ${PROJECT_SOURCE_DIR}/viewer/dist)
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${page}/*)
+  list(SORT files)
+  set(symbols "")
+  set(declarations "")
+  set(entries "")
+  set(number 0)
+  foreach(file IN LISTS files)
+    file(RELATIVE_PATH name ${page} ${file})
+    string(APPEND symbols
+      "asm(\".section .rodata\\n.global mms_page_${number}\\nmms_page_${number}:\\n\"\n"
+      "    \".incbin \\\"${file}\\\"\\n.global mms_page_${number}_end\\nmms_page_${number}_end:\\n\"\n"
+      "    \".byte 0\\n.previous\\n\");\n")
+    string(APPEND declarations
+      "extern \"C\" const char mms_page_${number};\nextern \"C\" const char mms_page_${number}_end;\n")
+    string(APPEND entries
+      "      {\"/${name}\", {&mms_page_${number}, static_cast<std::size_t>(&mms_page_${number}_end - &mms_page_${number})}},\n")
+    math(EXPR number "${number} + 1")
+  endforeach()
+  set(source ${PROJECT_BINARY_DIR}/viewer_page.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "#include <vector>
+
+#include \"mms/server/page.hpp\"
+
+@symbols@
+@declarations@
+namespace mms {
+
+std::span<const PageFile> page_files() {
+  static const std::vector<PageFile> kFiles = {
+@entries@  };
+  return kFiles;
+}
+
+}  // namespace mms
+" @ONLY)
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}")
+  target_sources(${target} PRIVATE ${source})
+endfunction()

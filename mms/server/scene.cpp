@@ -1,0 +1,76 @@
+#include "mms/server/scene.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mms {
+
+Scene::Scene(SceneInfo info, int min_observations)
+    : info_(std::move(info)), map_(min_observations) {}
+
+void Scene::set_sensor(const std::optional<CameraIntrinsics>& camera, const Eigen::Vector3d& up) {
+  info_.camera = camera;
+  info_.up = up;
+}
+
+void Scene::add(SceneFrame frame, std::shared_ptr<const SensorView> view,
+                std::shared_ptr<const MapChanges> map) {
+  auto shared = std::make_shared<const SceneFrame>(std::move(frame));
+  const std::scoped_lock lock(mutex_);
+  frames_.push_back(std::move(shared));
+  newest_.swap(view);  // the old one is freed after the lock
+  if (map) changes_.push_back(std::move(map));
+  size_ = frames_.size();
+}
+
+void Scene::add_map(std::shared_ptr<const MapChanges> map) {
+  const std::scoped_lock lock(mutex_);
+  changes_.push_back(std::move(map));
+}
+
+void Scene::end(const std::filesystem::path& folder) {
+  const std::scoped_lock lock(mutex_);
+  folder_ = folder;
+  ended_ = true;
+}
+
+void Scene::replace_truth(const std::vector<std::optional<Eigen::Vector3d>>& truth) {
+  const std::scoped_lock lock(mutex_);
+  for (std::size_t i = 0; i < std::min(truth.size(), frames_.size()); ++i) {
+    auto changed = std::make_shared<SceneFrame>(*frames_[i]);
+    changed->truth = truth[i];
+    frames_[i] = std::move(changed);
+  }
+  ++edition_;
+}
+
+std::filesystem::path Scene::folder() const {
+  const std::scoped_lock lock(mutex_);
+  return folder_;
+}
+
+SceneFrames Scene::frames(std::size_t first, std::size_t last) const {
+  const std::scoped_lock lock(mutex_);
+  last = std::min(last, frames_.size());
+  if (first >= last) return {};
+  return {frames_.begin() + static_cast<std::ptrdiff_t>(first),
+          frames_.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+std::shared_ptr<const SensorView> Scene::view(std::optional<std::size_t> frame) const {
+  if (loader_ && frame) return loader_(*frame);
+  const std::scoped_lock lock(mutex_);
+  if (frame && newest_ && newest_->frame != *frame) return nullptr;
+  return newest_;
+}
+
+void Scene::take_over_map() {
+  std::vector<std::shared_ptr<const MapChanges>> changes;
+  {
+    const std::scoped_lock lock(mutex_);
+    changes.swap(changes_);
+  }
+  for (const auto& change : changes) map_.apply(*change);
+}
+
+}  // namespace mms
