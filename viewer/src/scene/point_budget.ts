@@ -1,32 +1,18 @@
-/** How long a picture may take while the scene moves, and when it rests [ms]. */
-const kMoving = 40;
-const kResting = 500;
 const kFewest = 60_000;
 
 /** How many points a picture may have, learned from what pictures took so far. */
 export class PointBudget {
-  moving: number;
-  resting: number;
-
-  /** `most` is never exceeded; `start` is what a moving scene begins with. */
+  /** `target` is how long a picture may take [ms]; there are never more than `most` points, and `points` at first. */
   constructor(
+    private readonly target: number,
     private readonly most: number,
-    start: number,
-  ) {
-    this.moving = start;
-    this.resting = most;
-  }
+    public points: number,
+  ) {}
 
-  /** A picture of so many points took so long. */
-  learn(points: number, milliseconds: number): void {
-    const perMillisecond = Math.max(points, kFewest) / Math.max(1, milliseconds);
-    this.moving = this.toward(this.moving, kMoving * perMillisecond);
-    this.resting = this.toward(this.resting, kResting * perMillisecond);
-  }
-
-  /** At most twice as many as before, so that one quick picture does not make the next one slow. */
-  private toward(before: number, wanted: number): number {
-    return Math.min(this.most, 2 * before, Math.max(kFewest, wanted));
+  /** A picture of so many points took so long [ms]. At most doubles: one quick picture shall not make the next slow. */
+  learn(points: number, took: number): void {
+    const wanted = (this.target * Math.max(points, kFewest)) / Math.max(1, took);
+    this.points = Math.min(this.most, 2 * this.points, Math.max(kFewest, wanted));
   }
 }
 

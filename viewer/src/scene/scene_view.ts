@@ -1,4 +1,4 @@
-import { Box3, Group, Matrix4, type Object3D, Quaternion, Vector3 } from 'three';
+import { Box3, Group, type Object3D, Quaternion, Vector3 } from 'three';
 import type { FrameMessage, Hello, MapMessage, SceneObject, Vector3 as Triple } from '../protocol/messages';
 import type { Run } from '../state/run';
 import type { Layer, Settings } from '../state/settings';
@@ -12,6 +12,7 @@ import { SensorLayer } from './sensor_layer';
 import { Stage } from './stage';
 import { TrailLayer } from './trail_layer';
 import { TrajectoryLayer } from './trajectory_layer';
+import { upright } from './upright';
 
 /** What lies higher above the sensor than this is cut off, so that one can look into the room [m]. */
 const kCeiling = 1;
@@ -199,15 +200,4 @@ export function labelText({ id, class: name, velocity, moving }: SceneObject): s
 function halfHeight({ size, orientation }: SceneObject, up: Vector3): number {
   const local = up.clone().applyQuaternion(new Quaternion().fromArray(orientation).invert());
   return 0.5 * (Math.abs(local.x) * size[0] + Math.abs(local.y) * size[1] + Math.abs(local.z) * size[2]);
-}
-
-/** Turns the map's frame so that `up` becomes y and what the camera first looked along (z) points away from us. */
-export function upright(up: Vector3 | Triple): Quaternion {
-  const y = (up instanceof Vector3 ? up.clone() : new Vector3(...up)).normalize();
-  const ahead = Math.abs(y.z) > 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
-  const forward = ahead.addScaledVector(y, -ahead.dot(y)).normalize();
-  const right = forward.clone().cross(y);
-  // Rows are the scene's axes seen from the map.
-  const rotation = new Matrix4().makeBasis(right, y, forward.negate()).transpose();
-  return new Quaternion().setFromRotationMatrix(rotation);
 }

@@ -21,7 +21,8 @@ export class Stage {
   readonly renderer: WebGLRenderer;
   readonly labels = new LabelOverlay();
   readonly rig: CameraRig;
-  private readonly budget: PointBudget;
+  private readonly moving: PointBudget;
+  private readonly resting: PointBudget;
   private readonly software = rendersInSoftware();
   private requested = false;
   private last = 0;
@@ -34,7 +35,9 @@ export class Stage {
     this.renderer = new WebGLRenderer({ antialias: !this.software, powerPreference: 'high-performance' });
     this.scene.background = new Color(kColors.background);
     const small = matchMedia('(pointer: coarse)').matches;
-    this.budget = new PointBudget(small ? 2_000_000 : 6_000_000, this.software ? 150_000 : 1_000_000);
+    const most = small ? 2_000_000 : 6_000_000;
+    this.moving = new PointBudget(40, most, this.software ? 150_000 : 1_000_000);
+    this.resting = new PointBudget(1500, most, most);
     this.renderer.domElement.classList.add('scene-canvas');
     this.labels.canvas.classList.add('label-canvas');
     container.append(this.renderer.domElement, this.labels.canvas);
@@ -51,7 +54,7 @@ export class Stage {
 
   /** The scene with its labels. */
   picture(): Promise<Blob | null> {
-    this.render(this.budget.resting); // what was drawn before may be gone from the canvas
+    this.render(this.resting.points); // what was drawn before may be gone from the canvas
     const canvas = document.createElement('canvas');
     const { width, height } = this.renderer.domElement;
     Object.assign(canvas, { width, height });
@@ -66,11 +69,17 @@ export class Stage {
     const interval = now - this.last;
     this.last = now;
     const moves = this.rig.update(Math.min(0.1, interval / 1000));
-    const points = this.render(this.budget.moving);
-    requestAnimationFrame(() => this.budget.learn(points, performance.now() - now));
+    this.renderWithin(this.moving);
     if (moves) this.invalidate();
     clearTimeout(this.restTimer);
-    this.restTimer = setTimeout(() => this.render(this.budget.resting), kRest);
+    this.restTimer = setTimeout(() => this.renderWithin(this.resting), kRest);
+  }
+
+  private renderWithin(budget: PointBudget): void {
+    const start = performance.now();
+    const points = this.render(budget.points);
+    // The browser asks for the next picture when it is done with this one.
+    requestAnimationFrame(() => budget.learn(points, performance.now() - start));
   }
 
   /** Returns how many points of the map were drawn. */
@@ -94,7 +103,7 @@ export class Stage {
     this.renderer.setSize(width, height);
     this.labels.resize(width, height, Math.min(2, devicePixelRatio));
     this.rig.resize(width, height);
-    this.render(this.budget.moving);
+    this.render(this.moving.points);
     this.invalidate();
   }
 }

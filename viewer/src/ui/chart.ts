@@ -1,11 +1,6 @@
 import uPlot from 'uplot';
+import { columnFrames, type Line, plotData, stack } from './chart_data';
 import { h, setText } from './dom';
-
-export interface Line {
-  name: string;
-  color: string;
-  values: Float32Array;
-}
 
 export interface ChartLook {
   title: string;
@@ -19,8 +14,6 @@ export interface ChartLook {
   onSeek(frame: number): void;
 }
 
-/** More columns than this are never plotted: a column then shows the largest value of its frames. */
-const kColumns = 1500;
 const kAxis = '#7f8fa3';
 const kFont = '11px system-ui, "Segoe UI", Roboto, sans-serif';
 
@@ -141,40 +134,7 @@ function axisRange(low: number, high: number): [number, number] {
   return [Math.min(0, low), high > 0 ? 1.08 * high : 1];
 }
 
-/** How many frames a column stands for. */
-function columnFrames(lines: Line[]): number {
-  return Math.max(1, Math.ceil(Math.max(0, ...lines.map(({ values }) => values.length)) / kColumns));
-}
-
 /** Round numbers need no decimals. */
 function axisText(text: string): string {
   return text.replace(/\.0(?= )/, '');
-}
-
-/** Columns for uPlot: frames, and of each line the values; stacked ones as sums, the last line at the bottom. */
-export function plotData(lines: Line[], stacked: boolean): uPlot.AlignedData {
-  const frames = Math.max(0, ...lines.map(({ values }) => values.length));
-  const step = columnFrames(lines);
-  const x = Array.from({ length: Math.ceil(frames / step) }, (_, i) => i * step);
-  const columns = lines.map(({ values }) => x.map((from) => largest(values, from, from + step)));
-  const shown = stacked ? stack(columns) : columns;
-  return [x, ...shown.map((column) => column.map((value) => (Number.isFinite(value) ? value : null)))];
-}
-
-/** Of every column the sum with those after it. */
-function stack(columns: number[][]): number[][] {
-  const sums = columns.map((column) => [...column]);
-  for (let i = sums.length - 2; i >= 0; --i) {
-    sums[i] = sums[i].map((value, row) => value + (sums[i + 1][row] || 0));
-  }
-  return sums;
-}
-
-/** NaN where there is none. */
-function largest(values: Float32Array, from: number, to: number): number {
-  let most = NaN;
-  for (let i = from; i < Math.min(to, values.length); ++i) {
-    if (!(values[i] <= most) && Number.isFinite(values[i])) most = values[i];
-  }
-  return most;
 }

@@ -3,7 +3,8 @@ import type { Unit } from '../protocol/messages';
 import { kColors } from '../scene/palette';
 import type { Run } from '../state/run';
 import type { Series } from '../state/series';
-import { Chart, type Line } from './chart';
+import { Chart } from './chart';
+import type { Line } from './chart_data';
 import { part, throttled } from './dom';
 import { clock, quantity, words } from './format';
 

@@ -1,0 +1,144 @@
+import { describe, expect, it } from 'vitest';
+import { decodeMessage } from '../../src/protocol/decode';
+import type { Buffer } from '../../src/protocol/envelope';
+import { Run } from '../../src/state/run';
+import { Settings } from '../../src/state/settings';
+import { forEachTrailSegment, type Track } from '../../src/state/tracks';
+import { message } from './message';
+
+function tell(run: Run, header: object, buffers: [string, number, Buffer][] = []): void {
+  const decoded = decodeMessage(message(header, buffers));
+  if (decoded) run.apply(decoded);
+}
+
+const kHello = { type: 'hello', protocol: 1, name: 'loop', run: 'a', classes: ['person', 'agv'], frames: 4 };
+const pose = (x: number): Float32Array => Float32Array.of(x, 0, 0, 0, 0, 0, 1);
+
+describe('Run', () => {
+  it('knows the whole trajectory of a finished run', () => {
+    const run = new Run();
+    tell(run, kHello);
+    tell(run, { type: 'trajectory', first_frame: 0 }, [
+      ['pose', 7, Float32Array.of(...pose(0), ...pose(1))],
+      ['stamp', 1, Uint32Array.of(0, 250)],
+      ['truth', 3, Float32Array.of(0, 0, 0, NaN, NaN, NaN)],
+    ]);
+    expect(run.trajectory.frames).toBe(2);
+    expect(run.trajectory.poses.row(1)[0]).toBe(1);
+    expect(run.trajectory.time(1)).toBe(0.25);
+    expect(run.trajectory.time(2)).toBeNull();
+    expect(run.frames).toBe(4);
+  });
+
+  it('goes on with the frames of a live run, and leaves room for those it missed', () => {
+    const run = new Run();
+    tell(run, { ...kHello, frames: null, live: true });
+    tell(run, { type: 'trajectory', first_frame: 0 }, [
+      ['pose', 7, pose(0)],
+      ['stamp', 1, Uint32Array.of(0)],
+    ]);
+    tell(run, { type: 'frame', frame: 0, stamp_ns: '5000000000' }, [['pose', 7, pose(0)]]);
+    tell(run, { type: 'frame', frame: 2, stamp_ns: '5200000000', series: { fusion: 3 } }, [['pose', 7, pose(2)]]);
+    expect(run.frames).toBe(3);
+    expect(run.trajectory.poses.row(1)[0]).toBeNaN();
+    tell(run, { type: 'trajectory', first_frame: 1 }, [['pose', 7, pose(1)]]);
+    expect(run.trajectory.poses.row(1)[0]).toBe(1);
+    expect(run.trajectory.poses.row(2)[0]).toBe(2);
+    expect(run.series.of('ms')[0].values.row(2)[0]).toBe(3);
+    expect(run.series.of('ms')[0].values.row(1)[0]).toBeNaN();
+  });
+
+  it('splits the series into columns and holds more than it first has room for', () => {
+    const run = new Run();
+    tell(run, kHello);
+    const values = Float32Array.from({ length: 2000 }, (_, i) => (i % 2 === 0 ? i / 2 : -i));
+    tell(run, { type: 'series', first_frame: 0, names: ['fusion', 'objects'], units: ['ms', 'count'] }, [['values', 2, values]]);
+    expect(run.series.frames).toBe(1000);
+    expect(run.series.of('ms')[0].values.row(999)[0]).toBe(999);
+    expect(run.series.of('count')[0].values.row(999)[0]).toBe(-1999);
+  });
+
+  it('forgets everything with a new hello, and says whether it is the same run', () => {
+    const run = new Run();
+    const again: boolean[] = [];
+    run.on('hello', (event) => again.push(event.again));
+    tell(run, kHello);
+    tell(run, { type: 'frame', frame: 1 }, [['pose', 7, pose(1)]]);
+    tell(run, kHello);
+    expect(run.frame).toBeNull();
+    expect(run.trajectory.frames).toBe(0);
+    tell(run, { ...kHello, run: 'b' });
+    expect(again).toEqual([false, true, false]);
+  });
+});
+
+describe('Tracks', () => {
+  const rows = (): Run => {
+    const run = new Run();
+    tell(run, kHello);
+    tell(run, { type: 'tracks', ids: [7, 9], classes: [1, 0] }, [
+      ['track', 1, Uint32Array.of(0, 1, 0)],
+      ['frame', 1, Uint32Array.of(0, 0, 2)],
+      ['center', 3, Float32Array.of(0, 0, 0, 5, 5, 5, 2, 0, 0)],
+    ]);
+    return run;
+  };
+
+  it('are told as a whole and go on with frames, in whatever order', () => {
+    const run = rows();
+    const object = { id: 7, class: 'agv', center: [1, 0, 0], seen: true };
+    tell(run, { type: 'frame', frame: 1, objects: [object] });
+    tell(run, { type: 'frame', frame: 1, objects: [{ ...object, center: [1.5, 0, 0] }] });
+    const track = [...run.tracks.all].find(({ id }) => id === 7) as Track;
+    expect(track.class).toBe('agv');
+    expect(track.frames).toEqual([0, 1, 2]);
+    expect(track.centers).toEqual([0, 0, 0, 1.5, 0, 0, 2, 0, 0]);
+  });
+
+  it('leave out where an object was not seen', () => {
+    const run = rows();
+    tell(run, { type: 'frame', frame: 1, objects: [{ id: 7, class: 'agv', center: [1, 0, 0], seen: false }] });
+    expect([...run.tracks.all][0].frames).toEqual([0, 2]);
+  });
+
+  it('have trails up to the frame shown, interrupted by gaps, fading', () => {
+    const track = { id: 1, class: 'person', frames: [0, 90, 91, 95, 99], centers: [] };
+    const seen: [number, number, number][] = [];
+    forEachTrailSegment(track, 95, 100, (from, to, age) => seen.push([from / 3, to / 3, age]));
+    expect(seen).toEqual([
+      [2, 3, 0],
+      [1, 2, 0.04],
+    ]);
+  });
+});
+
+describe('Settings', () => {
+  const storage = (text: string | null) => {
+    const kept = { text };
+    return { kept, getItem: () => kept.text, setItem: (_: string, value: string) => void (kept.text = value) };
+  };
+
+  it('keep what the user chose', () => {
+    const one = storage(null);
+    const settings = new Settings(one);
+    expect(settings.shows('map')).toBe(true);
+    expect(settings.shows('ceiling')).toBe(false);
+    settings.toggle('map');
+    settings.camera = 'top';
+    const next = new Settings(one);
+    expect(next.shows('map')).toBe(false);
+    expect(next.camera).toBe('top');
+  });
+
+  it.each(['nonsense', '{"hidden": 3, "camera": "side"}', 'null'])('begin anew where %s was kept', (text) => {
+    const settings = new Settings(storage(text));
+    expect(settings.shows('map')).toBe(true);
+    expect(settings.camera).toBe('follow');
+  });
+
+  it('work where nothing can be kept', () => {
+    const settings = new Settings(null);
+    settings.toggle('grid');
+    expect(settings.shows('grid')).toBe(false);
+  });
+});
