@@ -61,6 +61,7 @@ help.addEventListener('click', () => part<HTMLDialogElement>('help').showModal()
 run.on('hello', ({ hello, again }) => {
   document.title = `${hello.name} · MMS-SLAM`;
   part('run-name').textContent = hello.name;
+  part('run-data').textContent = hello.data;
   const badge = part('badge');
   badge.hidden = false;
   badge.textContent = hello.live ? 'Live' : 'Finished run';

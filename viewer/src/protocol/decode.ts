@@ -46,6 +46,7 @@ function decodeHello({ header }: Envelope): Hello {
     protocol,
     version: string(header.version, ''),
     name: string(header.name, 'run'),
+    data: string(header.data, ''),
     run: string(header.run, ''),
     live: header.live === true,
     image: intrinsics(header.image),
@@ -158,6 +159,7 @@ function decodeState({ header }: Envelope): StateMessage {
     speed: number(header.speed, 1),
     ended: header.ended === true,
     dropped: number(header.dropped, 0),
+    files: Array.isArray(header.files) ? strings(header.files) : null,
   };
 }
 

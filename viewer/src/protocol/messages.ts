@@ -18,6 +18,8 @@ export interface Hello {
   protocol: number;
   version: string;
   name: string;
+  /** What was run: a folder, a recording, a simulated scene. */
+  data: string;
   /** Says whether a reconnect found the same run again; empty where the server does not tell. */
   run: string;
   live: boolean;
@@ -125,6 +127,8 @@ export interface StateMessage {
   ended: boolean;
   /** Frames this client was too slow for. */
   dropped: number;
+  /** The run's files, where there are others than before. */
+  files: string[] | null;
 }
 
 export interface ErrorMessage {

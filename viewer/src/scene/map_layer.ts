@@ -63,10 +63,10 @@ export class MapLayer {
     }
   }
 
-  /** Fewer points are drawn larger, so that surfaces stay closed. */
+  /** Fewer points are drawn larger, so that surfaces stay closed; a random sample needs more of it than all points. */
   private setSize({ points, count, voxel }: Chunk): void {
     const share = Math.min(1, points.geometry.drawRange.count / count);
-    this.material.uniforms.size.value = Math.min(4, 1.1 / Math.sqrt(share)) * voxel;
+    this.material.uniforms.size.value = Math.min(5, (1.9 - 0.5 * share) / Math.sqrt(share)) * voxel;
     this.material.uniformsNeedUpdate = true;
   }
 

@@ -21,6 +21,7 @@ export class ObjectLayer {
     this.faces = new InstancedMesh(new BoxGeometry(1, 1, 1), material, kMost);
     this.faces.instanceMatrix.setUsage(DynamicDrawUsage);
     this.faces.frustumCulled = false;
+    this.faces.count = 0;
     this.faces.renderOrder = 1;
     this.group.add(this.faces, this.edges.object);
   }

@@ -15,7 +15,7 @@ export type RunEvents = {
   error: string;
 };
 
-const kStopped: StateMessage = { type: 'state', playing: false, frame: 0, speed: 1, ended: false, dropped: 0 };
+const kStopped: StateMessage = { type: 'state', playing: false, frame: 0, speed: 1, ended: false, dropped: 0, files: null };
 
 /** What the page knows of the run it shows: the sum of the messages that came. */
 export class Run extends Emitter<RunEvents> {

@@ -5,14 +5,15 @@ import type { Run } from '../state/run';
 import type { Series } from '../state/series';
 import { Chart } from './chart';
 import type { Line } from './chart_data';
-import { part, throttled } from './dom';
+import { h, part, throttled } from './dom';
 import { clock, quantity, words } from './format';
 
 const kStageColors = ['#4db8ff', '#9b8cff', '#ff9f43', '#3ddcc0', '#f2d35e', '#ff6fae', '#8fa3b8', '#b7e06a'];
 const kColorOf: Record<string, string> = {
   dynamic_share: kColors.dynamicScan,
   objects: kColors.person,
-  drift_cm: kColors.truth,
+  error_cm: kColors.truth,
+  drift_cm: kColors.trajectory,
 };
 /** Charts of a live run are drawn anew this often [ms]; only the playhead moves with every frame. */
 const kRedraw = 300;
@@ -20,11 +21,14 @@ const kRedraw = 300;
 interface Slot {
   chart: Chart;
   unit: Unit;
+  /** The series that are shown; without it all of that unit. */
+  names?: string[];
 }
 
 /** Milliseconds a stage, dynamic share, drift and error, objects: all over the frames. */
 export class ChartPanel {
   private readonly slots: Slot[];
+  private readonly empty = h('p', { class: 'empty' }, 'Times, dynamic share, drift and objects appear here with the frames.');
   private plotted = 0;
 
   constructor(
@@ -34,10 +38,11 @@ export class ChartPanel {
     this.slots = [
       { chart: this.chart('Time per frame', 'ms', true), unit: 'ms' },
       { chart: this.chart('Dynamic share', 'ratio'), unit: 'ratio' },
-      { chart: this.chart('Drift from the truth', 'cm'), unit: 'cm' },
+      { chart: this.chart('Distance from the truth', 'cm'), unit: 'cm', names: ['error_cm'] },
+      { chart: this.chart('Distance from the start', 'cm'), unit: 'cm', names: ['drift_cm'] },
       { chart: this.chart('Objects', 'count'), unit: 'count' },
     ];
-    part('charts').append(...this.slots.map(({ chart }) => chart.root));
+    part('charts').append(this.empty, ...this.slots.map(({ chart }) => chart.root));
     const redraw = throttled(kRedraw, () => this.redraw());
     run.on('hello', redraw);
     run.on('history', redraw);
@@ -66,7 +71,11 @@ export class ChartPanel {
 
   private redraw(): void {
     this.plotted = this.run.series.frames;
-    for (const { chart, unit } of this.slots) chart.setLines(this.run.series.of(unit).map(line));
+    this.empty.hidden = this.plotted > 0;
+    for (const { chart, unit, names } of this.slots) {
+      const series = this.run.series.of(unit).filter(({ name }) => names?.includes(name) ?? true);
+      chart.setLines(series.map(line));
+    }
   }
 }
 

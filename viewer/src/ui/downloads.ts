@@ -30,6 +30,7 @@ export class Downloads {
     );
     part('downloads').append(this.button, this.list);
     run.on('hello', ({ hello }) => this.fill(hello.files));
+    run.on('playback', ({ files }) => files && this.fill(files));
     document.addEventListener('pointerdown', (event) => {
       if (!part('downloads').contains(event.target as Node)) this.open(false);
     });

@@ -19,7 +19,8 @@ export class ObjectPanel {
     const objects = this.run.frame?.objects ?? [];
     setText(part('object-count'), objects.length ? String(objects.length) : '');
     if (objects.length === 0) {
-      this.list.replaceChildren(h('p', { class: 'empty' }, 'Nobody and nothing moves here now.'));
+      const text = this.run.frame ? 'Nobody and no vehicle in this frame.' : '';
+      this.list.replaceChildren(h('p', { class: 'empty' }, text));
       return;
     }
     const rows = objects.map((object) => ({ object, away: this.distance(object) }));

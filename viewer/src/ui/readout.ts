@@ -21,6 +21,7 @@ export class Readout {
     part('readout').append(...tiles.map(({ root }) => root));
     run.on('hello', () => this.update());
     run.on('frame', () => this.update());
+    this.update();
   }
 
   private update(): void {
@@ -31,9 +32,9 @@ export class Readout {
     fill(this.status, statusWord(frame.status, frame.lost), 'localisation');
     fill(this.objects, this.counts(), 'tracked');
     fill(this.dynamic, quantity(this.value('dynamic_share'), 'ratio'), 'dynamic');
-    const drift = this.value('drift_cm');
-    this.error.root.hidden = drift === undefined;
-    fill(this.error, quantity(drift, 'cm'), 'off the truth');
+    const [error, drift] = [this.value('error_cm'), this.value('drift_cm')];
+    this.error.root.hidden = (error ?? drift) === undefined;
+    fill(this.error, quantity(error ?? drift, 'cm'), error === undefined ? 'from the start' : 'off the truth');
     fill(this.time, quantity(this.total(), 'ms'), 'a frame');
   }
 

@@ -1,0 +1,180 @@
+// The built page in a real browser, shown by the real program. MMS_PROGRAM says where mms is; pictures are kept in
+// VIEWER_PICTURES where that is set.
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { openBrowser } from './chromium.mjs';
+import { countPixels, eventually } from './pixels.mjs';
+import { freePort, makeRun, Server } from './program.mjs';
+
+const kDesktop = { width: 1440, height: 900 };
+const kPhone = { width: 390, height: 844 };
+
+let folder, run, server, browser, page, faults;
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'mms-viewer-'));
+  run = process.env.VIEWER_RUN ?? makeRun(folder);
+  server = new Server(run, await freePort());
+  await server.start();
+  ({ browser, page, faults } = await openBrowser(join(folder, 'desktop'), server.address, kDesktop));
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const scene = () => page.locator('#scene');
+const pixels = () => countPixels(page, scene());
+const frame = async () => Number(/frame (\d+)/.exec(await page.textContent('.frames'))?.[1] ?? -1);
+const pill = () => page.textContent('#connection');
+
+async function pause() {
+  await page.getByTitle(/^(Pause|Play|Once more)/).waitFor();
+  if ((await page.locator('.play').getAttribute('title')).startsWith('Pause')) await page.locator('.play').click();
+  await eventually('pausing', () => page.locator('.play').getAttribute('title'), (title) => !title.startsWith('Pause'));
+}
+
+/** Clicks the slider at a share of its length. */
+async function scrub(share) {
+  const box = await page.locator('#scrub').boundingBox();
+  await page.mouse.click(box.x + 8 + share * (box.width - 16), box.y + box.height / 2);
+}
+
+async function show(layer, wanted) {
+  const button = page.locator(`[data-layer=${layer}]`);
+  if ((await button.getAttribute('aria-checked')) !== String(wanted)) await button.click();
+}
+
+async function keepPicture(name) {
+  if (!process.env.VIEWER_PICTURES) return;
+  await page.waitForTimeout(6000);
+  await page.screenshot({ path: join(process.env.VIEWER_PICTURES, `${name}.jpg`), quality: 85, type: 'jpeg' });
+}
+
+/** The frame in which most objects are seen. */
+function busiestFrame() {
+  const stamps = readFileSync(join(run, 'trajectory.tum'), 'utf8').split('\n').filter((line) => /^\d/.test(line)).map((line) => line.split(' ')[0]);
+  const seen = new Map(stamps.map((stamp) => [stamp, 0]));
+  for (const { history } of JSON.parse(readFileSync(join(run, 'objects.json'), 'utf8')).tracks) {
+    for (const { stamp } of history) seen.set(stamp, seen.get(stamp) + 1);
+  }
+  const counts = [...seen.values()];
+  assert.ok(Math.max(...counts) > 0, 'the run has no objects to draw');
+  return { index: counts.lastIndexOf(Math.max(...counts)), last: stamps.length - 1 };
+}
+
+test('the page loads and is connected', async () => {
+  await eventually('connecting', pill, (text) => text === 'Connected');
+  assert.match(await page.title(), /MMS-SLAM/);
+  await eventually('the first frame', frame, (number) => number >= 0);
+  await pause();
+  assert.equal(await page.locator('#notice').isVisible(), false);
+});
+
+test('the slider moves the pose, the image and the charts', async () => {
+  const { index, last } = busiestFrame();
+  await scrub(0.1);
+  const early = await eventually('an early frame', frame, (number) => number < 0.3 * last);
+  const imageBefore = await eventually('an image', () => countPixels(page, page.locator('#image')), ({ lit }) => lit > 1000);
+  const sceneBefore = (await pixels()).sum;
+  await scrub(index / last);
+  await eventually('the busiest frame', frame, (number) => Math.abs(number - index) <= 1 && number !== early);
+  await eventually('another image', () => countPixels(page, page.locator('#image')), ({ sum }) => sum !== imageBefore.sum);
+  await eventually('another view', pixels, ({ sum }) => sum !== sceneBefore);
+  assert.ok((await page.locator('.chart canvas').count()) >= 3, 'charts are drawn');
+});
+
+test('points and boxes are drawn, and every layer goes and comes by its switch', async () => {
+  const full = await eventually('the map', pixels, ({ lit, all }) => lit > 0.15 * all);
+  for (const layer of ['scan', 'trails', 'labels', 'trajectory', 'truth', 'camera', 'grid']) await show(layer, false);
+  await show('map', false);
+  const boxes = await eventually('only boxes', pixels, ({ lit, red, all }) => red > 80 && lit < 0.1 * all);
+  await show('boxes', false);
+  await eventually('nothing at all', pixels, ({ red }) => red < 0.1 * boxes.red);
+  await show('map', true);
+  await eventually('the map again', pixels, ({ lit }) => lit > 0.5 * full.lit);
+  for (const layer of ['scan', 'trails', 'labels', 'trajectory', 'truth', 'camera', 'grid', 'boxes']) await show(layer, true);
+  await eventually('boxes again', pixels, ({ red }) => red > 0.3 * boxes.red);
+  const masked = await countPixels(page, page.locator('#image'));
+  await page.keyboard.press('k');
+  await eventually('the image without masks', () => countPixels(page, page.locator('#image')), ({ sum }) => sum !== masked.sum);
+  await page.keyboard.press('k');
+});
+
+test('the scene is seen from behind, from the side and from above', async () => {
+  const sums = new Set([(await pixels()).sum]);
+  for (const key of ['2', '3']) {
+    await page.keyboard.press(key);
+    const { sum } = await eventually('another view', pixels, (count) => !sums.has(count.sum) && count.lit > 0.02 * count.all);
+    sums.add(sum);
+  }
+  await keepPicture('viewer_top');
+  await page.keyboard.press('1');
+  await eventually('the first view again', pixels, ({ lit, all }) => lit > 0.15 * all);
+  await keepPicture('viewer_desktop');
+});
+
+test('it plays, steps, and plays once more at the end', async () => {
+  await page.keyboard.press('Home');
+  await eventually('the first frame', frame, (number) => number === 0);
+  await page.keyboard.press('ArrowRight');
+  await eventually('the next frame', frame, (number) => number === 1);
+  await page.selectOption('#speed', '8');
+  await page.locator('.play').click();
+  const { last } = busiestFrame();
+  await eventually('the last frame', frame, (number) => number === last);
+  await page.getByTitle(/^Once more/).waitFor();
+});
+
+test('the picture, the map and the trajectory can be saved', async () => {
+  const [picture] = await Promise.all([page.waitForEvent('download'), page.locator('#screenshot').click()]);
+  assert.match(picture.suggestedFilename(), /\.png$/);
+  assert.equal(readFileSync(await picture.path()).subarray(1, 4).toString(), 'PNG');
+  for (const file of ['static_map.ply', 'trajectory.tum']) {
+    await page.locator('#downloads > button').click();
+    const link = page.locator(`#downloads a[download="${file}"]`);
+    const [saved] = await Promise.all([page.waitForEvent('download'), link.click()]);
+    assert.deepEqual(readFileSync(await saved.path()), readFileSync(join(run, file)));
+  }
+});
+
+test('it says that the server is gone, and goes on where it was when it is back', async () => {
+  await scrub(0.5);
+  const before = await eventually('the middle', frame, (number) => number > 5 && number < busiestFrame().last);
+  await pause();
+  await server.stop();
+  await eventually('losing the server', pill, (text) => text === 'Offline');
+  assert.match(await page.textContent('#notice'), /Connection lost/);
+  await server.start();
+  await eventually('the server again', pill, (text) => text === 'Connected');
+  await eventually('the frame it was at', frame, (number) => Math.abs(number - before) <= 3);
+  await eventually('the map again', pixels, ({ lit, all }) => lit > 0.15 * all);
+});
+
+test('nothing was complained of, and nothing asked for elsewhere', () => {
+  assert.deepEqual(faults, []);
+});
+
+test('it fits a phone', async () => {
+  await browser.close();
+  ({ browser, page, faults } = await openBrowser(join(folder, 'phone'), server.address, kPhone));
+  await eventually('the first frame', frame, (number) => number >= 0);
+  await pause();
+  const { index, last } = busiestFrame();
+  await scrub(index / last);
+  await eventually('the map', pixels, ({ lit, all }) => lit > 0.15 * all);
+  await eventually('an image', () => countPixels(page, page.locator('#image')), ({ lit }) => lit > 1000);
+  await keepPicture('viewer_phone');
+  for (const tab of ['charts', 'objects', 'layers', 'image']) {
+    await page.locator(`[data-tab=${tab}]`).last().tap();
+    assert.equal(await page.locator(`[data-panel=${tab}]`).isVisible(), true, tab);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(wide <= 0, `${tab} is ${wide} pixels too wide`);
+  }
+  assert.deepEqual(faults, []);
+});

@@ -1,0 +1,35 @@
+// What is really drawn: pixels of pictures of the page, counted in the browser itself.
+
+/** Red of the people's boxes, and anything much lighter than the background. */
+export async function countPixels(page, locator) {
+  const picture = (await locator.screenshot()).toString('base64');
+  return page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const canvas = document.createElement('canvas');
+    Object.assign(canvas, { width: image.width, height: image.height });
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    const count = { all: data.length / 4, lit: 0, red: 0, sum: 0 };
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b] = data.subarray(i, i + 3);
+      if (Math.max(r, g, b) > 70) ++count.lit;
+      if (r > 200 && g < 130 && b < 140 && r - Math.max(g, b) > 90) ++count.red;
+      count.sum = (count.sum + (i + 1) * (r + 3 * g + 7 * b)) % 1_000_000_007;
+    }
+    return count;
+  }, picture);
+}
+
+/** Waits until `measure` gives what `accept` accepts; pictures on a processor take their time. */
+export async function eventually(what, measure, accept, timeout = 40_000) {
+  const end = Date.now() + timeout;
+  let value = await measure();
+  while (!accept(value)) {
+    if (Date.now() > end) throw new Error(`${what}: not within ${timeout / 1000} s, at last ${JSON.stringify(value)}`);
+    await new Promise((resolve) => setTimeout(resolve, 150));
+    value = await measure();
+  }
+  return value;
+}
