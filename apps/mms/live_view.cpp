@@ -1,17 +1,24 @@
 #include "live_view.hpp"
 
-#include <algorithm>
-#include <limits>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <utility>
 
-#include "mms/evaluation/trajectory_error.hpp"
 #include "mms/mapping/floor.hpp"
 #include "run_record.hpp"
+#include "run_series.hpp"
 
 namespace mms {
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+/// Of this run and no other on this machine.
+std::string run_id() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return fmt::format("{}-{}", ::getpid(),
+                     std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
 
 SceneInfo info_of(const std::string& data, const FrameSource& source, const SystemConfig& config,
                   std::size_t frames, bool has_truth) {
@@ -19,6 +26,7 @@ SceneInfo info_of(const std::string& data, const FrameSource& source, const Syst
   info.name = std::filesystem::path(data).lexically_normal().filename().string();
   if (info.name.empty()) info.name = data;
   info.data = data;
+  info.id = run_id();
   info.live = true;
   info.frames = frames;
   info.has_truth = has_truth;
@@ -35,10 +43,7 @@ std::vector<float> series_of(const Processed& processed, const SceneFrame& frame
   for (const double ms : result.stage_ms) values.push_back(static_cast<float>(ms));
   values.push_back(static_cast<float>(result.dynamic_share));
   values.push_back(static_cast<float>(result.objects.size()));
-  if (!has_truth) return values;
-  const Eigen::Vector3d position = frame.T_world_sensor.translation();
-  values.push_back(frame.truth ? static_cast<float>(100.0 * (position - *frame.truth).norm())
-                               : kUnknown);
+  values.push_back(error_or_drift(frame, has_truth));
   return values;
 }
 
@@ -52,42 +57,6 @@ std::vector<ObjectBox> objects_of(const FrameResult& result, Timestamp stamp) {
 }
 
 }  // namespace
-
-std::vector<SeriesName> run_series(bool has_truth) {
-  std::vector<SeriesName> series = {{"read", "ms"}};
-  for (std::size_t i = 0; i < kStageCount; ++i) {
-    series.push_back({std::string(to_string(static_cast<Stage>(i))), "ms"});
-  }
-  series.push_back({"dynamic_share", ""});
-  series.push_back({"objects", ""});
-  if (has_truth) series.push_back({"drift_cm", "cm"});
-  return series;
-}
-
-LiveTruth::LiveTruth(Trajectory truth) : truth_(std::move(truth)) {
-  std::erase_if(truth_, [](const StampedPose& pose) { return !pose.T_world_sensor.is_finite(); });
-  std::sort(truth_.begin(), truth_.end(),
-            [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; });
-}
-
-std::optional<Eigen::Vector3d> LiveTruth::at(const StampedPose& estimate) {
-  const auto later =
-      std::lower_bound(truth_.begin(), truth_.end(), estimate.stamp,
-                       [](const StampedPose& pose, Timestamp stamp) { return pose.stamp < stamp; });
-  const StampedPose* nearest = later == truth_.end() ? nullptr : &*later;
-  if (later != truth_.begin()) {
-    const StampedPose& earlier = *std::prev(later);
-    const bool is_nearer =
-        nearest == nullptr || estimate.stamp - earlier.stamp < nearest->stamp - estimate.stamp;
-    if (is_nearer) nearest = &earlier;
-  }
-  if (nearest == nullptr) return std::nullopt;
-  const auto difference = std::chrono::abs(nearest->stamp - estimate.stamp);
-  if (difference > TrajectoryErrorOptions{}.max_difference) return std::nullopt;
-  const Eigen::Isometry3d& pose = nearest->T_world_sensor.isometry();
-  if (!T_world_truth_) T_world_truth_ = estimate.T_world_sensor.isometry() * pose.inverse();
-  return *T_world_truth_ * pose.translation();
-}
 
 LiveView::LiveView(const ViewOptions& options, const std::string& data, const FrameSource& source,
                    const SystemConfig& config, std::size_t frames)

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "mms/io/crc32.hpp"
 #include "mms/server/downloads.hpp"
 #include "mms/server/origin.hpp"
 #include "mms/server/page.hpp"
@@ -10,7 +11,6 @@ namespace mms {
 namespace {
 
 constexpr std::string_view kFiles = "/files/";
-constexpr std::string_view kAssets = "/assets/";
 
 /// Nothing but what this server gives, and no scripts within the page.
 std::string page_policy(const std::string& host) {
@@ -32,7 +32,11 @@ bool is_plain_host(std::string_view host) {
   return !host.empty() && host.find_first_not_of(kPlain) == std::string_view::npos;
 }
 
-Answer page_answer(std::string_view path, const std::string& host) {
+std::string tag_of(std::string_view bytes) {
+  return "\"" + std::to_string(crc32(bytes)) + "-" + std::to_string(bytes.size()) + "\"";
+}
+
+Answer page_answer(std::string_view path, const Request& request) {
   const PageFile* file = find_page_file(path);
   if (file == nullptr) {
     return text_answer(404, page_files().empty() ? "this mms was built without the viewer's page"
@@ -41,9 +45,13 @@ Answer page_answer(std::string_view path, const std::string& host) {
   Answer answer;
   answer.kind = Answer::Kind::kBytes;
   answer.type = mime_type(file->path);
-  answer.cache = path.starts_with(kAssets) ? "public, max-age=31536000, immutable" : "no-cache";
-  answer.policy = page_policy(host);
+  answer.cache = "no-cache";  // but asked for again by its tag
+  answer.tag = tag_of(file->bytes);
+  answer.policy = page_policy(request.host);
   answer.bytes = file->bytes;
+  if (request.known_tag != answer.tag) return answer;
+  answer.status = 304;
+  answer.bytes = {};
   return answer;
 }
 
@@ -96,7 +104,7 @@ Answer answer_to(const Request& request, const Scene& scene, bool loopback) {
   const std::string_view path = target.substr(0, target.find_first_of("?#"));
   if (path == "/ws") return web_socket_answer(request);
   if (path.starts_with(kFiles)) return file_answer(path.substr(kFiles.size()), scene);
-  return page_answer(path, request.host);
+  return page_answer(path, request);
 }
 
 }  // namespace mms

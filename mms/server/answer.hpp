@@ -14,6 +14,7 @@ struct Request {
   std::string target;
   std::string host;
   std::string origin;     ///< empty: none
+  std::string known_tag;  ///< ETag of what the browser has; empty: nothing
   bool upgrades = false;  ///< wants to go on with WebSocket
 };
 
@@ -25,6 +26,7 @@ struct Answer {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::string cache = "no-store";
+  std::string tag;         ///< ETag; empty: none
   std::string policy;      ///< Content-Security-Policy
   std::string_view bytes;  ///< of the program itself
   std::filesystem::path file;

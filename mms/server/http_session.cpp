@@ -39,6 +39,7 @@ Request request_of(const Request11& given) {
   request.target = std::string(given.target().data(), given.target().size());
   request.host = text_of(given, http::field::host);
   request.origin = text_of(given, http::field::origin);
+  request.known_tag = text_of(given, http::field::if_none_match);
   request.upgrades = beast::websocket::is_upgrade(given);
   return request;
 }
@@ -166,6 +167,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     response.set("X-Frame-Options", "DENY");
     response.set("Referrer-Policy", "no-referrer");
     response.set("Cross-Origin-Resource-Policy", "same-origin");
+    if (!answer.tag.empty()) response.set(http::field::etag, answer.tag);
     if (!answer.download_name.empty()) {
       response.set(http::field::content_disposition,
                    "attachment; filename=\"" + answer.download_name + "\"");

@@ -35,7 +35,7 @@ struct ChunkState {
 class MapChunks {
  public:
   static constexpr int kBlockBits = 3;  ///< 8 voxels are a block's side
-  static constexpr int kSideBits = 6;
+  static constexpr int kSideBits = 7;
   static constexpr int kSide = 1 << kSideBits;  ///< voxels
   static constexpr int kLevels = 4;             ///< 0 to 3, the coarsest
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace mms {
 namespace {
@@ -101,6 +102,7 @@ Message hello_message(const SceneInfo& info, const std::vector<std::string>& fil
                         {"version", version},
                         {"name", info.name},
                         {"data", info.data},
+                        {"run", info.id},
                         {"live", info.live},
                         {"image", json_of(info.camera)},
                         {"frames", info.frames ? Json(*info.frames) : Json(nullptr)},
@@ -147,6 +149,34 @@ Message series_message(const SceneInfo& info, const SceneFrames& frames, std::si
   MessageWriter writer(
       {{"type", "series"}, {"first_frame", first}, {"names", names}, {"units", units}});
   if (!info.series.empty()) writer.add("values", values, static_cast<int>(info.series.size()));
+  return writer.finish();
+}
+
+Message tracks_message(const SceneFrames& frames) {
+  std::map<int, std::uint32_t> places;
+  Json ids = Json::array();
+  Json classes = Json::array();
+  std::vector<std::uint32_t> tracks;
+  std::vector<std::uint32_t> numbers;
+  std::vector<float> centers;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (const ObjectBox& object : frames[i]->objects) {
+      const auto [place, added] =
+          places.try_emplace(object.id, static_cast<std::uint32_t>(places.size()));
+      if (added) {
+        ids.push_back(object.id);
+        classes.push_back(static_cast<int>(object.object_class));
+      }
+      tracks.push_back(place->second);
+      numbers.push_back(static_cast<std::uint32_t>(i));
+      const Eigen::Vector3f center = object.center().cast<float>();
+      centers.insert(centers.end(), {center.x(), center.y(), center.z()});
+    }
+  }
+  MessageWriter writer({{"type", "tracks"}, {"ids", ids}, {"classes", classes}});
+  writer.add("track", tracks, 1);
+  writer.add("frame", numbers, 1);
+  writer.add("center", centers, 3);
   return writer.finish();
 }
 

@@ -26,6 +26,9 @@ Message trajectory_message(const SceneFrames& frames, std::size_t first, Timesta
                            bool has_truth);
 Message series_message(const SceneInfo& info, const SceneFrames& frames, std::size_t first);
 
+/// The ways of all objects, so that they can be drawn at once. @param frames  from the run's first
+Message tracks_message(const SceneFrames& frames);
+
 /// Whether a frame's pictures are in its message, come later, or never.
 enum class PicturesState { kNone, kPending, kHere };
 

@@ -24,6 +24,7 @@ struct SeriesName {
 
 /// What viewers are told of a run once.
 struct SceneInfo {
+  std::string id;     ///< of this run and no other
   std::string name;   ///< for the title
   std::string data;   ///< what was run, in the user's words
   bool live = false;  ///< frames still come

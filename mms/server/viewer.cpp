@@ -79,7 +79,8 @@ void Viewer::notice_end() {
   ended_ = true;
   stamps_ = stamps_of(scene_);
   state_due_ = true;
-  files_due_ = true;
+  files_due_ = !hello_due_;
+  tracks_due_ = true;
 }
 
 std::optional<Viewer::Encode> Viewer::next(Clock::time_point now) {
@@ -89,10 +90,7 @@ std::optional<Viewer::Encode> Viewer::next(Clock::time_point now) {
     edition_sent_ = scene_.edition();
     poses_sent_ = 0;
   }
-  const bool first = poses_sent_ == 0;
-  if (first) {
-    if (auto task = next_history(scene_.size())) return task;
-  }
+  if (auto task = next_history()) return task;
   map_turn_ = !map_turn_;
   if (map_turn_) {
     if (auto task = next_chunk(now)) return task;
@@ -122,9 +120,11 @@ std::optional<Viewer::Encode> Viewer::next_short() {
   };
 }
 
-/// The rows before `last` that were not sent.
-std::optional<Viewer::Encode> Viewer::next_history(std::size_t last) {
+/// The rows before the frame that is shown that were not sent; at first and at the end all of them.
+std::optional<Viewer::Encode> Viewer::next_history() {
   Scene& scene = scene_;
+  const bool all = ended_ || poses_sent_ == 0 || values_sent_ == 0;
+  const std::size_t last = all ? scene.size() : playhead_.frame();
   if (poses_sent_ < last) {
     const std::size_t first = std::exchange(poses_sent_, last);
     return [&scene, first, last] { return trajectory_of(scene, first, last); };
@@ -135,15 +135,15 @@ std::optional<Viewer::Encode> Viewer::next_history(std::size_t last) {
       return series_message(scene.info(), scene.frames(first, last), first);
     };
   }
+  if (std::exchange(tracks_due_, false)) {
+    return [&scene, last] { return tracks_message(scene.frames(0, last)); };
+  }
   return std::nullopt;
 }
 
 std::optional<Viewer::Encode> Viewer::next_frame(Clock::time_point now) {
   if (scene_.size() == 0) return std::nullopt;
-  std::size_t index = playhead_.frame();
-  if (!ended_) {
-    if (auto task = next_history(index)) return task;
-  }
+  const std::size_t index = playhead_.frame();
   if (loaded_) {
     const Pictures pictures = *std::exchange(loaded_, std::nullopt);
     if (!pictures) return send_frame(index, PicturesState::kNone, nullptr, now);
@@ -151,7 +151,7 @@ std::optional<Viewer::Encode> Viewer::next_frame(Clock::time_point now) {
       return send_frame(pictures->frame, PicturesState::kHere, pictures, now);
     }
   }
-  const bool waits = wants_pictures() && playhead_.playing();
+  const bool waits = wants_pictures() && playhead_.playing() && sent_.frame;
   if (sent_.frame == index || waits) return std::nullopt;
   return send_frame(index, wants_pictures() ? PicturesState::kPending : PicturesState::kNone,
                     nullptr, now);

@@ -65,7 +65,7 @@ class Viewer {
   void notice_end();
   std::optional<Encode> next_short();
   bool wants_pictures() const { return parts_.any() && scene_.info().has_pictures; }
-  std::optional<Encode> next_history(std::size_t last);
+  std::optional<Encode> next_history();
   std::optional<Encode> next_frame(Clock::time_point now);
   std::optional<Encode> next_chunk(Clock::time_point now);
   Encode send_frame(std::size_t index, PicturesState state, Pictures pictures,
@@ -86,6 +86,7 @@ class Viewer {
 
   std::size_t poses_sent_ = 0;   // rows of the trajectory
   std::size_t values_sent_ = 0;  // rows of the series
+  bool tracks_due_ = true;
   std::uint64_t edition_sent_ = 0;
   Sent sent_;
   std::size_t dropped_ = 0;

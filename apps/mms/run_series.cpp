@@ -1,0 +1,28 @@
+#include "run_series.hpp"
+
+#include <limits>
+
+#include "mms/pipeline/frame_result.hpp"
+
+namespace mms {
+
+std::vector<SeriesName> run_series(bool has_truth) {
+  std::vector<SeriesName> series = {{"read", "ms"}};
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    series.push_back({std::string(to_string(static_cast<Stage>(i))), "ms"});
+  }
+  series.push_back({"dynamic_share", "ratio"});
+  series.push_back({"objects", "count"});
+  series.push_back({has_truth ? "error_cm" : "drift_cm", "cm"});
+  return series;
+}
+
+float error_or_drift(const SceneFrame& frame, bool has_truth) {
+  constexpr double kCentimetres = 100.0;
+  const Eigen::Vector3d position = frame.T_world_sensor.translation();
+  if (!has_truth) return static_cast<float>(kCentimetres * position.norm());
+  if (!frame.truth) return std::numeric_limits<float>::quiet_NaN();
+  return static_cast<float>(kCentimetres * (position - *frame.truth).norm());
+}
+
+}  // namespace mms

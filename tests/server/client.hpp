@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tests/server/decoded_message.hpp"
+
+namespace mms::testing {
+
+/// What a server answered over HTTP.
+struct HttpAnswer {
+  int status = 0;
+  std::string type;
+  std::string policy;
+  std::string body;
+};
+
+/// Sends a GET with more headers ("Name: value\r\n..."). The path goes out as it is.
+HttpAnswer http_get(std::uint16_t port, const std::string& path, const std::string& headers = "");
+
+/// Sends bytes as they are and reads what comes until the server closes, has been silent for two
+/// seconds, or has sent `enough`.
+std::string send_raw(std::uint16_t port, const std::string& bytes, const std::string& enough = "");
+
+/// The HTTP status that a viewer of that origin gets: 101 where it is taken.
+int upgrade_status(std::uint16_t port, const std::string& origin);
+
+/// A WebSocket client that waits for what it reads, at most ten seconds.
+class ViewerClient {
+ public:
+  /// @throws std::runtime_error when the server refuses.
+  explicit ViewerClient(std::uint16_t port);
+  ~ViewerClient();
+  ViewerClient(const ViewerClient&) = delete;
+  ViewerClient& operator=(const ViewerClient&) = delete;
+
+  void send(const std::string& text, bool binary = false);
+
+  /// The next message; nothing when the connection is closed.
+  std::optional<DecodedMessage> read();
+
+  /// Reads until a message of that type comes. @throws std::runtime_error when none does.
+  DecodedMessage wait_for(const std::string& type);
+
+  /// Closes the socket without a word.
+  void drop();
+
+ private:
+  class Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace mms::testing

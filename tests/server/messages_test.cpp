@@ -1,0 +1,124 @@
+#include "mms/server/messages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/server/decoded_message.hpp"
+#include "tests/server/scenes.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+
+SceneFrames frames(std::size_t count) {
+  SceneFrames all;
+  for (std::size_t i = 0; i < count; ++i) all.push_back(std::make_shared<SceneFrame>(frame_at(i)));
+  return all;
+}
+
+TEST(Message, BeginsEveryBufferAtAMultipleOfFour) {
+  MessageWriter writer(nlohmann::json{{"type", "x"}});
+  const std::vector<std::uint8_t> bytes = {1, 2, 3, 4, 5};
+  const std::vector<float> numbers = {1.5F, -2.0F};
+  writer.add("a", bytes, 1);
+  writer.add("b", numbers, 2);
+  const Message message = writer.finish();
+  EXPECT_EQ(message->size() % 4, 0U);
+  const DecodedMessage decoded = decode_message(*message);
+  EXPECT_EQ(decoded.values<std::uint8_t>("a"), bytes);
+  EXPECT_EQ(decoded.values<float>("b"), numbers);
+  EXPECT_EQ(decoded.json["buffers"][1]["count"], 1);
+}
+
+TEST(Message, ReplacesWhatIsNoUtf8) {
+  const Message message = MessageWriter(nlohmann::json{{"type", "x"}, {"name", "a\xff"}}).finish();
+  EXPECT_EQ(decode_message(*message).json["name"], "a\xef\xbf\xbd");
+}
+
+TEST(Message, HelloSaysWhatTheRunIs) {
+  SceneInfo info = scene_info(true);
+  info.camera = CameraIntrinsics{500.0, 501.0, 320.0, 240.0, 640, 480, {}};
+  const nlohmann::json json = decode_message(*hello_message(info, {"a.ply"}, "1.2")).json;
+  EXPECT_EQ(json["protocol"], 1);
+  EXPECT_EQ(json["run"], "test-1");
+  EXPECT_EQ(json["live"], true);
+  EXPECT_EQ(json["frames"], nullptr);
+  EXPECT_EQ(json["image"]["fy"], 501.0);
+  EXPECT_EQ(json["classes"], (nlohmann::json{"person", "agv"}));
+  EXPECT_EQ(json["up"], (nlohmann::json{0.0, -1.0, 0.0}));
+  EXPECT_EQ(json["files"], nlohmann::json{"a.ply"});
+}
+
+TEST(Message, TrajectoryHasPosesStampsAndTruth) {
+  SceneFrames run = frames(3);
+  auto without = std::make_shared<SceneFrame>(*run[2]);
+  without->truth.reset();
+  run[2] = without;
+  const DecodedMessage message = decode_message(*trajectory_message(run, 5, Timestamp(0), true));
+  EXPECT_EQ(message.json["first_frame"], 5);
+  const auto poses = message.values<float>("pose");
+  ASSERT_EQ(poses.size(), 21U);
+  EXPECT_EQ(poses[7], 1.0F);   // x of the second
+  EXPECT_EQ(poses[13], 1.0F);  // qw of the second
+  EXPECT_EQ(message.values<std::uint32_t>("stamp"), (std::vector<std::uint32_t>{0, 100, 200}));
+  const auto truth = message.values<float>("truth");
+  EXPECT_EQ(truth[1], 0.25F);
+  EXPECT_TRUE(std::isnan(truth[6]));
+}
+
+TEST(Message, SeriesHasARowAFrame) {
+  const DecodedMessage message = decode_message(*series_message(scene_info(true), frames(2), 0));
+  EXPECT_EQ(message.json["names"], (nlohmann::json{"read", "dynamic_share"}));
+  EXPECT_EQ(message.json["units"], (nlohmann::json{"ms", "ratio"}));
+  EXPECT_EQ(message.values<float>("values"), (std::vector<float>{0.0F, 0.5F, 1.0F, 0.5F}));
+}
+
+TEST(Message, TracksHaveARowAnObjectAndFrame) {
+  const DecodedMessage message = decode_message(*tracks_message(frames(2)));
+  EXPECT_EQ(message.json["ids"], nlohmann::json{7});
+  EXPECT_EQ(message.json["classes"], nlohmann::json{1});
+  EXPECT_EQ(message.values<std::uint32_t>("track"), (std::vector<std::uint32_t>{0, 0}));
+  EXPECT_EQ(message.values<std::uint32_t>("frame"), (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(message.values<float>("center")[5], 3.0F);
+}
+
+TEST(Message, FrameHasWhatTheViewerWants) {
+  const EncodedPictures pictures = encode_pictures(*view_of(4));
+  const SceneInfo info = scene_info(true);
+  SceneFrame frame = frame_at(4);
+  frame.series[1] = std::nanf("");
+  const DecodedMessage all =
+      decode_message(*frame_message(info, frame, 4, PicturesState::kHere, &pictures));
+  EXPECT_EQ(all.json["frame"], 4);
+  EXPECT_EQ(all.json["stamp_ns"], "400000000");
+  EXPECT_EQ(all.json["series"]["read"], 4.0);
+  EXPECT_EQ(all.json["series"]["dynamic_share"], nullptr);
+  EXPECT_EQ(all.json["objects"][0]["class"], "agv");
+  EXPECT_EQ(all.json["objects"][0]["q"], (nlohmann::json{0.0, 0.0, 0.0, 1.0}));
+  EXPECT_EQ(all.json["objects"][0]["seen"], true);
+  EXPECT_EQ(all.values<float>("points").size(), 21U);
+  EXPECT_EQ(all.values<std::uint8_t>("dynamic"), (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 1}));
+  EXPECT_TRUE(all.buffers.at("image").starts_with("\xff\xd8"));
+  EXPECT_TRUE(all.buffers.at("mask").starts_with("\x89PNG"));
+  const DecodedMessage bare = decode_message(*frame_message(
+      info, frame, 4, PicturesState::kHere, &pictures, {.points = false, .image = false}));
+  EXPECT_EQ(bare.buffers.size(), 2U);  // pose and truth
+  EXPECT_EQ(bare.json["pictures"], "here");
+}
+
+TEST(Message, AnEmptyChunkIsRemoved) {
+  const VoxelKey key{-1, 0, 12};
+  const DecodedMessage gone = decode_message(*map_message(key, {}));
+  EXPECT_EQ(gone.json["chunk"], "-1,0,12");
+  EXPECT_EQ(gone.json["remove"], true);
+  const DecodedMessage there = decode_message(*map_message(key, {2, 0.4, floor_points(3)}));
+  EXPECT_EQ(there.json["remove"], false);
+  EXPECT_EQ(there.json["level"], 2);
+  EXPECT_EQ(there.values<float>("points").size(), 27U);
+  EXPECT_EQ(there.values<std::uint8_t>("colors").size(), 27U);
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,230 @@
+#include "mms/server/server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "mms/core/error.hpp"
+#include "mms/io/ply_io.hpp"
+#include "mms/server/pictures.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/server/client.hpp"
+#include "tests/server/scenes.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+using namespace std::chrono_literals;
+
+ServerOptions any_port() {
+  ServerOptions options;
+  options.port = 0;
+  options.version = "1.2.3";
+  return options;
+}
+
+/// Waits, up to ten seconds, until `done()`.
+template <class Condition>
+bool wait_until(const Condition& done) {
+  for (int i = 0; i < 2000; ++i) {
+    if (done()) return true;
+    std::this_thread::sleep_for(5ms);
+  }
+  return false;
+}
+
+TEST(Server, ServesThePageWithItsTypes) {
+  const ViewerServer server(any_port(), finished_scene(3));
+  const HttpAnswer page = http_get(server.port(), "/");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_EQ(page.type, "text/html; charset=utf-8");
+  expect_in("<html", page.body);
+  expect_in("default-src 'none'", page.policy);
+  EXPECT_EQ(http_get(server.port(), "/favicon.svg").type, "image/svg+xml");
+  EXPECT_EQ(http_get(server.port(), "/nothing").status, 404);
+}
+
+TEST(Server, GivesFilesOfTheRunAndNoOthers) {
+  const TempFolder folder;
+  folder.write("run/static_map.ply", std::string(3'000'000, 'x'));
+  folder.write("run/private.txt", "x");
+  const ViewerServer server(any_port(), finished_scene(1, folder.path() / "run"));
+  EXPECT_EQ(http_get(server.port(), "/files/static_map.ply").body.size(), 3'000'000U);
+  for (const char* path : {"/files/private.txt", "/files/../run/static_map.ply",
+                           "/files/..%2frun/static_map.ply", "/../../../etc/passwd"}) {
+    EXPECT_EQ(http_get(server.port(), path).status, 404) << path;
+  }
+}
+
+TEST(Server, GivesTheMapOfALiveRunAsItIs) {
+  const TempFolder folder;
+  const auto scene = std::make_shared<Scene>(scene_info(true));
+  scene->add(frame_at(0), nullptr, floor_map(5));
+  const ViewerServer server(any_port(), scene);
+  const auto file = folder.write("map.ply", http_get(server.port(), "/files/static_map.ply").body);
+  EXPECT_EQ(read_ply(file).points.size(), 25U);
+  expect_in("0.000000000 0 0 0", http_get(server.port(), "/files/trajectory.tum").body);
+}
+
+TEST(Server, RefusesPagesOfOthers) {
+  const ViewerServer server(any_port(), finished_scene(3));
+  const std::string own = "http://localhost:" + std::to_string(server.port());
+  EXPECT_EQ(upgrade_status(server.port(), own), 101);
+  EXPECT_EQ(upgrade_status(server.port(), ""), 101);
+  EXPECT_EQ(upgrade_status(server.port(), "http://evil.example"), 403);
+  EXPECT_EQ(upgrade_status(server.port(), own + "0"), 403);
+  EXPECT_EQ(http_get(server.port(), "/", "Origin: http://evil.example\r\n").status, 403);
+  EXPECT_EQ(http_get(server.port(), "/", "Host: evil.example\r\n").status, 403);
+}
+
+TEST(Server, SendsARunToAViewer) {
+  const ViewerServer server(any_port(), finished_scene(30));
+  ViewerClient client(server.port());
+  const DecodedMessage hello = client.wait_for("hello");
+  EXPECT_EQ(hello.json["version"], "1.2.3");
+  EXPECT_EQ(hello.json["frames"], 30);
+  EXPECT_EQ(client.wait_for("trajectory").values<float>("pose").size(), 7 * 30U);
+  client.send(R"({"type":"pause"})");
+  client.send(R"({"type":"seek","frame":17})");
+  while (client.wait_for("frame").json["frame"] != 17) {
+  }
+  EXPECT_EQ(server.viewers(), 1U);
+}
+
+TEST(Server, SurvivesGarbage) {
+  const ViewerServer server(any_port(), finished_scene(3));
+  expect_in("HTTP/1.1 400", send_raw(server.port(), "\x01\x02 what\r\n\r\n"));
+  expect_in("HTTP/1.1 413", send_raw(server.port(), "GET /" + std::string(20'000, 'a') +
+                                                        " HTTP/1.1\r\nHost: localhost\r\n\r\n"));
+  expect_in("HTTP/1.1 413", send_raw(server.port(),
+                                     "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: "
+                                     "100000\r\n\r\n" +
+                                         std::string(100'000, 'b')));
+  ViewerClient client(server.port());
+  client.send("no JSON");
+  expect_in("is no JSON object", client.wait_for("error").json["message"].get<std::string>());
+  client.send(std::string(300, '\xfe'), true);
+  client.wait_for("error");
+  client.send(std::string(100'000, 'x'));  // longer than a message may be
+  while (client.read()) {
+  }
+  EXPECT_TRUE(wait_until([&] { return server.viewers() == 0; }));
+  EXPECT_EQ(http_get(server.port(), "/").status, 200);
+}
+
+TEST(Server, ClosesToThoseWhoSendNothingElse) {
+  const ViewerServer server(any_port(), finished_scene(3));
+  ViewerClient client(server.port());
+  for (int i = 0; i < 200; ++i) client.send("garbage");
+  while (client.read()) {
+  }
+  EXPECT_TRUE(wait_until([&] { return server.viewers() == 0; }));
+}
+
+TEST(Server, ASlowViewerIsSentTheNewestOnly) {
+  SceneInfo info = scene_info(true);
+  info.has_pictures = true;
+  const auto scene = std::make_shared<Scene>(info);
+  const auto large_view = [](std::size_t frame) {
+    auto view = std::make_shared<SensorView>();
+    view->frame = frame;
+    view->cloud.points.assign(kMaxScanPoints, Eigen::Vector3f::Constant(1.0F));
+    view->cloud.labels.assign(kMaxScanPoints, PointLabel::kStatic);
+    return view;
+  };
+  scene->add(frame_at(0), large_view(0), nullptr);
+  const ViewerServer server(any_port(), scene);
+  ViewerClient slow(server.port());
+  slow.wait_for("frame");
+  constexpr std::size_t kFrames = 120;
+  for (std::size_t i = 1; i <= kFrames; ++i) {  // it reads nothing meanwhile
+    scene->add(frame_at(i), large_view(i), nullptr);
+    std::this_thread::sleep_for(20ms);
+  }
+  std::size_t frames = 0;
+  std::size_t last = 0;
+  while (last < kFrames) {
+    last = slow.wait_for("frame").json["frame"].get<std::size_t>();
+    ++frames;
+  }
+  EXPECT_LT(frames, 60U) << "it was sent what was old by then";
+}
+
+TEST(Server, TakesManyViewersWhoComeAndGo) {
+  ServerOptions options = any_port();
+  options.max_viewers = 12;
+  const auto scene = finished_scene(200);
+  const ViewerServer server(options, scene);
+  std::vector<std::thread> crowd;
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    crowd.emplace_back([&server, seed] {
+      std::mt19937 random(seed);
+      for (int i = 0; i < 10; ++i) {
+        try {
+          ViewerClient client(server.port());
+          for (unsigned n = random() % 8; n > 0; --n) client.read();
+          if (random() % 2 == 0) client.send(std::string(random() % 6000, 'g'));
+          if (random() % 2 == 0) client.drop();
+        } catch (const std::runtime_error&) {  // there is no room for it
+        }
+      }
+    });
+  }
+  for (std::thread& one : crowd) one.join();
+  EXPECT_TRUE(wait_until([&] { return server.viewers() == 0; }));
+  ViewerClient client(server.port());
+  client.wait_for("frame");
+}
+
+TEST(Server, RefusesMoreViewersThanItTakes) {
+  ServerOptions options = any_port();
+  options.max_viewers = 2;
+  const ViewerServer server(options, finished_scene(3));
+  const ViewerClient first(server.port());
+  auto second = std::make_unique<ViewerClient>(server.port());
+  EXPECT_EQ(upgrade_status(server.port(), ""), 503);
+  second->drop();
+  EXPECT_TRUE(wait_until([&] { return upgrade_status(server.port(), "") == 101; }));
+}
+
+TEST(Server, SaysGoodbyeWhenItEnds) {
+  auto server = std::make_unique<ViewerServer>(any_port(), finished_scene(3));
+  ViewerClient client(server->port());
+  client.wait_for("hello");
+  std::thread end([&] { server.reset(); });
+  while (client.read()) {
+  }
+  end.join();
+}
+
+TEST(Server, SaysWhereItIs) {
+  const ViewerServer server(any_port(), finished_scene(1));
+  EXPECT_EQ(server.url(), "http://localhost:" + std::to_string(server.port()));
+  EXPECT_FALSE(server.is_open());
+  ServerOptions open = any_port();
+  open.address = "0.0.0.0";
+  EXPECT_TRUE(ViewerServer(open, finished_scene(1)).is_open());
+}
+
+TEST(Server, FaultsOfTheAddressAreNamed) {
+  const ViewerServer server(any_port(), finished_scene(1));
+  const auto fault = [](const ServerOptions& options) {
+    return message_of<DataError>([&] { ViewerServer(options, finished_scene(1)); });
+  };
+  ServerOptions taken = any_port();
+  taken.port = server.port();
+  taken.port_hint = "--port N";
+  expect_in("port " + std::to_string(server.port()) + ": is in use", fault(taken));
+  expect_in("--port N", fault(taken));
+  ServerOptions nowhere = any_port();
+  nowhere.address = "here";
+  expect_in("'here' is no address", fault(nowhere));
+  nowhere.address = "192.0.2.1";
+  expect_in("192.0.2.1", fault(nowhere));
+}
+
+}  // namespace
+}  // namespace mms
