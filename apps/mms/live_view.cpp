@@ -43,7 +43,7 @@ std::vector<float> series_of(const Processed& processed, const SceneFrame& frame
   for (const double ms : result.stage_ms) values.push_back(static_cast<float>(ms));
   values.push_back(static_cast<float>(result.dynamic_share));
   values.push_back(static_cast<float>(result.objects.size()));
-  values.push_back(error_or_drift(frame, has_truth));
+  append_distances(values, frame, has_truth);
   return values;
 }
 

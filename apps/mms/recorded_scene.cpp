@@ -79,7 +79,7 @@ std::vector<float> series_of(const RunFiles& files, const SceneFrame& frame) {
   values.push_back(record == files.frames.end() ? kUnknown
                                                 : static_cast<float>(record->second.dynamic_share));
   values.push_back(static_cast<float>(frame.objects.size()));
-  values.push_back(error_or_drift(frame, !files.truth.empty()));
+  append_distances(values, frame, !files.truth.empty());
   return values;
 }
 

@@ -13,16 +13,18 @@ std::vector<SeriesName> run_series(bool has_truth) {
   }
   series.push_back({"dynamic_share", "ratio"});
   series.push_back({"objects", "count"});
-  series.push_back({has_truth ? "error_cm" : "drift_cm", "cm"});
+  series.push_back({"drift_cm", "cm"});
+  if (has_truth) series.push_back({"error_cm", "cm"});
   return series;
 }
 
-float error_or_drift(const SceneFrame& frame, bool has_truth) {
+void append_distances(std::vector<float>& values, const SceneFrame& frame, bool has_truth) {
   constexpr double kCentimetres = 100.0;
   const Eigen::Vector3d position = frame.T_world_sensor.translation();
-  if (!has_truth) return static_cast<float>(kCentimetres * position.norm());
-  if (!frame.truth) return std::numeric_limits<float>::quiet_NaN();
-  return static_cast<float>(kCentimetres * (position - *frame.truth).norm());
+  values.push_back(static_cast<float>(kCentimetres * position.norm()));
+  if (!has_truth) return;
+  values.push_back(frame.truth ? static_cast<float>(kCentimetres * (position - *frame.truth).norm())
+                               : std::numeric_limits<float>::quiet_NaN());
 }
 
 }  // namespace mms

@@ -7,11 +7,11 @@
 namespace mms {
 
 /// The series of a run: milliseconds of reading and of all stages, share of dynamic points,
-/// objects, and `error_or_drift`.
+/// objects, distance to where the run began [cm], which is drift where the sensor stands still,
+/// and, where there is truth, distance to it [cm].
 std::vector<SeriesName> run_series(bool has_truth);
 
-/// Distance to the true position; where a run has no truth, to where it began, which is drift where
-/// the sensor stands still [cm]. NaN for a frame of a run with truth that has none.
-float error_or_drift(const SceneFrame& frame, bool has_truth);
+/// Adds a frame's distances to the values of the series before them. NaN where it has no truth.
+void append_distances(std::vector<float>& values, const SceneFrame& frame, bool has_truth);
 
 }  // namespace mms

@@ -140,7 +140,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void send(const Answer& answer, http::response<Body> given) {
     auto response = std::make_shared<http::response<Body>>(std::move(given));
     fill_header(answer, *response);
-    response->prepare_payload();
+    if (answer.status != 304) response->prepare_payload();
     stream_.expires_after(kSendTime);
     auto serializer = std::make_shared<http::response_serializer<Body>>(*response);
     const auto sent = [self = shared_from_this(), response, serializer](beast::error_code error,

@@ -27,13 +27,43 @@ Rgb mean_of_square(const Image<Rgb>& image, int left, int top, int side) {
           static_cast<std::uint8_t>(b / count)};
 }
 
-std::uint8_t mask_value(const LabeledCloud& cloud, std::size_t i) {
-  if (cloud.labels[i] != PointLabel::kDynamic) return 0;
-  const int cluster = cloud.cluster.empty() ? -1 : cloud.cluster[i];
-  const bool known = cluster >= 0 && static_cast<std::size_t>(cluster) < cloud.clusters.size();
-  const ObjectClass object_class =
-      known ? cloud.clusters[static_cast<std::size_t>(cluster)].object_class : ObjectClass::kPerson;
+constexpr std::uint8_t value_of(ObjectClass object_class) {
   return static_cast<std::uint8_t>(1 + static_cast<int>(object_class));
+}
+
+/// Value of a dynamic point whose object is known; else 0.
+std::uint8_t known_value(const LabeledCloud& cloud, std::size_t i) {
+  if (cloud.labels[i] != PointLabel::kDynamic || cloud.cluster.empty()) return 0;
+  const auto cluster = static_cast<std::size_t>(cloud.cluster[i]);
+  return cloud.cluster[i] >= 0 && cluster < cloud.clusters.size()
+             ? value_of(cloud.clusters[cluster].object_class)
+             : std::uint8_t{0};
+}
+
+bool is_dynamic(const LabeledCloud& cloud, std::size_t i) {
+  return cloud.labels[i] == PointLabel::kDynamic ||
+         (!cloud.dynamic_pixels.empty() && cloud.dynamic_pixels[i] != 0);
+}
+
+/// Lets the values spread over the dynamic pixels, nearest first.
+void spread(const LabeledCloud& cloud, Image<std::uint8_t>& mask) {
+  std::vector<std::size_t> front;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] != 0) front.push_back(i);
+  }
+  const auto width = static_cast<std::size_t>(mask.width());
+  for (std::size_t next = 0; next < front.size(); ++next) {
+    const std::size_t i = front[next];
+    const auto reach = [&](bool there, std::size_t neighbour) {
+      if (!there || mask[neighbour] != 0 || !is_dynamic(cloud, neighbour)) return;
+      mask[neighbour] = mask[i];
+      front.push_back(neighbour);
+    };
+    reach(i % width > 0, i - 1);
+    reach(i % width + 1 < width, i + 1);
+    reach(i >= width, i - width);
+    reach(i + width < mask.size(), i + width);
+  }
 }
 
 }  // namespace
@@ -54,7 +84,12 @@ Image<Rgb> shrunk(const Image<Rgb>& image, int max_width) {
 Image<std::uint8_t> mask_of(const LabeledCloud& cloud) {
   if (!cloud.organised()) return {};
   Image<std::uint8_t> mask(cloud.width, cloud.height);
-  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = mask_value(cloud, i);
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = known_value(cloud, i);
+  spread(cloud, mask);
+  // What is left is a mask without a single point of its own, whose class is not known any more.
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] == 0 && is_dynamic(cloud, i)) mask[i] = value_of(ObjectClass::kPerson);
+  }
   return mask;
 }
 

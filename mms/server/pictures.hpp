@@ -24,6 +24,7 @@ inline constexpr int kMaxImageWidth = 640;  ///< [px]
 Image<Rgb> shrunk(const Image<Rgb>& image, int max_width);
 
 /// What is dynamic in an organised cloud, a byte a pixel: 0 static, 1 + class id; empty for others.
+/// Pixels under a mask that have no depth get the class of the nearest that have.
 Image<std::uint8_t> mask_of(const LabeledCloud& cloud);
 
 /// Evenly chosen points of a scan that have a return, at most `max_points`.

@@ -96,7 +96,7 @@ class ViewerClient::Parts {
     socket_.write(asio::buffer(text), ignored);
   }
 
-  std::optional<DecodedMessage> read() {
+  std::optional<std::string> read() {
     beast::flat_buffer buffer;
     beast::error_code error;
     bool done = false;
@@ -112,7 +112,7 @@ class ViewerClient::Parts {
       throw std::runtime_error("nothing came for ten seconds");
     }
     if (error) return std::nullopt;
-    return decode_message(beast::buffers_to_string(buffer.data()));
+    return beast::buffers_to_string(buffer.data());
   }
 
   void drop() {
@@ -134,6 +134,12 @@ void ViewerClient::send(const std::string& text, bool binary) {
 }
 
 std::optional<DecodedMessage> ViewerClient::read() {
+  const std::optional<std::string> bytes = read_bytes();
+  if (!bytes) return std::nullopt;
+  return decode_message(*bytes);
+}
+
+std::optional<std::string> ViewerClient::read_bytes() {
   return parts_->read();
 }
 

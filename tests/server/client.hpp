@@ -40,6 +40,7 @@ class ViewerClient {
 
   /// The next message; nothing when the connection is closed.
   std::optional<DecodedMessage> read();
+  std::optional<std::string> read_bytes();
 
   /// Reads until a message of that type comes. @throws std::runtime_error when none does.
   DecodedMessage wait_for(const std::string& type);

@@ -31,6 +31,13 @@ TEST(Pictures, MaskIsOnePlusTheClass) {
   EXPECT_EQ(mask(3, 1), 2);  // a vehicle
   EXPECT_EQ(mask(0, 0), 0);
   EXPECT_EQ(mask(2, 1), 0);
+  LabeledCloud with_mask = view_of(0)->cloud;
+  with_mask.dynamic_pixels = Image<std::uint8_t>(4, 2);
+  for (const std::size_t i : {5U, 6U, 0U}) with_mask.dynamic_pixels[i] = 255;
+  const Image<std::uint8_t> closed = mask_of(with_mask);
+  EXPECT_EQ(closed(1, 1), 2) << "under the vehicle's mask, without depth";
+  EXPECT_EQ(closed(0, 0), 1) << "a mask of its own";
+  EXPECT_EQ(closed(3, 0), 0);
   LabeledCloud lidar = view_of(0)->cloud;
   lidar.width = 8;
   lidar.height = 1;
