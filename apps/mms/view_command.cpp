@@ -19,12 +19,12 @@ struct ViewArguments {
 
 void view(const ViewArguments& arguments) {
   const std::shared_ptr<Scene> scene = open_recorded_scene(arguments.folder);
-  fmt::print(stderr, "{}: {} frames\n", arguments.folder.string(), scene->size());
+  const auto server = serve(arguments.options, scene, "--port N", false);
   if (!scene->info().has_pictures) {
     fmt::print(stderr, "warning: no images and scans to show: {}\n", scene->info().pictures_note);
   }
-  const auto server = serve(arguments.options, scene, "--port N", false);
-  fmt::print(stderr, "Ctrl-C ends it\n");
+  fmt::print(stderr, "{}: {} frames, shown until Ctrl-C\n", arguments.folder.string(),
+             scene->size());
   wait_for_interrupt();
 }
 

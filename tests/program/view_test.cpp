@@ -110,7 +110,7 @@ TEST(View, ShowsWhatAKilledRunLeft) {
 
 TEST(View, ShowsARunWhileItGoesOn) {
   const TempFolder folder;
-  write_scene(folder.path() / "data", small_scene(60));
+  write_scene(folder.path() / "data", small_scene(30));
   RunningMms program(folder.path(), {"run", "data", "--segmenter", "masks", "-o", "out",
                                      "--realtime", "--view", "0"});
   ViewerClient client(port_of(folder));
