@@ -61,21 +61,26 @@ help.addEventListener('click', () => part<HTMLDialogElement>('help').showModal()
 run.on('hello', ({ hello, again }) => {
   document.title = `${hello.name} · MMS-SLAM`;
   part('run-name').textContent = hello.name;
-  part('run-data').textContent = hello.data;
-  const badge = part('badge');
-  badge.hidden = false;
-  badge.textContent = hello.live ? 'Live' : 'Finished run';
-  badge.classList.toggle('live', hello.live);
+  part('run-data').textContent = hello.data === hello.name ? '' : hello.data;
+  showBadge();
   if (again && !hello.live) player.seek(lastFrame);
 });
 let lastFrame = 0;
 run.on('frame', ({ frame }) => (lastFrame = frame));
+run.on('playback', showBadge);
 settings.on('layer', (layer) => layer === 'scan' && sendWanted());
 addEventListener('online', () => connection.hurry());
 addEventListener('resize', () => sendWanted());
 
 connection.connect();
 setInterval(sendFocus, kFocusEvery);
+
+function showBadge(): void {
+  const badge = part('badge');
+  badge.hidden = run.hello === null;
+  badge.textContent = run.live ? 'Live' : run.hello?.live ? 'Run ended' : 'Finished run';
+  badge.classList.toggle('live', run.live);
+}
 
 /** Spares the server and the line what is not shown. */
 function sendWanted(): void {

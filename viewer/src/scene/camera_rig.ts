@@ -69,6 +69,11 @@ export class CameraRig {
     return this.mode === 'top' ? this.above.target : this.around.target;
   }
 
+  /** From where on what is far fades into the background: beyond what the eye looks at [m]. */
+  get haze(): number {
+    return this.mode === 'top' ? 1e4 : Math.max(30, 1.6 * this.perspective.position.distanceTo(this.around.target));
+  }
+
   setMode(mode: CameraMode): void {
     const from = this.view();
     const glides = this.mode !== 'top' && mode !== 'top' && this.mode !== mode;

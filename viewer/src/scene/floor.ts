@@ -1,5 +1,6 @@
 import { Color, Mesh, PlaneGeometry, ShaderMaterial } from 'three';
 import { kColors } from './palette';
+import { pointUniforms } from './point_material';
 
 const kBin = 0.05;
 
@@ -31,6 +32,7 @@ const kVertex = /* glsl */ `
 
 const kFragment = /* glsl */ `
   uniform vec3 color;
+  uniform float haze;
   varying vec3 at;
   varying vec3 eye;
   float lines(float cell) {
@@ -40,8 +42,8 @@ const kFragment = /* glsl */ `
     return (1.0 - min(min(from.x, from.y), 1.0)) * (1.0 - smoothstep(0.15, 0.5, max(width.x, width.y)));
   }
   void main() {
-    float fade = 1.0 - smoothstep(15.0, 70.0, distance(at.xz, eye.xz));
-    float alpha = max(0.35 * lines(1.0), 0.7 * lines(5.0)) * fade;
+    float fade = 1.0 - smoothstep(0.5 * haze, 2.5 * haze, distance(at, eye));
+    float alpha = max(0.35 * lines(1.0), 0.7 * max(lines(5.0), lines(25.0))) * fade;
     if (alpha < 0.01) discard;
     gl_FragColor = vec4(color, alpha);
   }`;
@@ -52,7 +54,7 @@ export function floorGrid(): Mesh {
   const material = new ShaderMaterial({
     vertexShader: kVertex,
     fragmentShader: kFragment,
-    uniforms: { color: { value: new Color(kColors.grid).convertLinearToSRGB() } },
+    uniforms: { haze: pointUniforms.haze, color: { value: new Color(kColors.grid).convertLinearToSRGB() } },
     transparent: true,
     depthWrite: false,
   });

@@ -18,9 +18,16 @@ const kFewest = 64;
  */
 export function drawnCounts(chunks: ChunkView[], pixelsPerMetre: number, budget: number): number[] {
   const wanted = chunks.map(({ voxel, distance }) => kPointsPerPixel * ((voxel * pixelsPerMetre) / distance) ** 2);
-  const counts = (scale: number) =>
-    chunks.map(({ count }, i) => Math.min(count, Math.max(kFewest, Math.floor(count * Math.min(1, scale * wanted[i])))));
-  const total = (scale: number) => counts(scale).reduce((sum, count) => sum + count, 0);
+  const drawn = (i: number, scale: number): number => {
+    const { count } = chunks[i];
+    return Math.min(count, Math.max(kFewest, Math.floor(count * Math.min(1, scale * wanted[i]))));
+  };
+  const total = (scale: number): number => {
+    let sum = 0;
+    for (let i = 0; i < chunks.length; ++i) sum += drawn(i, scale);
+    return sum;
+  };
+  const counts = (scale: number): number[] => chunks.map((_, i) => drawn(i, scale));
 
   if (total(1) <= budget) return counts(1);
   let [low, high] = [-30, 0]; // powers of two: what is near can be wanted a thousandfold

@@ -40,9 +40,10 @@ export class MapLayer {
     );
     const visible = [...this.chunks.values()].filter((chunk) => this.frustum.intersectsSphere(this.sphere(chunk)));
     const orthographic = pointUniforms.orthographic.value;
+    camera.getWorldPosition(eye);
     const views = visible.map((chunk) => {
       const sphere = this.sphere(chunk);
-      const away = camera.getWorldPosition(eye).distanceTo(sphere.center) - sphere.radius;
+      const away = eye.distanceTo(sphere.center) - sphere.radius;
       return { count: chunk.count, voxel: chunk.voxel, distance: orthographic ? 1 : Math.max(0.5, away) };
     });
     const counts = drawnCounts(views, pointUniforms.pixelsPerMetre.value, budget);

@@ -1,4 +1,4 @@
-import { Color, ShaderMaterial, Vector2 } from 'three';
+import { Color, ShaderMaterial } from 'three';
 import { kColors } from './palette';
 
 /** Higher than anything [m]; shaders know no infinity. */
@@ -11,16 +11,15 @@ export const pointUniforms = {
   orthographic: { value: false },
   /** Points higher than this in the scene's frame are not drawn [m]. */
   ceiling: { value: kHigh },
-  /** Points fade into the background between these distances [m]. */
-  fog: { value: new Vector2(30, 120) },
+  /** From this distance on what is far fades into the background [m]. */
+  haze: { value: 30 },
   background: { value: new Color(kColors.background).convertLinearToSRGB() },
 };
 
 const kVertex = /* glsl */ `
   uniform float size, pixelsPerMetre, smallest;
   uniform bool orthographic;
-  uniform float ceiling, nearer;
-  uniform vec2 fog;
+  uniform float ceiling, nearer, haze;
   uniform vec3 background, tint;
   uniform float tintShare, saturation;
   attribute vec3 color;
@@ -34,7 +33,7 @@ const kVertex = /* glsl */ `
     gl_PointSize = pixels;
     if (world.y > ceiling) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     vec3 own = mix(vec3(dot(color, vec3(0.3, 0.59, 0.11))), color, saturation);
-    float far = orthographic ? 0.0 : smoothstep(fog.x, fog.y, -eye.z);
+    float far = orthographic ? 0.0 : smoothstep(haze, 4.0 * haze, -eye.z);
     shade = mix(mix(own, tint, tintShare), background, far);
   }`;
 

@@ -37,7 +37,7 @@ export class Stage {
     const small = matchMedia('(pointer: coarse)').matches;
     const most = small ? 2_000_000 : 6_000_000;
     this.moving = new PointBudget(40, most, this.software ? 150_000 : 1_000_000);
-    this.resting = new PointBudget(1500, most, most);
+    this.resting = new PointBudget(1500, most, this.software ? 800_000 : most);
     this.renderer.domElement.classList.add('scene-canvas');
     this.labels.canvas.classList.add('label-canvas');
     container.append(this.renderer.domElement, this.labels.canvas);
@@ -89,6 +89,7 @@ export class Stage {
     const ratio = this.renderer.getPixelRatio();
     pointUniforms.pixelsPerMetre.value = this.rig.pixelsPerMetre * ratio;
     pointUniforms.orthographic.value = this.rig.mode === 'top';
+    pointUniforms.haze.value = this.rig.haze;
     const points = this.events.draw(budget);
     this.renderer.render(this.scene, camera);
     this.events.drawn();

@@ -22,13 +22,20 @@ export class Run extends Emitter<RunEvents> {
   hello: Hello | null = null;
   frame: FrameMessage | null = null;
   playback = kStopped;
+  /** A live run has ended: its results are there. */
+  private over = false;
   trajectory = new Trajectory();
   series = new SeriesTable();
   tracks = new Tracks();
 
+  /** Frames still come from the sensor. */
+  get live(): boolean {
+    return this.hello?.live === true && !this.over;
+  }
+
   /** How many frames there are to scrub through. */
   get frames(): number {
-    return Math.max(this.hello?.frames ?? 0, this.trajectory.frames);
+    return Math.max(this.live ? 0 : (this.hello?.frames ?? 0), this.trajectory.frames);
   }
 
   apply(message: Message): void {
@@ -50,6 +57,7 @@ export class Run extends Emitter<RunEvents> {
         return this.emit('map', message);
       case 'state':
         this.playback = message;
+        this.over ||= message.files !== null;
         return this.emit('playback', message);
       case 'error':
         return this.emit('error', message.message);
@@ -60,6 +68,7 @@ export class Run extends Emitter<RunEvents> {
     const again = this.hello !== null && this.hello.run === hello.run && this.hello.name === hello.name;
     this.hello = hello;
     this.frame = null;
+    this.over = false;
     this.playback = kStopped;
     this.trajectory = new Trajectory();
     this.series = new SeriesTable();

@@ -119,7 +119,7 @@ export class Player {
     const [now, end] = [trajectory.time(frame), trajectory.time(this.last)];
     setText(this.time, now === null ? '' : `${clock(now)} / ${clock(end ?? now)}`);
     setText(this.frames, hello ? `frame ${frame} of ${this.last}` : '');
-    this.speed.hidden = hello?.live === true;
+    this.speed.hidden = this.run.live;
     this.speed.value = String(playback.speed);
     this.updateLive(frame);
     this.updateButton();
@@ -127,9 +127,8 @@ export class Player {
   }
 
   private updateLive(frame: number): void {
-    const { hello, playback } = this.run;
-    this.live.hidden = hello?.live !== true || playback.ended;
-    this.live.classList.toggle('behind', !playback.playing || frame < this.last - 30);
+    this.live.hidden = !this.run.live;
+    this.live.classList.toggle('behind', !this.run.playback.playing || frame < this.last - 30);
   }
 
   private updateButton(): void {

@@ -48,6 +48,18 @@ describe('Run', () => {
     expect(run.series.of('ms')[0].values.row(1)[0]).toBeNaN();
   });
 
+  it('knows when a live run is over', () => {
+    const run = new Run();
+    tell(run, { ...kHello, live: true, frames: 100 });
+    tell(run, { type: 'frame', frame: 0 }, [['pose', 7, pose(0)]]);
+    tell(run, { type: 'state', playing: true });
+    expect(run.live).toBe(true);
+    expect(run.frames).toBe(1);
+    tell(run, { type: 'state', playing: true, files: ['static_map.ply'] });
+    expect(run.live).toBe(false);
+    expect(run.frames).toBe(100);
+  });
+
   it('splits the series into columns and holds more than it first has room for', () => {
     const run = new Run();
     tell(run, kHello);
