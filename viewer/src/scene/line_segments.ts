@@ -3,6 +3,9 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 
+/** In steps of the depth buffer: some centimetres a few metres away. */
+const kBehind = 2000;
+
 export interface LineLook {
   /** Width on the screen [px]. */
   width: number;
@@ -28,7 +31,7 @@ export class ColoredSegments {
     material.transparent = look.opacity !== undefined;
     material.opacity = look.opacity ?? 1;
     material.polygonOffset = look.behind === true;
-    material.polygonOffsetFactor = material.polygonOffsetUnits = 4;
+    material.polygonOffsetUnits = kBehind;
     this.line = new LineSegments2(this.geometry, material);
     this.line.frustumCulled = false;
     this.object.add(this.line);

@@ -1,5 +1,6 @@
 import { Box3, Group, type Object3D, Quaternion, Vector3 } from 'three';
 import type { FrameMessage, Hello, MapMessage, SceneObject, Vector3 as Triple } from '../protocol/messages';
+import { className } from '../state/class_words';
 import type { Run } from '../state/run';
 import type { Layer, Settings } from '../state/settings';
 import { floorGrid, floorHeight } from './floor';
@@ -193,7 +194,7 @@ export class SceneView {
 
 /** id, class and speed in words. */
 export function labelText({ id, class: name, velocity, moving }: SceneObject): string {
-  return `${name} ${id} · ${moving ? `${Math.hypot(...velocity).toFixed(1)} m/s` : 'still'}`;
+  return `${className(name)} ${id} · ${moving ? `${Math.hypot(...velocity).toFixed(1)} m/s` : 'still'}`;
 }
 
 /** Half of what the box takes up along `up`. */

@@ -21,8 +21,6 @@ const kRedraw = 300;
 interface Slot {
   chart: Chart;
   unit: Unit;
-  /** The series that are shown; without it all of that unit. */
-  names?: string[];
 }
 
 /** Milliseconds a stage, dynamic share, drift and error, objects: all over the frames. */
@@ -38,8 +36,7 @@ export class ChartPanel {
     this.slots = [
       { chart: this.chart('Time per frame', 'ms', true), unit: 'ms' },
       { chart: this.chart('Dynamic share', 'ratio'), unit: 'ratio' },
-      { chart: this.chart('Distance from the truth', 'cm'), unit: 'cm', names: ['error_cm'] },
-      { chart: this.chart('Distance from the start', 'cm'), unit: 'cm', names: ['drift_cm'] },
+      { chart: this.chart('Drift', 'cm'), unit: 'cm' },
       { chart: this.chart('Objects', 'count'), unit: 'count' },
     ];
     part('charts').append(this.empty, ...this.slots.map(({ chart }) => chart.root));
@@ -69,13 +66,17 @@ export class ChartPanel {
     return this.run.trajectory.time(this.run.series.frames - 1) !== null;
   }
 
+  /** Where the truth is known, how far the estimate is from it says more than how far it is from the start. */
+  private shown(unit: Unit): Series[] {
+    const all = this.run.series.of(unit);
+    const error = all.filter(({ name }) => name === 'error_cm');
+    return unit === 'cm' && error.length > 0 ? error : all;
+  }
+
   private redraw(): void {
     this.plotted = this.run.series.frames;
     this.empty.hidden = this.plotted > 0;
-    for (const { chart, unit, names } of this.slots) {
-      const series = this.run.series.of(unit).filter(({ name }) => names?.includes(name) ?? true);
-      chart.setLines(series.map(line));
-    }
+    for (const { chart, unit } of this.slots) chart.setLines(this.shown(unit).map(line));
   }
 }
 

@@ -20,15 +20,3 @@ export function quantity(value: number | undefined, unit: Unit): string {
 export function words(name: string): string {
   return name.replace(/_(cm|ms)$/, '').replaceAll('_', ' ');
 }
-
-const kPlurals: Record<string, string> = { person: 'people', agv: 'AGVs', vehicle: 'vehicles' };
-const kSingulars: Record<string, string> = { agv: 'AGV' };
-
-/** "2 people", "1 AGV". */
-export function counted(count: number, name: string): string {
-  return `${count} ${count === 1 ? className(name) : (kPlurals[name] ?? `${name}s`)}`;
-}
-
-export function className(name: string): string {
-  return kSingulars[name] ?? name;
-}

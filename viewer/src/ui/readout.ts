@@ -1,6 +1,7 @@
+import { counted } from '../state/class_words';
 import type { Run } from '../state/run';
 import { h, part, setText } from './dom';
-import { counted, quantity } from './format';
+import { quantity } from './format';
 
 interface Tile {
   value: HTMLElement;

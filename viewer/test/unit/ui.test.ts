@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { plotData } from '../../src/ui/chart_data';
-import { clock, counted, quantity, words } from '../../src/ui/format';
+import { counted } from '../../src/state/class_words';
+import { clock, quantity, words } from '../../src/ui/format';
 import { tint } from '../../src/ui/mask_overlay';
 
 describe('format', () => {
