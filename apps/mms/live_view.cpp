@@ -74,13 +74,13 @@ void LiveView::show(Processed processed, std::shared_ptr<const MapChanges> map) 
   frame.truth = truth_.at({frame.stamp, frame.T_world_sensor});
   frame.series = series_of(processed, frame, !truth_.empty());
   frame.objects = objects_of(result, frame.stamp);
-  if (scene_->size() == 0) {
+  if (frames_ == 0) {
     const bool depth_camera = result.cloud.organised();
     scene_->set_sensor(processed.frame.calibration->camera,
                        (depth_camera ? SensorAxes::camera() : SensorAxes::lidar()).up);
   }
   auto view = std::make_shared<const SensorView>(
-      SensorView{scene_->size(), std::move(processed.frame.color), std::move(result.cloud)});
+      SensorView{frames_++, std::move(processed.frame.color), std::move(result.cloud)});
   scene_->add(std::move(frame), std::move(view), std::move(map));
 }
 

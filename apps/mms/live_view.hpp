@@ -33,6 +33,7 @@ class LiveView {
  private:
   LiveTruth truth_;
   std::shared_ptr<Scene> scene_;
+  std::size_t frames_ = 0;  // shown so far
   std::unique_ptr<ViewerServer> server_;
 };
 

@@ -6,16 +6,15 @@ namespace mms {
 
 void Playhead::follow(std::size_t frames) {
   live_ = true;
-  if (frames == 0) return;
-  if (playing_) frame_ = frames - 1;
   clamp(frames);
+  if (playing_ && frames > 0) frame_ = frames - 1;
 }
 
 void Playhead::advance(std::span<const Timestamp> stamps, Clock::time_point now) {
+  clamp(stamps.size());
   if (stamps.empty()) return;
   if (live_) start_.reset();  // the run has just ended
   live_ = false;
-  clamp(stamps.size());
   if (playing_) {
     if (!start_) restart(now);
     const std::chrono::duration<double> elapsed = now - *start_;
@@ -52,6 +51,11 @@ void Playhead::seek(std::size_t frame) {
 void Playhead::set_speed(double speed, Clock::time_point now) {
   speed_ = speed;
   restart(now);
+}
+
+/// Keeps to frames that are there.
+void Playhead::clamp(std::size_t frames) {
+  frame_ = std::min(frame_, std::max<std::size_t>(frames, 1) - 1);
 }
 
 void Playhead::restart(Clock::time_point now) {

@@ -35,7 +35,7 @@ class Playhead {
 
  private:
   void restart(Clock::time_point now);
-  void clamp(std::size_t frames) { frame_ = frame_ < frames ? frame_ : frames - 1; }
+  void clamp(std::size_t frames);
 
   bool live_ = false;
   bool playing_ = true;

@@ -15,27 +15,34 @@ void Scene::set_sensor(const std::optional<CameraIntrinsics>& camera, const Eige
 
 void Scene::add(SceneFrame frame, std::shared_ptr<const SensorView> view,
                 std::shared_ptr<const MapChanges> map) {
-  auto shared = std::make_shared<const SceneFrame>(std::move(frame));
-  const std::scoped_lock lock(mutex_);
-  frames_.push_back(std::move(shared));
-  newest_.swap(view);  // the old one is freed after the lock
-  if (map) changes_.push_back(std::move(map));
-  size_ = frames_.size();
+  pending_.frames.push_back(std::make_shared<const SceneFrame>(std::move(frame)));
+  pending_.view = std::move(view);
+  if (map) pending_.changes.push_back(std::move(map));
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  // A reader that the system has put to sleep, as one of low priority may be, holds nobody up.
+  if (lock.owns_lock()) take_over_pending();
 }
 
-void Scene::add_map(std::shared_ptr<const MapChanges> map) {
-  const std::scoped_lock lock(mutex_);
-  changes_.push_back(std::move(map));
+void Scene::take_over_pending() {
+  frames_.insert(frames_.end(), pending_.frames.begin(), pending_.frames.end());
+  changes_.insert(changes_.end(), pending_.changes.begin(), pending_.changes.end());
+  // The old view goes with the next frame, when no lock is held.
+  if (!pending_.frames.empty()) newest_.swap(pending_.view);
+  pending_.frames.clear();
+  pending_.changes.clear();
+  size_ = frames_.size();
 }
 
 void Scene::end(const std::filesystem::path& folder) {
   const std::scoped_lock lock(mutex_);
+  take_over_pending();
   folder_ = folder;
   ended_ = true;
 }
 
 void Scene::replace_truth(const std::vector<std::optional<Eigen::Vector3d>>& truth) {
   const std::scoped_lock lock(mutex_);
+  take_over_pending();
   for (std::size_t i = 0; i < std::min(truth.size(), frames_.size()); ++i) {
     auto changed = std::make_shared<SceneFrame>(*frames_[i]);
     changed->truth = truth[i];
@@ -65,7 +72,7 @@ std::shared_ptr<const SensorView> Scene::view(std::optional<std::size_t> frame) 
 }
 
 void Scene::take_over_map() {
-  std::vector<std::shared_ptr<const MapChanges>> changes;
+  Changes changes;
   {
     const std::scoped_lock lock(mutex_);
     changes.swap(changes_);

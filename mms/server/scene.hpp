@@ -14,8 +14,9 @@
 
 namespace mms {
 
-/// What there is to see of a run, live or finished. The run adds to it and viewers read it, in any
-/// threads; adding takes a short lock and never waits for a viewer.
+/// What there is to see of a run, live or finished. The run adds to it in one thread, and viewers
+/// read it in others. Adding never waits: while a viewer reads, which is for moments, what is added
+/// is kept aside until the next time.
 class Scene {
  public:
   /// Gives what the sensor saw at a frame of a finished run, null where that is not to be had. Runs
@@ -30,8 +31,10 @@ class Scene {
   void add(SceneFrame frame, std::shared_ptr<const SensorView> view,
            std::shared_ptr<const MapChanges> map);
 
-  /// Adds to the map alone.
-  void add_map(std::shared_ptr<const MapChanges> map);
+  /// Adds to the map alone, together with the next frame or the end.
+  void add_map(std::shared_ptr<const MapChanges> map) {
+    pending_.changes.push_back(std::move(map));
+  }
 
   /// No frame comes any more. @param folder  where the run's files are
   void end(const std::filesystem::path& folder);
@@ -71,10 +74,19 @@ class Scene {
   }
 
  private:
+  using Changes = std::vector<std::shared_ptr<const MapChanges>>;
+  struct Pending {
+    SceneFrames frames;
+    std::shared_ptr<const SensorView> view;
+    Changes changes;
+  };
+
+  void take_over_pending();
   void take_over_map();
 
   SceneInfo info_;
   ViewLoader loader_;
+  Pending pending_;  // of the thread that adds
   std::atomic<std::size_t> size_ = 0;
   std::atomic<bool> ended_ = false;
   std::atomic<std::uint64_t> edition_ = 0;
@@ -82,7 +94,7 @@ class Scene {
   mutable std::mutex mutex_;  // of what follows; held for moments only
   SceneFrames frames_;
   std::shared_ptr<const SensorView> newest_;
-  std::vector<std::shared_ptr<const MapChanges>> changes_;
+  Changes changes_;
   std::filesystem::path folder_;
 
   std::mutex map_mutex_;  // the run never takes it

@@ -38,6 +38,7 @@ Viewer::Viewer(Scene& scene, std::string version)
 bool Viewer::receive(std::string_view text, Clock::time_point now) {
   try {
     obey(parse_command(text), now);
+    tick(now);  // keeps the playhead within the run
     return true;
   } catch (const Error& error) {
     if (errors_.size() < kMaxErrors) errors_.push_back(error_message(error.what()));

@@ -113,7 +113,11 @@ TEST(Playhead, StaysAtTheEndOfALiveRunAndCanPlayItAgain) {
 
 TEST(Playhead, ARunWithoutFramesIsNoFault) {
   Playhead head;
+  head.seek(7);
   head.advance({}, kStart);
+  EXPECT_EQ(head.frame(), 0U);
+  head.seek(7);
+  head.follow(0);
   EXPECT_EQ(head.frame(), 0U);
 }
 

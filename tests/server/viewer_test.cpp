@@ -191,6 +191,30 @@ TEST(Viewer, ASeekShowsTheFrameAtOnceAndItsPicturesLater) {
   EXPECT_FALSE(only(desk.drain(), "frame").buffers.contains("image"));
 }
 
+TEST(Viewer, ASeekBeyondTheRunEndsAtItsLastFrame) {
+  Desk desk(finished_scene(5));
+  desk.pass(0ms);
+  desk.drain();
+  desk.say(R"({"type":"pause"})");
+  for (const char* command : {R"({"type":"seek","frame":1000000000})", R"({"type":"step"})"}) {
+    desk.say(command);
+    desk.say(R"({"type":"want","image":false})");
+    for (const DecodedMessage& message : desk.drain()) {  // without a tick before
+      if (message.type() == "frame") {
+        EXPECT_EQ(message.json["frame"], 4);
+      }
+    }
+  }
+}
+
+TEST(Viewer, ASeekBeforeThereIsAFrameIsNoFault) {
+  const auto scene = live_scene();
+  Desk desk(scene);
+  desk.say(R"({"type":"seek","frame":3})");
+  scene->add(frame_at(0), nullptr, nullptr);
+  EXPECT_EQ(only(desk.drain(), "frame").json["frame"], 0);
+}
+
 TEST(Viewer, FaultsAreAnsweredButDoNotPileUp) {
   Desk desk(finished_scene(3));
   desk.pass(0ms);
