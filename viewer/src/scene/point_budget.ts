@@ -1,18 +1,17 @@
-const kFewest = 60_000;
-
 /** How many points a picture may have, learned from what pictures took so far. */
 export class PointBudget {
-  /** `target` is how long a picture may take [ms]; there are never more than `most` points, and `points` at first. */
+  /** `target` is how long a picture may take [ms]; it has `fewest` to `most` points, and `points` at first. */
   constructor(
     private readonly target: number,
+    private readonly fewest: number,
     private readonly most: number,
     public points: number,
   ) {}
 
   /** A picture of so many points took so long [ms]. At most doubles: one quick picture shall not make the next slow. */
   learn(points: number, took: number): void {
-    const wanted = (this.target * Math.max(points, kFewest)) / Math.max(1, took);
-    this.points = Math.min(this.most, 2 * this.points, Math.max(kFewest, wanted));
+    const wanted = (this.target * Math.max(points, this.fewest)) / Math.max(1, took);
+    this.points = Math.min(this.most, 2 * this.points, Math.max(this.fewest, wanted));
   }
 }
 

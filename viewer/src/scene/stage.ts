@@ -36,8 +36,8 @@ export class Stage {
     this.scene.background = new Color(kColors.background);
     const small = matchMedia('(pointer: coarse)').matches;
     const most = small ? 2_000_000 : 6_000_000;
-    this.moving = new PointBudget(40, most, this.software ? 150_000 : 1_000_000);
-    this.resting = new PointBudget(1500, most, this.software ? 800_000 : most);
+    this.moving = new PointBudget(40, 60_000, most, this.software ? 150_000 : 1_000_000);
+    this.resting = new PointBudget(1500, 400_000, most, this.software ? 800_000 : most);
     this.renderer.domElement.classList.add('scene-canvas');
     this.labels.canvas.classList.add('label-canvas');
     container.append(this.renderer.domElement, this.labels.canvas);

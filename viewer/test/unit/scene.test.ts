@@ -48,11 +48,13 @@ describe('shuffled', () => {
 
 describe('PointBudget', () => {
   it('shrinks at once where pictures are slow, and grows back step by step', () => {
-    const budget = new PointBudget(40, 1_000_000, 800_000);
+    const budget = new PointBudget(40, 60_000, 1_000_000, 800_000);
     budget.learn(800_000, 400);
     expect(budget.points).toBe(80_000);
     budget.learn(80_000, 4);
     expect(budget.points).toBe(160_000);
+    budget.learn(160_000, 100_000);
+    expect(budget.points).toBe(60_000);
     for (let i = 0; i < 10; ++i) budget.learn(budget.points, 4);
     expect(budget.points).toBe(1_000_000);
   });
