@@ -19,6 +19,7 @@ count() {
 }
 
 install_packages
+install_test_tools
 if ! build; then
   echo "0 passed, 1 failed"
   exit 1
