@@ -15,7 +15,7 @@ configure_package_config_file(cmake/mms-config.cmake.in ${PROJECT_BINARY_DIR}/mm
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/mms-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/mms-config.cmake ${PROJECT_BINARY_DIR}/mms-config-version.cmake
-              cmake/FindOpenCVModules.cmake
+              cmake/FindOpenCVModules.cmake cmake/FindRosbagStorage.cmake
         DESTINATION ${package_dir})
 if(TARGET mms_program)
   install(TARGETS mms_program)

@@ -13,6 +13,7 @@
 #include "mms/segmentation/model.hpp"
 #include "mms/segmentation/operation_count.hpp"
 #include "mms/segmentation/prepared_image.hpp"
+#include "topic_options.hpp"
 
 namespace mms {
 namespace {
@@ -20,11 +21,13 @@ namespace {
 struct InfoOptions {
   std::string data;
   std::string masks;
+  BagTopicNames topics;
 };
 
 /// Reads one frame of a freshly opened recording. @returns what is wrong with it, or nothing.
 std::string fault_of_frame(const InfoOptions& options, std::size_t index) {
-  const auto source = open_dataset(options.data, {.masks = options.masks});
+  const auto source =
+      open_dataset(options.data, {.masks = options.masks, .topics = options.topics});
   std::vector<std::string> warnings;
   source->on_warning([&](const std::string& message) { warnings.push_back(message); });
   warnings.clear();  // those of opening, which print_info shows
@@ -60,7 +63,8 @@ void print_model(const std::string& path) {
 
 void print_info(const InfoOptions& options) {
   if (options.data.ends_with(".safetensors")) return print_model(options.data);
-  const auto source = open_dataset(options.data, {.masks = options.masks});
+  const auto source =
+      open_dataset(options.data, {.masks = options.masks, .topics = options.topics});
   for (const std::string& line : source->describe()) fmt::print("{}\n", line);
   source->on_warning([](const std::string& message) { fmt::print("warning: {}\n", message); });
   if (source->size() > 0) print_frame_checks(options, source->size());
@@ -73,9 +77,10 @@ void add_info_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "Show what a recording or a weights file holds");
   command
       ->add_option("DATA", options->data,
-                   "folder of the recording, sim:SCENE, or weights.safetensors")
+                   "folder of the recording, x.bag, sim:SCENE, or weights.safetensors")
       ->required();
   command->add_option("--masks", options->masks, "folder of label images named like the frames");
+  add_topic_options(*command, options->topics);
   command->callback([options] { print_info(*options); });
 }
 

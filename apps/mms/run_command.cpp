@@ -8,6 +8,7 @@
 #include "run_options.hpp"
 #include "run_outputs.hpp"
 #include "slam_run.hpp"
+#include "topic_options.hpp"
 
 namespace mms {
 namespace {
@@ -44,7 +45,8 @@ void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Localise a recording and map its surroundings");
   command
       ->add_option("DATA", options->data,
-                   "recording, or a simulation: sim:warehouse_loop[?seed=N&frames=N]")
+                   "recording (folder or .bag), or a simulation: "
+                   "sim:warehouse_loop[?seed=N&frames=N]")
       ->capture_default_str();
   command->add_option("-c,--config", options->config, "settings (mms config dump prints them all)");
   command->add_option("-o,--output", options->output,
@@ -75,6 +77,7 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--keep-journal", options->keep_journal,
                     "leave journal.bin, from which mms convert recovers a run that was killed, in "
                     "the folder of a run that came to its end");
+  add_topic_options(*command, options->topics);
   const auto view = std::make_shared<std::string>();
   const auto place = std::make_shared<ViewOptions>();
   command

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "mms/dataset/bag_topics.hpp"
 #include "view_options.hpp"
 
 namespace mms {
@@ -17,6 +18,7 @@ struct RunOptions {
   std::filesystem::path output;  ///< empty: results/<time>_<name>
   std::string segmenter;         ///< "network", "masks" or "none"
   std::filesystem::path masks;   ///< empty: the recording's own
+  BagTopicNames topics;          ///< of a bag
   std::string fusion;            ///< empty: as the config says
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::size_t start = 0;

@@ -40,8 +40,9 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source)
 }
 
 std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
-  auto source = open_dataset(options.data,
-                             {.masks = options.masks, .load_masks = options.segmenter != "none"});
+  auto source = open_dataset(options.data, {.masks = options.masks,
+                                            .load_masks = options.segmenter != "none",
+                                            .topics = options.topics});
   check_range(options, *source);
   return source;
 }

@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/bag_source.hpp"
 #include "mms/dataset/folder_rgbd.hpp"
 #include "mms/dataset/kitti_lidar.hpp"
 #include "mms/dataset/simulated_source.hpp"
 #include "mms/dataset/tum_rgbd.hpp"
 #include "mms/io/files.hpp"
+#include "mms/ros/bag_reader.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -42,6 +44,14 @@ std::string found_text(const Names& names) {
   return text;
 }
 
+/// Bags inside are recordings of their own.
+std::string bag_inside(const fs::path& folder, const Names& names) {
+  for (const std::string& name : names) {
+    if (is_bag_name(name)) return (folder / name).string();
+  }
+  return "";
+}
+
 /// A recording one folder further down, which is what archives unpack to; empty for none.
 std::string recording_inside(const fs::path& folder, const Names& names) {
   for (const std::string& name : names) {
@@ -54,7 +64,8 @@ std::string recording_inside(const fs::path& folder, const Names& names) {
 }
 
 [[noreturn]] void fail_unknown(const fs::path& folder, const Names& names) {
-  const std::string inside = recording_inside(folder, names);
+  std::string inside = recording_inside(folder, names);
+  if (inside.empty()) inside = bag_inside(folder, names);
   throw DataError(folder.string(), found_text(names) + ": no recording",
                   !inside.empty() ? "did you mean " + inside + "?"
                                   : "wanted are rgb.txt and depth.txt or associations.txt (TUM "
@@ -65,11 +76,16 @@ std::string recording_inside(const fs::path& folder, const Names& names) {
 }  // namespace
 
 std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOptions& options) {
+  const bool bag = is_bag_name(path) && !fs::is_directory(path);
+  if (!bag && !options.topics.empty()) {
+    throw DataError(path.string(), "is no bag, so it has no topics", "leave --topic-* out");
+  }
   if (is_simulated(path.string())) return open_simulated(path.string(), options);
   std::error_code error;
   if (!fs::exists(path, error)) throw DataError(path.string(), "there is no such recording");
+  if (bag) return open_bag(path, options);
   if (!fs::is_directory(path, error)) {
-    throw DataError(path.string(), "is a file, a recording is a folder");
+    throw DataError(path.string(), "is a file, a recording is a folder or a ROS bag (.bag)");
   }
   const Names names = list_folder(path);
   const Layout* layout = layout_of(names);

@@ -17,6 +17,8 @@ namespace {
 
 static_assert(sizeof(Rgb) == 3, "pixels are handed to OpenCV as they are");
 
+constexpr const char* kDepthWanted = "a 16-bit depth PNG of 1 channel";
+
 /// What OpenCV has to say is said by our own errors.
 void silence_opencv() {
   static const auto previous =
@@ -55,18 +57,23 @@ cv::Mat view(const Image<T>& image, int type) {
 
 /// Decodes an image that must be of one channel and `type`.
 template <class T>
-Image<T> read_plain(const fs::path& path, int type, const std::string& wanted) {
-  const cv::Mat decoded = decode(read_file(path), cv::IMREAD_UNCHANGED, path.string());
+Image<T> decode_plain(std::string_view bytes, int type, const std::string& wanted,
+                      const std::string& where) {
+  const cv::Mat decoded = decode(bytes, cv::IMREAD_UNCHANGED, where);
   if (decoded.type() != type) {
-    throw DataError(path.string(), "has pixels of " + std::to_string(8 * decoded.elemSize1()) +
-                                       " bits and " + std::to_string(decoded.channels()) +
-                                       " channel(s), " + wanted + " is wanted");
+    throw DataError(where, "has pixels of " + std::to_string(8 * decoded.elemSize1()) +
+                               " bits and " + std::to_string(decoded.channels()) + " channel(s), " +
+                               wanted + " is wanted");
   }
   Image<T> image(decoded.cols, decoded.rows);
   for (int y = 0; y < decoded.rows; ++y) {
     std::copy_n(decoded.ptr<T>(y), image.width(), image.row(y));
   }
   return image;
+}
+
+std::string_view text_of(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::vector<std::uint8_t> encode(const char* extension, const cv::Mat& pixels,
@@ -91,15 +98,20 @@ Image<Rgb> read_color(const fs::path& path) {
 }
 
 Image<Rgb> decode_color(std::span<const std::uint8_t> bytes, const std::string& where) {
-  return decode_rgb({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, where);
+  return decode_rgb(text_of(bytes), where);
 }
 
 Image<std::uint16_t> read_depth16(const fs::path& path) {
-  return read_plain<std::uint16_t>(path, CV_16UC1, "a 16-bit depth PNG of 1 channel");
+  return decode_plain<std::uint16_t>(read_file(path), CV_16UC1, kDepthWanted, path.string());
+}
+
+Image<std::uint16_t> decode_depth16(std::span<const std::uint8_t> bytes, const std::string& where) {
+  return decode_plain<std::uint16_t>(text_of(bytes), CV_16UC1, kDepthWanted, where);
 }
 
 Image<std::uint8_t> read_mask(const fs::path& path) {
-  return read_plain<std::uint8_t>(path, CV_8UC1, "an 8-bit label PNG of 1 channel");
+  return decode_plain<std::uint8_t>(read_file(path), CV_8UC1, "an 8-bit label PNG of 1 channel",
+                                    path.string());
 }
 
 void write_png(const fs::path& path, const Image<Rgb>& image) {
@@ -111,7 +123,7 @@ void write_png(const fs::path& path, const Image<std::uint8_t>& image) {
 }
 
 void write_png(const fs::path& path, const Image<std::uint16_t>& image) {
-  write_file(path, encode(".png", view(image, CV_16UC1)));
+  write_file(path, encode_png(image));
 }
 
 std::vector<std::uint8_t> encode_png(const Image<Rgb>& image) {
@@ -120,6 +132,10 @@ std::vector<std::uint8_t> encode_png(const Image<Rgb>& image) {
 
 std::vector<std::uint8_t> encode_png(const Image<std::uint8_t>& image) {
   return encode(".png", view(image, CV_8UC1));
+}
+
+std::vector<std::uint8_t> encode_png(const Image<std::uint16_t>& image) {
+  return encode(".png", view(image, CV_16UC1));
 }
 
 std::vector<std::uint8_t> encode_jpeg(const Image<Rgb>& image, int quality) {

@@ -22,6 +22,9 @@ Image<Rgb> decode_color(std::span<const std::uint8_t> bytes, const std::string& 
 /// @throws FileError, DataError as above, and for 8-bit or coloured images.
 Image<std::uint16_t> read_depth16(const std::filesystem::path& path);
 
+/// The depth image in the bytes of a 16-bit PNG. @throws DataError at `where` as above.
+Image<std::uint16_t> decode_depth16(std::span<const std::uint8_t> bytes, const std::string& where);
+
 /// Reads an 8-bit label PNG with one channel.
 /// @throws FileError, DataError as above, and for 16-bit or coloured images.
 Image<std::uint8_t> read_mask(const std::filesystem::path& path);
@@ -34,6 +37,7 @@ void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& im
 /// The bytes of a PNG file. @throws DataError for an empty image.
 std::vector<std::uint8_t> encode_png(const Image<Rgb>& image);
 std::vector<std::uint8_t> encode_png(const Image<std::uint8_t>& image);
+std::vector<std::uint8_t> encode_png(const Image<std::uint16_t>& image);
 
 /// The bytes of a JPEG file; `quality` in [0, 100]. @throws DataError for an empty image.
 std::vector<std::uint8_t> encode_jpeg(const Image<Rgb>& image, int quality = 85);

@@ -100,7 +100,8 @@ const Arrows& arrows() {
       {"pipeline", {"core", "geometry", "segmentation", "fusion", "localization", "mapping"}},
       {"io", {"core", "geometry"}},
       {"simulation", {"core", "geometry"}},
-      {"dataset", {"core", "geometry", "io", "simulation"}},
+      {"ros", {"core", "geometry", "io"}},
+      {"dataset", {"core", "geometry", "io", "ros", "simulation"}},
       {"evaluation", {"core", "geometry", "io"}},
       {"server", {"core", "geometry", "io"}},
   };

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "mms/ros/messages.hpp"
+
+namespace mms::msg {
+
+/// What ROS calls a type of messages, and tells it by.
+struct MessageType {
+  std::string name;        ///< "sensor_msgs/Image"
+  std::string md5;         ///< of its definition, as ROS computes it
+  std::string definition;  ///< its fields and those of the types it is made of
+};
+
+/// Name of a message's type in ROS.
+template <class Message>
+inline constexpr std::string_view kName = Message::kTypeName;
+template <>
+inline constexpr std::string_view kName<Image> = "sensor_msgs/Image";
+template <>
+inline constexpr std::string_view kName<CompressedImage> = "sensor_msgs/CompressedImage";
+template <>
+inline constexpr std::string_view kName<CameraInfo> = "sensor_msgs/CameraInfo";
+template <>
+inline constexpr std::string_view kName<PointCloud2> = "sensor_msgs/PointCloud2";
+template <>
+inline constexpr std::string_view kName<PoseStamped> = "geometry_msgs/PoseStamped";
+template <>
+inline constexpr std::string_view kName<TransformStamped> = "geometry_msgs/TransformStamped";
+template <>
+inline constexpr std::string_view kName<Transforms> = "tf2_msgs/TFMessage";
+template <>
+inline constexpr std::string_view kName<Odometry> = "nav_msgs/Odometry";
+
+/// The type of that name, one of those above. @throws std::out_of_range for any other.
+const MessageType& message_type(std::string_view name);
+
+}  // namespace mms::msg

@@ -1,0 +1,275 @@
+#include "mms/dataset/bag_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/frame_recorder.hpp"
+#include "mms/dataset/open_dataset.hpp"
+#include "mms/ros/bag_writer.hpp"
+#include "mms/ros/camera_messages.hpp"
+#include "mms/ros/cloud_messages.hpp"
+#include "mms/ros/image_messages.hpp"
+#include "tests/dataset/recording.hpp"
+#include "tests/dataset/same_frame.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+
+constexpr Duration kMillisecond = std::chrono::milliseconds(1);
+const CameraIntrinsics kCamera{10, 10, 4, 3, kWidth, kHeight, {}};
+
+Timestamp at(int milliseconds) {
+  return Timestamp(5'000'000'000) + kMillisecond * milliseconds;
+}
+
+class BagSources : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!MMS_WITH_ROSBAG) GTEST_SKIP() << "librosbag-storage-dev is not installed";
+    bag_ = std::make_unique<BagWriter>(path_);
+  }
+
+  msg::Header header(int milliseconds, const char* frame_id = "camera") const {
+    return {0, at(milliseconds), frame_id};
+  }
+  template <class Message>
+  void write(const std::string& topic, const Message& message) {
+    bag_->write(topic, message.header.stamp + Duration(7), message);
+  }
+  void color(int milliseconds, std::uint8_t red = 50) {
+    write("/rgb/image",
+          image_message(header(milliseconds), Image<Rgb>(kWidth, kHeight, {red, 0, 0})));
+  }
+  void depth(int milliseconds, float metres = 1.5F) {
+    write("/depth/image",
+          image_message(header(milliseconds), Image<float>(kWidth, kHeight, metres)));
+  }
+  void camera_info() { write("/rgb/camera_info", camera_info_message(header(0), kCamera)); }
+
+  void finish() {
+    bag_->finish();
+    bag_.reset();
+  }
+  Playback play(const SourceOptions& options = {}) {
+    return Playback(open_dataset(path_, options));
+  }
+  std::string fault(const SourceOptions& options = {}) {
+    return message_of<DataError>([&] { open_dataset(path_, options); });
+  }
+
+  TempFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "a.bag";
+  std::unique_ptr<BagWriter> bag_;
+};
+
+TEST_F(BagSources, MatchesImagesByTheirHeaders) {
+  camera_info();
+  for (const int t : {0, 100, 200, 300}) color(t, static_cast<std::uint8_t>(t / 10));
+  for (const int t : {12, 95, 190, 340}) depth(t, 1.0F + static_cast<float>(t) / 1000.0F);
+  finish();
+  const Playback played = play();
+  ASSERT_EQ(played.frames.size(), 3U);
+  EXPECT_EQ(played.names(), "5.000000000 5.100000000 5.200000000");
+  EXPECT_EQ(played.frames[1].color(0, 0), (Rgb{10, 0, 0}));
+  EXPECT_FLOAT_EQ(played.frames[1].depth(0, 0), 1.095F);
+  EXPECT_EQ(played.frames[1].depth_offset, -5 * kMillisecond);
+  EXPECT_EQ(*played.frames[1].calibration->camera, kCamera);
+  EXPECT_TRUE(any_has(played.source->describe(), "3 matched within 0.02 s, 1 colour images unma"));
+  EXPECT_TRUE(any_has(played.source->describe(), "topic: /rgb/image, sensor_msgs/Image, 4 mess"));
+  EXPECT_TRUE(any_has(played.source->describe(), "depth topic: /depth/image"));
+}
+
+TEST_F(BagSources, SkipGoesByTheIndex) {
+  camera_info();
+  for (int i = 0; i < 10; ++i) color(100 * i, static_cast<std::uint8_t>(i));
+  for (int i = 0; i < 10; ++i) depth(100 * i);
+  finish();
+  const auto source = open_dataset(path_);
+  source->skip(7);
+  EXPECT_EQ(source->next()->color(0, 0).r, 7);
+}
+
+TEST_F(BagSources, WithoutStampsTheTimeOfTheRecordingCounts) {
+  camera_info();
+  msg::Header none;
+  bag_->write("/rgb/image", at(100), image_message(none, Image<Rgb>(kWidth, kHeight)));
+  bag_->write("/depth/image", at(103), image_message(none, Image<float>(kWidth, kHeight)));
+  finish();
+  EXPECT_EQ(play().names(), "5.100000000");
+}
+
+TEST_F(BagSources, DamagedFramesAreSkippedAndNamed) {
+  camera_info();
+  for (const int t : {0, 100, 200}) depth(t);
+  color(0);
+  write("/rgb/image", image_message(header(100), Image<Rgb>(4, 3)));
+  msg::Image torn = image_message(header(200), Image<Rgb>(kWidth, kHeight));
+  torn.data.resize(5);
+  write("/rgb/image", torn);
+  finish();
+  const Playback played = play();
+  EXPECT_EQ(played.frames.size(), 1U);
+  ASSERT_EQ(played.warnings.size(), 2U);
+  expect_in(
+      "frame 5.100000000 skipped: a.bag: /rgb/image message 1: is 4x3 pixels, its camera_info",
+      played.warnings[0]);
+  expect_in("/rgb/image message 2: has 5 bytes", played.warnings[1]);
+}
+
+TEST_F(BagSources, CompressedImages) {
+  camera_info();
+  const Image<std::uint16_t> raw(kWidth, kHeight, 1250);
+  write("/rgb/image/compressed",
+        compressed_message(header(0), Image<Rgb>(kWidth, kHeight, {90, 90, 90}), 95));
+  write("/depth/image/compressedDepth", compressed_message(header(0), raw));
+  finish();
+  const Playback played = play();
+  ASSERT_EQ(played.frames.size(), 1U);
+  EXPECT_NEAR(played.frames[0].color(3, 3).g, 90, 3);
+  EXPECT_EQ(played.frames[0].depth(3, 3), 1.25F);
+}
+
+TEST_F(BagSources, MasksAndTruth) {
+  camera_info();
+  color(0);
+  depth(0);
+  write("/rgb/mask", image_message(header(0), Image<std::uint8_t>(kWidth, kHeight, 2)));
+  msg::PoseStamped pose{header(0, "world"), {}};
+  pose.pose.position = {1, 2, 3};
+  write("/ground_truth", pose);
+  finish();
+  const Playback played = play();
+  EXPECT_TRUE(played.source->has_masks());
+  EXPECT_EQ(played.frames[0].mask(0, 0), 2);
+  ASSERT_EQ(played.source->ground_truth().size(), 1U);
+  EXPECT_EQ(played.source->ground_truth()[0].T_world_sensor.translation().z(), 3.0);
+  EXPECT_FALSE(play({.load_masks = false}).source->has_masks());
+}
+
+TEST_F(BagSources, TruthOfTransforms) {
+  camera_info();
+  color(0);
+  depth(0);
+  for (const int t : {0, 10}) {
+    msg::TransformStamped moving{header(t, "/world"), "/kinect", {}};
+    moving.transform.position = {1.0 + t, 0, 0};
+    msg::TransformStamped fixed{header(t, "kinect"), "camera", {}};
+    fixed.transform.position = {0.5, 0, 0};
+    bag_->write("/tf", at(t), msg::Transforms{{moving, fixed}});
+  }
+  finish();
+  EXPECT_TRUE(play().source->ground_truth().empty());
+  const Playback played = play({.topics = {.truth = "/tf"}});
+  ASSERT_EQ(played.source->ground_truth().size(), 2U);
+  EXPECT_NEAR(played.source->ground_truth()[1].T_world_sensor.translation().x(), 11.5, 1e-12);
+}
+
+TEST_F(BagSources, CloudsWithACamera) {
+  camera_info();
+  LidarScan scan;
+  scan.points = {{1, 2, 3}, {4, 5, 6}};
+  scan.intensity = {1, 2};
+  scan.time_offset = {0, 0.1F};
+  for (const int t : {0, 100}) write("/points", cloud_message(header(t, "lidar"), scan));
+  write("/points", cloud_message(header(200, "lidar"), LidarScan()));
+  color(30);
+  msg::TransformStamped fixed{header(0, "camera"), "lidar", {}};
+  fixed.transform.position = {0.25, 0, 0};
+  bag_->write("/tf_static", at(0), msg::Transforms{{fixed}});
+  finish();
+  const Playback played = play();
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[0].scan.points, scan.points);
+  EXPECT_EQ(played.frames[0].scan.time_offset, scan.time_offset);
+  EXPECT_FALSE(played.frames[0].color.empty());
+  EXPECT_TRUE(played.frames[1].color.empty());
+  EXPECT_EQ(played.frames[0].calibration->T_camera_lidar.translation().x(), 0.25);
+  ASSERT_EQ(played.warnings.size(), 1U);
+  expect_in("/points message 2: has no points", played.warnings[0]);
+}
+
+TEST_F(BagSources, ACalibrationBesideTheBagTakesThePlaceOfCameraInfo) {
+  color(0);
+  depth(0);
+  finish();
+  expect_in(
+      "has no sensor_msgs/CameraInfo for /rgb/image; it has /depth/image sensor_msgs/Image (1)",
+      fault());
+  expect_in("put the camera into a.calibration.yaml", fault());
+  folder_.write("a.calibration.yaml", kCalibration);
+  EXPECT_EQ(play().frames.size(), 1U);
+}
+
+TEST_F(BagSources, WhatIsMissingIsOneErrorWithTheTopics) {
+  color(0);
+  finish();
+  expect_in("has neither colour images with depth nor point clouds; it has /rgb/image", fault());
+  bag_ = std::make_unique<BagWriter>(path_);
+  finish();
+  expect_in("a.bag: is empty: it has no topics", fault());
+  bag_ = std::make_unique<BagWriter>(path_);
+  camera_info();
+  color(0);
+  depth(500);
+  finish();
+  expect_in("no two have stamps within 0.02 s of each other (they begin at 5.000000000 and 5.5",
+            fault());
+  expect_in("has a mask for none of the frames", [&] {
+    bag_ = std::make_unique<BagWriter>(path_);
+    camera_info();
+    color(0);
+    depth(0);
+    finish();
+    return fault({.masks = folder_.path()});
+  }());
+}
+
+TEST_F(BagSources, TopicsAreOnlyOfBags) {
+  finish();
+  write_tum(folder_, 1);
+  expect_in("is no bag, so it has no topics", message_of<DataError>([&] {
+              open_dataset(folder_.path(), {.topics = {.color = "/a"}});
+            }));
+}
+
+void expect_same_frames(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const Playback first(open_dataset(a));
+  const Playback second(open_dataset(b));
+  ASSERT_EQ(first.frames.size(), second.frames.size());
+  ASSERT_FALSE(first.frames.empty());
+  for (std::size_t i = 0; i < first.frames.size(); ++i) {
+    Frame frame = second.frames[i];
+    frame.name = first.frames[i].name;
+    auto calibration = std::make_shared<Calibration>(*frame.calibration);
+    calibration->depth_scale = first.frames[i].calibration->depth_scale;
+    EXPECT_TRUE(calibration->T_camera_lidar.isometry().isApprox(
+        first.frames[i].calibration->T_camera_lidar.isometry(), 1e-12));  // bags have quaternions
+    calibration->T_camera_lidar = first.frames[i].calibration->T_camera_lidar;
+    frame.calibration = calibration;
+    expect_same_frame(first.frames[i], frame);
+  }
+  EXPECT_EQ(first.source->ground_truth().size(), second.source->ground_truth().size());
+}
+
+void record(const std::filesystem::path& from, FrameRecorder& recorder) {
+  const auto source = open_dataset(from);
+  while (const auto frame = source->next()) recorder.add(*frame);
+  recorder.finish(source->ground_truth());
+}
+
+TEST_F(BagSources, RecordingsTurnIntoBagsAndBackWithoutLoss) {
+  for (const std::string sensor : {"d435", "l515", "kinect", "lidar16"}) {
+    const std::string scene = "sim:crowd?frames=3&width=64&sensor=" + sensor;
+    const auto bag = folder_.path() / (sensor + ".bag");
+    const auto back = folder_.path() / sensor;
+    record(scene, *record_bag(bag, false));
+    expect_same_frames(scene, bag);
+    record(bag, *record_folder(back));
+    expect_same_frames(scene, back);
+  }
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,141 @@
+#include "mms/dataset/bag_topics.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+
+/// Topics whose image encodings stand behind their names: "/camera/depth=16UC1".
+struct Topics {
+  Topics& add(const std::string& name, const std::string& type, const std::string& encoding = "",
+              std::size_t count = 10) {
+    list.push_back({name, type, count});
+    encodings.push_back(encoding);
+    return *this;
+  }
+  Topics& image(const std::string& name, const std::string& encoding) {
+    return add(name, "sensor_msgs/Image", encoding);
+  }
+  Topics& camera_info(const std::string& name) { return add(name, "sensor_msgs/CameraInfo"); }
+
+  BagTopicNames choose(const BagTopicNames& given = {}) const {
+    const auto encoding_of = [this](const BagTopic& topic) {
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        if (list[i].name == topic.name) return encodings[i];
+      }
+      return std::string();
+    };
+    return choose_topics(list, given, encoding_of, "x.bag");
+  }
+  std::string fault(const BagTopicNames& given = {}) const {
+    return message_of<DataError>([&] { choose(given); });
+  }
+
+  std::vector<BagTopic> list;
+  std::vector<std::string> encodings;
+};
+
+TEST(BagTopics, OfARealSense) {
+  const BagTopicNames chosen = Topics()
+                                   .image("/camera/infra1/image_rect_raw", "mono8")
+                                   .image("/camera/depth/image_rect_raw", "16UC1")
+                                   .camera_info("/camera/aligned_depth_to_color/camera_info")
+                                   .image("/camera/aligned_depth_to_color/image_raw", "16UC1")
+                                   .camera_info("/camera/color/camera_info")
+                                   .image("/camera/color/image_raw", "rgb8")
+                                   .add("/camera/depth/color/points", "sensor_msgs/PointCloud2")
+                                   .choose();
+  EXPECT_EQ(chosen.color, "/camera/color/image_raw");
+  EXPECT_EQ(chosen.depth, "/camera/aligned_depth_to_color/image_raw");
+  EXPECT_EQ(chosen.camera_info, "/camera/color/camera_info");
+  EXPECT_EQ(chosen.cloud, "");
+}
+
+TEST(BagTopics, OfTheTumBenchmark) {
+  const BagTopicNames chosen = Topics()
+                                   .camera_info("/camera/depth/camera_info")
+                                   .image("/camera/depth/image", "32FC1")
+                                   .camera_info("/camera/rgb/camera_info")
+                                   .image("/camera/rgb/image_color", "rgb8")
+                                   .add("/tf", "tf/tfMessage")
+                                   .add("/cortex_marker_array", "visualization_msgs/MarkerArray")
+                                   .choose();
+  EXPECT_EQ(chosen.color, "/camera/rgb/image_color");
+  EXPECT_EQ(chosen.depth, "/camera/depth/image");
+  EXPECT_EQ(chosen.camera_info, "/camera/rgb/camera_info");
+  EXPECT_EQ(chosen.truth, "");
+}
+
+TEST(BagTopics, OfCompressedImages) {
+  const BagTopicNames chosen =
+      Topics()
+          .add("/cam/depth_registered/image_raw/compressedDepth", "sensor_msgs/CompressedImage")
+          .add("/cam/rgb/image_raw/compressed", "sensor_msgs/CompressedImage")
+          .camera_info("/cam/depth_registered/camera_info")
+          .camera_info("/cam/rgb/image_raw/camera_info")
+          .camera_info("/cam/rgb/camera_info")
+          .choose();
+  EXPECT_EQ(chosen.color, "/cam/rgb/image_raw/compressed");
+  EXPECT_EQ(chosen.depth, "/cam/depth_registered/image_raw/compressedDepth");
+}
+
+TEST(BagTopics, OfLidarsWithACameraAndTruth) {
+  const BagTopicNames chosen = Topics()
+                                   .add("/odom", "nav_msgs/Odometry")
+                                   .add("/vicon/robot/pose", "geometry_msgs/PoseStamped")
+                                   .image("/left/image_mono", "mono8")
+                                   .add("/os_cloud_node/points", "sensor_msgs/PointCloud2", "", 100)
+                                   .add("/obstacles", "sensor_msgs/PointCloud2", "", 30)
+                                   .choose();
+  EXPECT_EQ(chosen.cloud, "/os_cloud_node/points");
+  EXPECT_EQ(chosen.color, "/left/image_mono");
+  EXPECT_EQ(chosen.truth, "/vicon/robot/pose");
+  EXPECT_EQ(chosen.depth, "");
+  EXPECT_EQ(chosen.camera_info, "");
+}
+
+TEST(BagTopics, MasksAreNoColourImages) {
+  const BagTopicNames chosen =
+      Topics().image("/mask", "mono8").image("/image", "mono8").image("/depth", "16UC1").choose();
+  EXPECT_EQ(chosen.color, "/image");
+  EXPECT_EQ(chosen.mask, "/mask");
+}
+
+TEST(BagTopics, GivenOnesComeFirst) {
+  const Topics topics = Topics()
+                            .image("/a/rgb", "rgb8")
+                            .image("/b/grey", "mono8")
+                            .image("/a/depth", "16UC1")
+                            .image("/b/range", "32FC1")
+                            .add("/odom", "nav_msgs/Odometry")
+                            .add("/points", "sensor_msgs/PointCloud2");
+  const BagTopicNames chosen =
+      topics.choose({.color = "/b/grey", .depth = "/b/range", .truth = "/odom"});
+  EXPECT_EQ(chosen.color, "/b/grey");
+  EXPECT_EQ(chosen.depth, "/b/range");
+  EXPECT_EQ(chosen.truth, "/odom");
+  EXPECT_EQ(topics.choose({.cloud = "/points"}).depth, "");
+}
+
+TEST(BagTopics, FaultsListTheTopics) {
+  const Topics topics = Topics().image("/rgb", "rgb8").add("/scan", "sensor_msgs/LaserScan");
+  const std::string missing = topics.fault();
+  expect_in("x.bag: has neither colour images with depth nor point clouds", missing);
+  expect_in("it has /rgb sensor_msgs/Image (10), /scan sensor_msgs/LaserScan (10)", missing);
+  expect_in("--topic-depth is /none, which is not there; it has /rgb",
+            topics.fault({.depth = "/none"}));
+  expect_in(
+      "--topic-depth is /scan, which is sensor_msgs/LaserScan, wanted is sensor_msgs/Image or",
+      topics.fault({.depth = "/scan"}));
+  expect_in("it has no topics", Topics().fault());
+  expect_in("/depth, which has no messages",
+            Topics().add("/depth", "sensor_msgs/Image", "16UC1", 0).fault({.depth = "/depth"}));
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,54 @@
+#include "mms/ros/camera_messages.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+
+const CameraIntrinsics kCamera{500, 510, 320, 240, 640, 480, {0.1, -0.2, 0.01, 0.02, 0.3}};
+
+TEST(CameraMessages, ReadBackTheSame) {
+  EXPECT_EQ(intrinsics_of(camera_info_message({}, kCamera), false, "test"), kCamera);
+}
+
+TEST(CameraMessages, RectifiedImagesHaveTheProjectionAndNoLens) {
+  msg::CameraInfo message = camera_info_message({}, kCamera);
+  message.P[0] = 490;
+  message.P[6] = 241;
+  const CameraIntrinsics camera = intrinsics_of(message, true, "test");
+  EXPECT_EQ(camera.fx, 490);
+  EXPECT_EQ(camera.cy, 241);
+  EXPECT_EQ(camera.distortion, (std::array<double, 5>{}));
+}
+
+TEST(CameraMessages, LensesThatAreNotOursAreAFault) {
+  const auto fault = [](const msg::CameraInfo& message) {
+    return message_of<DataError>([&] { intrinsics_of(message, false, "test"); });
+  };
+  msg::CameraInfo message = camera_info_message({}, kCamera);
+  message.distortion_model = "equidistant";
+  expect_in("has the lens 'equidistant' of 5 coefficients, wanted is plumb_bob", fault(message));
+  message.D = {0, 0, 0, 0};
+  EXPECT_EQ(intrinsics_of(message, false, "test").distortion, (std::array<double, 5>{}));
+  message.distortion_model = "rational_polynomial";
+  message.D = {0.1, 0, 0, 0, 0.2, 0, 0, 0};
+  EXPECT_EQ(intrinsics_of(message, false, "test").distortion[4], 0.2);
+  message.D[5] = 0.5;
+  expect_in("of 8 coefficients", fault(message));
+}
+
+TEST(CameraMessages, CamerasWithoutCalibrationAreAFault) {
+  expect_in("is not calibrated",
+            message_of<DataError>([] { intrinsics_of(msg::CameraInfo(), false, "test"); }));
+  msg::CameraInfo message = camera_info_message({}, kCamera);
+  message.binning_x = 2;
+  expect_in("binning 2x0", message_of<DataError>([&] { intrinsics_of(message, false, "test"); }));
+}
+
+}  // namespace
+}  // namespace mms

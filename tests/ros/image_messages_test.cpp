@@ -1,0 +1,166 @@
+#include "mms/ros/image_messages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "mms/core/error.hpp"
+#include "mms/io/image_io.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+
+/// Two rows of two pixels, each row followed by `padding` bytes.
+msg::Image image_of(const std::string& encoding, std::vector<std::uint8_t> bytes,
+                    std::size_t padding = 0) {
+  msg::Image message;
+  message.encoding = encoding;
+  message.width = 2;
+  message.height = 2;
+  const std::size_t row = bytes.size() / 2;
+  message.step = static_cast<std::uint32_t>(row + padding);
+  message.data.assign(2 * message.step, 0xEE);
+  std::copy_n(bytes.begin(), row, message.data.begin());
+  std::copy_n(bytes.begin() + std::ptrdiff_t(row), row, message.data.begin() + message.step);
+  return message;
+}
+
+struct ColorCase {
+  const char* encoding;
+  std::vector<std::uint8_t> bytes;
+};
+
+TEST(ImageMessages, EveryColourEncodingGivesTheSamePicture) {
+  const ColorCase cases[] = {
+      {"rgb8", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}},
+      {"bgr8", {3, 2, 1, 6, 5, 4, 9, 8, 7, 12, 11, 10}},
+      {"8UC3", {3, 2, 1, 6, 5, 4, 9, 8, 7, 12, 11, 10}},
+      {"rgba8", {1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 10, 11, 12, 0}},
+      {"bgra8", {3, 2, 1, 0, 6, 5, 4, 0, 9, 8, 7, 0, 12, 11, 10, 0}},
+      {"8UC4", {3, 2, 1, 0, 6, 5, 4, 0, 9, 8, 7, 0, 12, 11, 10, 0}},
+  };
+  for (const ColorCase& one : cases) {
+    for (const std::size_t padding : {0U, 5U}) {
+      const Image<Rgb> image = color_of(image_of(one.encoding, one.bytes, padding), "test");
+      EXPECT_EQ(image(0, 0), (Rgb{1, 2, 3})) << one.encoding;
+      EXPECT_EQ(image(1, 0), (Rgb{4, 5, 6})) << one.encoding;
+      EXPECT_EQ(image(1, 1), (Rgb{10, 11, 12})) << one.encoding;
+    }
+  }
+}
+
+TEST(ImageMessages, GreyPictures) {
+  EXPECT_EQ(color_of(image_of("mono8", {1, 2, 3, 4}), "test")(1, 1), (Rgb{4, 4, 4}));
+  EXPECT_EQ(color_of(image_of("8UC1", {1, 2, 3, 4}), "test")(1, 0), (Rgb{2, 2, 2}));
+  EXPECT_EQ(color_of(image_of("mono16", {0, 1, 0, 2, 0, 3, 0, 4}), "test")(0, 1), (Rgb{3, 3, 3}));
+}
+
+TEST(ImageMessages, DepthInMillimetresOfEitherByteOrder) {
+  msg::Image message = image_of("16UC1", {0, 0, 0xE8, 0x03, 0xDC, 0x05, 0xFF, 0xFF}, 2);
+  const Image<float> depth = depth_of(message, "test");
+  EXPECT_EQ(depth(0, 0), 0.0F);
+  EXPECT_EQ(depth(1, 0), 1.0F);
+  EXPECT_EQ(depth(0, 1), 1.5F);
+  EXPECT_EQ(depth(1, 1), 65.535F);
+  message = image_of("mono16", {0, 0, 0x03, 0xE8, 0x05, 0xDC, 0xFF, 0xFF});
+  message.is_bigendian = 1;
+  EXPECT_EQ(depth_of(message, "test").pixels(), depth.pixels());
+}
+
+TEST(ImageMessages, DepthInMetres) {
+  const float metres[4] = {0.0F, 1.25F, NAN, 3.5F};
+  std::vector<std::uint8_t> bytes(sizeof metres);
+  std::memcpy(bytes.data(), metres, sizeof metres);
+  const Image<float> depth = depth_of(image_of("32FC1", bytes), "test");
+  EXPECT_EQ(depth(1, 0), 1.25F);
+  EXPECT_TRUE(std::isnan(depth(0, 1)));
+  EXPECT_EQ(depth(1, 1), 3.5F);
+}
+
+TEST(ImageMessages, CompressedPictures) {
+  const Image<Rgb> image(16, 16, Rgb{200, 100, 50});
+  EXPECT_EQ(color_of(msg::CompressedImage{{}, "png", encode_png(image)}, "test").pixels(),
+            image.pixels());
+  const Image<Rgb> jpeg = color_of(compressed_message({}, image, 95), "test");
+  EXPECT_NEAR(jpeg(8, 8).r, 200, 3);
+  EXPECT_NEAR(jpeg(8, 8).b, 50, 3);
+}
+
+TEST(ImageMessages, CompressedDepth) {
+  Image<std::uint16_t> raw(3, 2, 1500);
+  raw(0, 0) = 0;
+  const msg::CompressedImage behind_header = compressed_message({}, raw);
+  EXPECT_EQ(behind_header.data.size(), 12 + encode_png(raw).size());
+  for (const auto& message :
+       {behind_header, msg::CompressedImage{{}, "16UC1; png", encode_png(raw)}}) {
+    const Image<float> depth = depth_of(message, "test");
+    EXPECT_EQ(depth(0, 0), 0.0F);
+    EXPECT_EQ(depth(2, 1), 1.5F);
+  }
+}
+
+TEST(ImageMessages, CompressedDepthOf32BitsIsInverse) {
+  // As compressed_depth_image_transport makes it of depth up to 10 m, quantised about 1 m.
+  constexpr float kA = 1.0F * (1.0F + 1.0F);
+  constexpr float kB = 1.0F - kA / 10.0F;
+  Image<std::uint16_t> raw(2, 1);
+  raw(1, 0) = static_cast<std::uint16_t>(kA / 0.5F + kB);
+  msg::CompressedImage message{{}, "32FC1; compressedDepth png", std::vector<std::uint8_t>(12)};
+  const float parameters[2] = {kA, kB};
+  std::memcpy(message.data.data() + 4, parameters, sizeof parameters);
+  const auto png = encode_png(raw);
+  message.data.insert(message.data.end(), png.begin(), png.end());
+  const Image<float> depth = depth_of(message, "test");
+  EXPECT_EQ(depth(0, 0), 0.0F);
+  EXPECT_FLOAT_EQ(depth(1, 0), kA / (static_cast<float>(raw(1, 0)) - kB));
+}
+
+TEST(ImageMessages, SaysWhatIsWrong) {
+  const auto fault = [](msg::Image message, bool depth = false) {
+    return message_of<DataError>([&] {
+      if (depth) {
+        depth_of(message, "topic message 3");
+      } else {
+        color_of(message, "topic message 3");
+      }
+    });
+  };
+  msg::Image good = image_of("rgb8", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+  expect_in("topic message 3: has the encoding 'yuv422', wanted is rgb8", fault([&] {
+              msg::Image m = good;
+              m.encoding = "yuv422";
+              return m;
+            }()));
+  expect_in("has the encoding 'rgb8', wanted is 16UC1", fault(good, true));
+  msg::Image few = good;
+  few.data.pop_back();
+  expect_in("has 11 bytes in rows of 6, but 2x2 pixels of rgb8 take 12", fault(few));
+  msg::Image narrow = good;
+  narrow.step = 5;
+  expect_in("in rows of 5", fault(narrow));
+  msg::Image none = good;
+  none.width = 0;
+  expect_in("is 0x2 pixels", fault(none));
+  msg::Image huge = good;
+  huge.width = huge.height = 0xFFFFFFFF;
+  expect_in("allowed is 1x1 to 16384x16384", fault(huge));
+  expect_in("not RVL", message_of<DataError>([] {
+              depth_of(msg::CompressedImage{{}, "16UC1; compressedDepth rvl", {1, 2, 3}}, "test");
+            }));
+}
+
+TEST(ImageMessages, MessagesReadBackTheSame) {
+  const Image<Rgb> color(3, 2, Rgb{1, 2, 3});
+  EXPECT_EQ(color_of(image_message({}, color), "test").pixels(), color.pixels());
+  const Image<float> depth(3, 2, 1.25F);
+  EXPECT_EQ(depth_of(image_message({}, depth), "test").pixels(), depth.pixels());
+  const Image<std::uint8_t> mask(3, 2, 2);
+  EXPECT_EQ(mask_of(image_message({}, mask), "test").pixels(), mask.pixels());
+}
+
+}  // namespace
+}  // namespace mms
