@@ -1,0 +1,176 @@
+#include "frame_assembler.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "mms/core/error.hpp"
+
+namespace mms {
+namespace {
+
+constexpr Duration kReach = std::chrono::milliseconds(20);
+constexpr Duration kCloudReach = std::chrono::milliseconds(50);
+constexpr Duration kCertain = std::chrono::milliseconds(5);  // no image that comes later is nearer
+constexpr std::size_t kWaiting = 30;                         // of a kind, at most
+
+Duration distance(Timestamp a, Timestamp b) {
+  return a < b ? b - a : a - b;
+}
+
+template <class T>
+void check_size(const Image<T>& image, const Calibration& calibration, const char* what) {
+  const CameraIntrinsics& camera = *calibration.camera;
+  if (image.width() == camera.width && image.height() == camera.height) return;
+  throw DataError(what,
+                  "is " + std::to_string(image.width()) + "x" + std::to_string(image.height()) +
+                      " pixels, the camera_info says " + std::to_string(camera.width) + "x" +
+                      std::to_string(camera.height),
+                  "depth has to be registered to the colour image");
+}
+
+std::string counted(const char* what, std::size_t arrived, double seconds) {
+  if (arrived == 0) return std::string(what) + ": none arrive";
+  char rate[32];
+  std::snprintf(rate, sizeof rate, "%.1f", static_cast<double>(arrived) / seconds);
+  return std::string(what) + ": " + rate + " a second";
+}
+
+}  // namespace
+
+template <class T>
+void FrameAssembler::Stream<T>::add(Timestamp stamp, T data) {
+  ++arrived;
+  if (!waiting.empty() && stamp <= waiting.back().stamp) return;
+  waiting.push_back({stamp, std::move(data)});
+  if (waiting.size() > kWaiting) waiting.pop_front();
+}
+
+void FrameAssembler::set_camera(const CameraIntrinsics& camera) {
+  if (calibration_.camera && *calibration_.camera == camera) return;
+  calibration_.camera = camera;
+  shared_.reset();
+}
+
+void FrameAssembler::set_extrinsics(const Transform<Camera, Lidar>& T_camera_lidar) {
+  calibration_.T_camera_lidar = T_camera_lidar;
+  shared_.reset();
+}
+
+void FrameAssembler::add_color(Timestamp stamp, Image<Rgb> color) {
+  color_.add(stamp, std::move(color));
+}
+void FrameAssembler::add_depth(Timestamp stamp, Image<float> depth) {
+  depth_.add(stamp, std::move(depth));
+}
+void FrameAssembler::add_cloud(Timestamp stamp, LidarScan scan) {
+  cloud_.add(stamp, std::move(scan));
+}
+
+/// Whether the partner nearest to `stamp` is there, as well as none can come that is nearer.
+template <class T>
+bool FrameAssembler::is_decided(Timestamp stamp, const Stream<T>& partners, Duration reach) const {
+  for (const auto& partner : partners.waiting) {
+    if (distance(partner.stamp, stamp) <= kCertain || partner.stamp > stamp + reach) return true;
+    if (partner.stamp >= stamp) return true;
+  }
+  return false;
+}
+
+template <class T>
+std::optional<FrameAssembler::Stamped<T>> FrameAssembler::take_nearest(Timestamp stamp,
+                                                                       Stream<T>& partners,
+                                                                       Duration reach) {
+  auto& waiting = partners.waiting;
+  const auto nearest = std::min_element(waiting.begin(), waiting.end(), [&](auto& a, auto& b) {
+    return distance(a.stamp, stamp) < distance(b.stamp, stamp);
+  });
+  if (nearest == waiting.end()) return std::nullopt;
+  if (distance(nearest->stamp, stamp) > reach) {
+    nearest_miss_ = distance(nearest->stamp, stamp);
+    return std::nullopt;
+  }
+  std::optional<Stamped<T>> taken = std::move(*nearest);
+  waiting.erase(waiting.begin(), nearest + 1);
+  return taken;
+}
+
+Frame FrameAssembler::frame_at(Timestamp stamp) {
+  if (!shared_) shared_ = std::make_shared<const Calibration>(calibration_);
+  Frame frame;
+  frame.index = count_++;
+  frame.stamp = stamp;
+  frame.name = stamp.to_string();
+  frame.calibration = shared_;
+  ++made_;
+  return frame;
+}
+
+std::optional<Frame> FrameAssembler::next_depth_frame() {
+  while (calibration_.camera && !color_.waiting.empty()) {
+    const Timestamp stamp = color_.waiting.front().stamp;
+    if (!is_decided(stamp, depth_, kReach)) return std::nullopt;
+    auto depth = take_nearest(stamp, depth_, kReach);
+    Image<Rgb> color = std::move(color_.waiting.front().data);
+    color_.waiting.pop_front();
+    if (!depth) {
+      ++unmatched_;
+      continue;
+    }
+    check_size(color, calibration_, "colour image");
+    check_size(depth->data, calibration_, "depth image");
+    Frame frame = frame_at(stamp);
+    frame.color = std::move(color);
+    frame.depth = std::move(depth->data);
+    frame.depth_offset = depth->stamp - stamp;
+    return frame;
+  }
+  return std::nullopt;
+}
+
+std::optional<Frame> FrameAssembler::next_cloud_frame() {
+  const bool camera = sensor_ == Sensor::kCloudWithCamera;
+  if (cloud_.waiting.empty() || (camera && !calibration_.camera)) return std::nullopt;
+  const Timestamp stamp = cloud_.waiting.front().stamp;
+  const bool waits = camera && cloud_.waiting.size() < 3 && !is_decided(stamp, color_, kCloudReach);
+  if (waits) return std::nullopt;
+  Frame frame = frame_at(stamp);
+  frame.scan = std::move(cloud_.waiting.front().data);
+  cloud_.waiting.pop_front();
+  if (!camera) return frame;
+  if (auto color = take_nearest(stamp, color_, kCloudReach)) {
+    check_size(color->data, calibration_, "colour image");
+    frame.color = std::move(color->data);
+  } else {
+    ++unmatched_;
+  }
+  return frame;
+}
+
+std::optional<Frame> FrameAssembler::next() {
+  return sensor_ == Sensor::kDepth ? next_depth_frame() : next_cloud_frame();
+}
+
+std::string FrameAssembler::report(double seconds) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  const bool both_arrive = color_.arrived > 0 && depth_.arrived > 0;
+  if (sensor_ != Sensor::kCloud) {
+    add(counted("colour images", color_.arrived, seconds));
+    if (!calibration_.camera) add("camera_info: none arrived");
+  }
+  if (sensor_ == Sensor::kDepth) {
+    add(counted("depth images", depth_.arrived, seconds));
+    if (made_ == 0 && both_arrive && calibration_.camera) {
+      char apart[64];
+      std::snprintf(apart, sizeof apart, "no two within 0.02 s, the last ones were %.3f s apart",
+                    to_seconds(nearest_miss_));
+      add(apart);
+    }
+  } else {
+    add(counted("clouds", cloud_.arrived, seconds));
+  }
+  color_.arrived = depth_.arrived = cloud_.arrived = made_ = 0;
+  return text;
+}
+
+}  // namespace mms

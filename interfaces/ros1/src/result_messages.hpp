@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/mapping/map_cloud.hpp"
+#include "mms/pipeline/frame_result.hpp"
+#include "mms/ros/display_messages.hpp"
+
+namespace mms {
+
+/// Pose with its covariance by the odometry's information; velocities are not given.
+msg::Odometry odometry_message(const msg::Header& header, const std::string& child_frame,
+                               const OdometryEstimate& odometry);
+
+/// Points of one label, in the sensor's frame, with colours where there are some.
+msg::PointCloud2 cloud_message(const msg::Header& header, const LabeledCloud& cloud,
+                               PointLabel label);
+
+/// The static map, with colours.
+msg::PointCloud2 cloud_message(const msg::Header& header, const MapCloud& map);
+
+/// 255 where P_D or a mask is, on the cloud's grid; empty for LiDARs.
+msg::Image mask_message(const msg::Header& header, const LabeledCloud& cloud);
+
+msg::Objects objects_message(const msg::Header& header, const std::vector<TrackedObject>& objects);
+
+/// Boxes, red for people and green for vehicles, with id, class and speed over them.
+msg::MarkerArray markers_message(const msg::Header& header,
+                                 const std::vector<TrackedObject>& objects);
+
+}  // namespace mms

@@ -1,0 +1,109 @@
+#include "result_publisher.hpp"
+
+#include "mms/ros/transform_tree.hpp"
+#include "result_messages.hpp"
+#include "ros_traits.hpp"
+
+namespace mms {
+namespace {
+
+constexpr double kPathPeriod = 0.5;  // [s]
+
+/// Turns a camera's axes (x right, y down, z forward) into a robot's (x forward, y left, z up).
+Eigen::Isometry3d body_of_optical() {
+  Eigen::Matrix3d rotation;
+  rotation << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return Eigen::Isometry3d(rotation);
+}
+
+bool is_wanted(const ros::Publisher& publisher) {
+  return publisher.getNumSubscribers() > 0;
+}
+
+bool has_passed(ros::WallTime& last, double period) {
+  const ros::WallTime now = ros::WallTime::now();
+  if ((now - last).toSec() < period) return false;
+  last = now;
+  return true;
+}
+
+}  // namespace
+
+ResultPublisher::ResultPublisher(ros::NodeHandle& node, const NodeSettings& settings)
+    : settings_(settings) {
+  constexpr std::uint32_t kQueue = 100;
+  constexpr std::uint32_t kLarge = 3;  // of clouds and images
+  ros::NodeHandle everywhere;
+  odometry_ = node.advertise<msg::Odometry>("odometry", kQueue);
+  if (settings.publish_tf) {
+    transforms_ = everywhere.advertise<msg::Transforms>("/tf", kQueue);
+    fixed_transforms_ = everywhere.advertise<msg::Transforms>("/tf_static", 1, true);
+  }
+  path_topic_ = node.advertise<msg::Path>("path", 1, true);
+  static_cloud_ = node.advertise<msg::PointCloud2>("static_cloud", kLarge);
+  dynamic_cloud_ = node.advertise<msg::PointCloud2>("dynamic_cloud", kLarge);
+  map_ = node.advertise<msg::PointCloud2>("map", 1, true);
+  markers_ = node.advertise<msg::MarkerArray>("object_markers", kQueue);
+  objects_ = node.advertise<msg::Objects>("objects", kQueue);
+  mask_ = node.advertise<msg::Image>("mask", kLarge);
+}
+
+void ResultPublisher::publish(const Processed& processed, const SlamSystem& system,
+                              const std::string& sensor_frame) {
+  const FrameResult& result = processed.result;
+  const auto index = static_cast<std::uint32_t>(processed.frame.index);
+  const msg::Header world{index, processed.frame.stamp, settings_.world_frame};
+  const msg::Header sensor{index, processed.frame.stamp, sensor_frame};
+  odometry_.publish(odometry_message(world, sensor_frame, result.odometry));
+  if (settings_.publish_tf) publish_transforms(world, sensor_frame, result);
+  publish_path(world, result);
+  publish_clouds(sensor, result.cloud);
+  publish_map(world, system);
+  if (is_wanted(markers_)) markers_.publish(markers_message(world, result.objects));
+  if (is_wanted(objects_)) objects_.publish(objects_message(world, result.objects));
+}
+
+void ResultPublisher::publish_transforms(const msg::Header& world, const std::string& sensor_frame,
+                                         const FrameResult& result) {
+  if (!fixed_sent_) {
+    const bool optical = settings_.sensor == FrameAssembler::Sensor::kDepth;
+    const Eigen::Isometry3d T_map_world =
+        optical ? body_of_optical() : Eigen::Isometry3d::Identity();
+    msg::Header map = world;
+    map.frame_id = settings_.map_frame;
+    fixed_transforms_.publish(
+        msg::Transforms{{{map, settings_.world_frame, pose_message(T_map_world)}}});
+    fixed_sent_ = true;
+  }
+  transforms_.publish(msg::Transforms{
+      {{world, sensor_frame, pose_message(result.odometry.T_world_sensor.isometry())}}});
+}
+
+void ResultPublisher::publish_path(const msg::Header& world, const FrameResult& result) {
+  path_.header = world;
+  path_.poses.push_back({world, pose_message(result.odometry.T_world_sensor.isometry())});
+  if (is_wanted(path_topic_) && has_passed(last_path_, kPathPeriod)) path_topic_.publish(path_);
+}
+
+void ResultPublisher::publish_clouds(const msg::Header& sensor, const LabeledCloud& cloud) {
+  if (is_wanted(static_cloud_)) {
+    static_cloud_.publish(cloud_message(sensor, cloud, PointLabel::kStatic));
+  }
+  if (is_wanted(dynamic_cloud_)) {
+    dynamic_cloud_.publish(cloud_message(sensor, cloud, PointLabel::kDynamic));
+  }
+  if (is_wanted(mask_) && !cloud.dynamic_pixels.empty()) {
+    mask_.publish(mask_message(sensor, cloud));
+  }
+}
+
+void ResultPublisher::publish_map(const msg::Header& world, const SlamSystem& system) {
+  if (!is_wanted(map_) || !has_passed(last_map_, settings_.map_period)) return;
+  map_.publish(cloud_message(world, system.static_map().cloud()));
+}
+
+void ResultPublisher::reset() {
+  path_ = {};
+}
+
+}  // namespace mms

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+
+#include "mms/pipeline/async_pipeline.hpp"
+#include "mms/ros/display_messages.hpp"
+#include "node_settings.hpp"
+
+namespace mms {
+
+/// Publishes what comes out of the pipeline; of what nobody subscribes to nothing is made.
+class ResultPublisher {
+ public:
+  ResultPublisher(ros::NodeHandle& node, const NodeSettings& settings);
+
+  /// @param sensor_frame  frame_id of the images or clouds
+  void publish(const Processed& processed, const SlamSystem& system,
+               const std::string& sensor_frame);
+
+  /// Forgets the path.
+  void reset();
+
+ private:
+  void publish_transforms(const msg::Header& world, const std::string& sensor_frame,
+                          const FrameResult& result);
+  void publish_path(const msg::Header& world, const FrameResult& result);
+  void publish_map(const msg::Header& world, const SlamSystem& system);
+  void publish_clouds(const msg::Header& sensor, const LabeledCloud& cloud);
+
+  NodeSettings settings_;
+  ros::Publisher odometry_, transforms_, fixed_transforms_, path_topic_, static_cloud_,
+      dynamic_cloud_, map_, markers_, objects_, mask_;
+  msg::Path path_;
+  ros::WallTime last_map_;
+  ros::WallTime last_path_;
+  bool fixed_sent_ = false;
+};
+
+}  // namespace mms

@@ -1,0 +1,66 @@
+#include <ros/ros.h>
+
+#include <exception>
+#include <memory>
+
+#include "apps/mms/network_detector.hpp"
+#include "mms/core/error.hpp"
+#include "mms/ros/image_messages.hpp"
+#include "mms/ros/mask_messages.hpp"
+#include "node_settings.hpp"
+#include "ros_traits.hpp"
+
+namespace mms {
+namespace {
+
+/// Finds people and vehicles in the images of a SLAM node, perhaps on another host, and sends their
+/// masks back under the image's stamp. Only the newest image is worked on.
+class SegmentationNode {
+ public:
+  SegmentationNode()
+      : segmenter_(make_network_segmenter(load_system_config(ros::NodeHandle("~")).segmentation)) {
+    ros::NodeHandle node("~");
+    std::string transport = "tcp";
+    node.getParam("mask_transport", transport);
+    masks_ = node.advertise<msg::Masks>("masks", 100);
+    ros::TransportHints hints;
+    if (transport == "udp") hints.unreliable();
+    using Pointer = boost::shared_ptr<const msg::CompressedImage>;
+    images_ = node.subscribe<msg::CompressedImage>(
+        "image", 1,
+        boost::function<void(const Pointer&)>([this](const Pointer& image) { segment(*image); }),
+        ros::VoidConstPtr(), hints.reliable().tcpNoDelay());
+    ROS_INFO("segmenting images of %s", images_.getTopic().c_str());
+  }
+
+ private:
+  void segment(const msg::CompressedImage& image) {
+    try {
+      Frame frame;
+      frame.stamp = image.header.stamp;
+      frame.color = color_of(image, "image");
+      masks_.publish(masks_message(image.header, segmenter_->segment(frame)));
+    } catch (const Error& error) {
+      ROS_WARN_THROTTLE(5.0, "%s", error.what());
+    }
+  }
+
+  std::unique_ptr<Segmenter> segmenter_;
+  ros::Publisher masks_;
+  ros::Subscriber images_;
+};
+
+}  // namespace
+}  // namespace mms
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "mms_segmentation");
+  try {
+    mms::SegmentationNode node;
+    ros::spin();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,17 @@
+#include <ros/ros.h>
+
+#include <exception>
+
+#include "slam_node.hpp"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "mms_slam");
+  try {
+    mms::SlamNode node(mms::NodeSettings::load(ros::NodeHandle("~")));
+    ros::MultiThreadedSpinner(2).spin();  // a service may wait while messages are taken
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,148 @@
+#!/usr/bin/python3
+"""Plays a bag to mms_slam_node under a ROS master and compares what it publishes with `mms run` on the
+same bag. usage: node_test.py BUILD_FOLDER SOURCE_FOLDER"""
+import os
+import subprocess
+import sys
+import tempfile
+
+from ros_session import (NODE, REMAPPINGS, SKIPPED, Player, Recorder, Session, distance,
+                         import_mms_msgs, position, read_tum, skip_without_ros)
+
+FRAMES = 60
+SCENE = 'sim:warehouse_loop?width=320&frames=%d' % FRAMES
+AHEAD = 3  # frames that may be on their way, so that none is dropped
+
+
+def check(condition, what):
+    if not condition:
+        raise AssertionError(what)
+    print('ok: ' + what)
+
+
+def diagnosis(recorder):
+    for message in reversed(recorder.messages['/diagnostics']):
+        for status in message.status:
+            if status.name.startswith(NODE):
+                return status
+    return None
+
+
+def make_reference(mms, folder):
+    def run(*words):
+        subprocess.check_call([mms] + list(words), cwd=folder, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL)
+    run('convert', SCENE, '-o', 'x.bag')
+    run('run', 'x.bag', '-o', 'reference')
+    return read_tum(os.path.join(folder, 'reference/trajectory.tum'))
+
+
+def subscribe_all(recorder, mms_msgs):
+    from diagnostic_msgs.msg import DiagnosticArray
+    from nav_msgs.msg import Odometry, Path
+    from sensor_msgs.msg import Image, PointCloud2
+    from tf2_msgs.msg import TFMessage
+    from visualization_msgs.msg import MarkerArray
+    recorder.subscribe('/diagnostics', DiagnosticArray)
+    recorder.subscribe('/tf', TFMessage)
+    recorder.subscribe('/tf_static', TFMessage)
+    for topic, message_class in (('odometry', Odometry), ('path', Path), ('map', PointCloud2),
+                                 ('static_cloud', PointCloud2), ('dynamic_cloud', PointCloud2),
+                                 ('object_markers', MarkerArray), ('mask', Image),
+                                 ('objects', mms_msgs.Objects)):
+        recorder.subscribe(NODE + '/' + topic, message_class)
+
+
+def compare_trajectories(recorder, reference):
+    poses = {m.header.stamp.to_nsec(): position(m) for m in recorder.messages[NODE + '/odometry']}
+    check(set(poses) == set(reference), 'every frame of mms run has a pose, and no other')
+    worst = max(distance(poses[stamp], reference[stamp]) for stamp in poses)
+    travelled = max(distance(p, (0, 0, 0)) for p in reference.values())
+    check(travelled > 0.5, 'the sensor moved: %.2f m' % travelled)
+    check(worst < 0.001, 'poses are those of mms run: %.6f mm apart at most' % (1000 * worst))
+
+
+def compare_topics(recorder):
+    for topic in ('path', 'map', 'static_cloud', 'dynamic_cloud', 'object_markers', 'mask',
+                  'objects'):
+        check(recorder.count(NODE + '/' + topic) > 0, 'something came on ' + topic)
+    transform = recorder.latest('/tf').transforms[0]
+    check((transform.header.frame_id, transform.child_frame_id) ==
+          ('mms_world', 'camera_color_optical_frame'), '/tf has the sensor in mms_world')
+    fixed = recorder.latest('/tf_static').transforms[0]
+    check((fixed.header.frame_id, fixed.child_frame_id) == ('map', 'mms_world'),
+          '/tf_static has mms_world in map')
+    last = recorder.latest(NODE + '/odometry')
+    check(distance(position(last), (transform.transform.translation.x,
+                                    transform.transform.translation.y,
+                                    transform.transform.translation.z)) < 1e-9,
+          '/tf and odometry agree')
+    cloud = recorder.latest(NODE + '/static_cloud')
+    check([f.name for f in cloud.fields] == ['x', 'y', 'z', 'rgb'] and
+          len(cloud.data) == cloud.width * cloud.point_step and cloud.width > 1000,
+          'static_cloud has %d points with colours' % cloud.width)
+    objects = [o for m in recorder.messages[NODE + '/objects'] for o in m.objects]
+    check(len(objects) > 0 and all(0 <= o.object_class <= 1 and o.size.z > 0 for o in objects),
+          '%d objects with class and size' % len(objects))
+
+
+def call(service):
+    import rospy
+    from std_srvs.srv import Trigger
+    return rospy.ServiceProxy(NODE + '/' + service, Trigger)()
+
+
+def compare_maps(folder):
+    answer = call('save_map')
+    check(answer.success, 'save_map: ' + answer.message)
+    same = [open(os.path.join(folder, where, 'static_map.ply'), 'rb').read()
+            for where in ('saved', 'reference')]
+    check(same[0] == same[1], 'the map saved is that of mms run, to the bit')
+
+
+def main():
+    build, source = (os.path.abspath(folder) for folder in sys.argv[1:3])
+    skip_without_ros()
+    if not os.path.exists(os.path.join(build, 'mms_slam_node')):
+        print('skipped: mms_slam_node was not built, libroscpp-dev is missing')
+        sys.exit(SKIPPED)
+    with tempfile.TemporaryDirectory() as folder, Session(folder) as session:
+        reference = make_reference(os.path.join(build, 'mms'), folder)
+        mms_msgs = import_mms_msgs(source, os.path.join(folder, 'python'))
+        session.start_master()
+        import rospy
+        rospy.init_node('node_test', disable_signals=True)
+        recorder = Recorder()
+        subscribe_all(recorder, mms_msgs)
+        player = Player(os.path.join(folder, 'x.bag'))
+        session.start('slam', [os.path.join(build, 'mms_slam_node'), '_map_period:=0.1',
+                               '_results:=' + os.path.join(folder, 'saved')] + REMAPPINGS)
+        session.wait('the node', player.connected)
+        session.wait('a diagnosis', lambda: diagnosis(recorder) is not None)
+        missing = diagnosis(recorder)
+        check(missing.level == 1 and 'depth images: none arrive' in missing.message and
+              'camera_info: none arrived' in missing.message, 'says what is missing: ' +
+              missing.message)
+
+        def keep_pace(index, _):
+            session.wait('frame %d' % (index - AHEAD),
+                         lambda: recorder.count(NODE + '/odometry') > index - AHEAD)
+        frames = player.play(keep_pace)
+        session.wait('the last frame', lambda: recorder.count(NODE + '/odometry') >= frames)
+        session.wait('a diagnosis of frames',
+                     lambda: 'localising' in diagnosis(recorder).message, 5)
+        compare_trajectories(recorder, reference)
+        compare_topics(recorder)
+        compare_maps(folder)
+
+        answer = call('reset')
+        check(answer.success, 'reset: ' + answer.message)
+        before = recorder.count(NODE + '/odometry')
+        player.play(lambda *_: None, 1)
+        session.wait('a frame', lambda: recorder.count(NODE + '/odometry') > before)
+        check(distance(position(recorder.latest(NODE + '/odometry')), (0, 0, 0)) < 1e-12,
+              'after a reset the first pose is the origin')
+        rospy.signal_shutdown('done')
+
+
+main()

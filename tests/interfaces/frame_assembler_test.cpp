@@ -1,0 +1,141 @@
+#include "interfaces/ros1/src/frame_assembler.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mms/core/error.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+using Sensor = FrameAssembler::Sensor;
+
+constexpr int kWidth = 4;
+constexpr int kHeight = 3;
+const CameraIntrinsics kCamera{10, 10, 2, 1, kWidth, kHeight, {}};
+
+Timestamp at(int milliseconds) {
+  return Timestamp(1'000'000 * std::int64_t{milliseconds});
+}
+
+/// Adds and takes by milliseconds.
+class Assembly {
+ public:
+  explicit Assembly(Sensor sensor) : assembler(sensor) {
+    if (sensor != Sensor::kCloud) assembler.set_camera(kCamera);
+  }
+
+  void color(int t) { assembler.add_color(at(t), Image<Rgb>(kWidth, kHeight)); }
+  void depth(int t) {
+    assembler.add_depth(at(t), Image<float>(kWidth, kHeight, static_cast<float>(t)));
+  }
+  void cloud(int t) {
+    LidarScan scan;
+    scan.points.emplace_back(1.0F, 2.0F, 3.0F);
+    assembler.add_cloud(at(t), scan);
+  }
+
+  /// "100+5": stamp and depth offset of all frames there are.
+  std::string frames() {
+    std::string text;
+    while (const auto frame = assembler.next()) {
+      const auto ms = [](std::int64_t ns) { return std::to_string(ns / 1'000'000); };
+      text += (text.empty() ? "" : " ") + ms(frame->stamp.nanoseconds());
+      if (frame->has_depth()) text += "+" + ms(frame->depth_offset.count());
+      if (!frame->scan.points.empty()) text += frame->color.empty() ? "alone" : "with image";
+    }
+    return text;
+  }
+
+  FrameAssembler assembler;
+};
+
+TEST(FrameAssembler, PairsImagesInWhateverOrderTheyCome) {
+  Assembly a(Sensor::kDepth);
+  a.color(100);
+  EXPECT_EQ(a.frames(), "");
+  a.depth(100);
+  EXPECT_EQ(a.frames(), "100+0");
+  a.depth(203);
+  a.color(200);
+  EXPECT_EQ(a.frames(), "200+3");
+}
+
+TEST(FrameAssembler, WaitsForTheNearest) {
+  Assembly a(Sensor::kDepth);
+  a.color(100);
+  a.depth(88);
+  EXPECT_EQ(a.frames(), "") << "one that comes later may be nearer";
+  a.depth(107);
+  EXPECT_EQ(a.frames(), "100+7");
+}
+
+TEST(FrameAssembler, ImagesWithoutAPartnerGo) {
+  Assembly a(Sensor::kDepth);
+  a.color(100);
+  a.color(200);
+  a.depth(200);
+  EXPECT_EQ(a.frames(), "200+0");
+  EXPECT_EQ(a.assembler.unmatched(), 1U);
+}
+
+TEST(FrameAssembler, AnImageIsUsedOnce) {
+  Assembly a(Sensor::kDepth);
+  a.depth(100);
+  a.color(98);
+  a.color(102);
+  a.depth(140);
+  EXPECT_EQ(a.frames(), "98+2");
+  EXPECT_EQ(a.assembler.unmatched(), 1U);
+}
+
+TEST(FrameAssembler, StampsThatGoBackAreLeftOut) {
+  Assembly a(Sensor::kDepth);
+  a.color(100);
+  a.color(100);
+  a.color(90);
+  a.depth(100);
+  EXPECT_EQ(a.frames(), "100+0");
+}
+
+TEST(FrameAssembler, CloudsAloneAndWithImages) {
+  Assembly alone(Sensor::kCloud);
+  alone.cloud(100);
+  EXPECT_EQ(alone.frames(), "100alone");
+  Assembly with(Sensor::kCloudWithCamera);
+  with.cloud(100);
+  EXPECT_EQ(with.frames(), "") << "its image may come";
+  with.color(130);
+  EXPECT_EQ(with.frames(), "100with image");
+  for (const int t : {200, 300, 400}) with.cloud(t);
+  EXPECT_EQ(with.frames(), "200alone") << "a camera that fails does not stop the LiDAR";
+}
+
+TEST(FrameAssembler, DepthThatIsNotRegisteredIsAFault) {
+  Assembly a(Sensor::kDepth);
+  a.color(100);
+  a.assembler.add_depth(at(100), Image<float>(8, 8));
+  expect_in("depth image: is 8x8 pixels, the camera_info says 4x3",
+            message_of<DataError>([&] { a.assembler.next(); }));
+  a.color(200);
+  a.depth(200);
+  EXPECT_EQ(a.frames(), "200+0") << "it goes on with the next one";
+}
+
+TEST(FrameAssembler, ReportsWhatIsMissing) {
+  FrameAssembler none(Sensor::kDepth);
+  EXPECT_EQ(none.report(1.0),
+            "colour images: none arrive; camera_info: none arrived; depth images: none arrive");
+  Assembly apart(Sensor::kDepth);
+  for (int t = 0; t < 1000; t += 100) {
+    apart.color(t);
+    apart.depth(t + 350);
+  }
+  EXPECT_EQ(apart.frames().find("0+"), std::string::npos);
+  expect_in("colour images: 5.0 a second", apart.assembler.report(2.0));
+  EXPECT_EQ(FrameAssembler(Sensor::kCloud).report(1.0), "clouds: none arrive");
+}
+
+}  // namespace
+}  // namespace mms

@@ -1,0 +1,35 @@
+#include "interfaces/ros1/src/frame_queue.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mms {
+namespace {
+
+Frame frame_of(int index) {
+  Frame frame;
+  frame.index = index;
+  return frame;
+}
+
+TEST(FrameQueue, TheOldestGoes) {
+  FrameQueue queue(2);
+  for (const int i : {0, 1, 2}) queue.push(frame_of(i));
+  EXPECT_EQ(queue.dropped(), 1U);
+  EXPECT_EQ(queue.pop()->index, 1);
+  EXPECT_EQ(queue.pop()->index, 2);
+}
+
+TEST(FrameQueue, AnInterruptEndsOnePop) {
+  FrameQueue queue(2);
+  queue.push(frame_of(0));
+  queue.interrupt();
+  EXPECT_FALSE(queue.pop());
+  queue.push(frame_of(1));
+  EXPECT_EQ(queue.pop()->index, 1);
+  queue.close();
+  EXPECT_FALSE(queue.pop());
+  EXPECT_FALSE(queue.pop());
+}
+
+}  // namespace
+}  // namespace mms
