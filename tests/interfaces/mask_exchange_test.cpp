@@ -86,12 +86,13 @@ TEST(MaskExchange, ANarrowLinkGetsFewerImages) {
   for (int i = 0; i < 10; ++i) {
     ++t;
     slow.sent(Timestamp(t));
+    std::this_thread::sleep_for(1ms);
     slow.received(Timestamp(t), masks_of(1));
     fast.sent(Timestamp(t));
     fast.received(Timestamp(t), masks_of(1));
   }
-  EXPECT_EQ(slow.counts().window, 1.0);
-  EXPECT_GT(fast.counts().window, 5.0);
+  EXPECT_LT(slow.counts().window, 5.0);
+  EXPECT_GT(fast.counts().window, 16.5);
   int under_way = 0;
   for (; fast.may_send(); ++under_way) fast.sent(Timestamp(++t));
   EXPECT_EQ(under_way, static_cast<int>(std::ceil(fast.counts().window)));

@@ -36,9 +36,7 @@ void MaskExchange::received(Timestamp stamp, Segmentation masks) {
   using Milliseconds = std::chrono::duration<double, std::milli>;
   const double delay = Milliseconds(Clock::now() - sent->second).count();
   counts_.delay_ms += (counts_.delay_ms == 0.0 ? 1.0 : kSmoothing) * (delay - counts_.delay_ms);
-  const bool in_time = Clock::now() - sent->second <= max_wait_;
-  window_ = in_time ? std::min(kLargestWindow, window_ + 1.0 / window_)
-                    : std::max(1.0, kShrink * window_);
+  adapt_window(Clock::now() - sent->second);
   sent_.erase(sent_.begin(), std::next(sent));
   waits_since_.reset();
   if (!sent_.empty()) waits_since_ = Clock::now();
@@ -48,6 +46,17 @@ void MaskExchange::received(Timestamp stamp, Segmentation masks) {
     masks_[stamp] = std::move(masks);
   }
   arrived_.notify_all();
+}
+
+/// Grows by one for as many answers as fit in, and shrinks once for all that were late together.
+void MaskExchange::adapt_window(Clock::duration delay) {
+  const Clock::time_point now = Clock::now();
+  if (delay <= max_wait_) {
+    window_ = std::min(kLargestWindow, window_ + 1.0 / window_);
+  } else if (now - last_shrunk_ > delay) {
+    window_ = std::max(1.0, kShrink * window_);
+    last_shrunk_ = now;
+  }
 }
 
 bool MaskExchange::link_lost(Clock::time_point now) const {

@@ -52,6 +52,7 @@ class MaskExchange {
 
  private:
   bool link_lost(Clock::time_point now) const;
+  void adapt_window(Clock::duration delay);
 
   Clock::duration max_wait_;
   Clock::duration link_timeout_;
@@ -61,7 +62,8 @@ class MaskExchange {
   std::map<Timestamp, Segmentation> masks_;
   std::optional<Timestamp> done_;                 ///< the last frame asked for
   std::optional<Clock::time_point> waits_since_;  ///< when the oldest unanswered image was sent
-  double window_ = 4.0;                           ///< images that may be under way
+  double window_ = 16.0;                          ///< images that may be under way
+  Clock::time_point last_shrunk_;
   Counts counts_;
   bool closed_ = false;
 };

@@ -14,11 +14,17 @@ namespace mms {
 namespace {
 
 /// Finds people and vehicles in the images of a SLAM node, perhaps on another host, and sends their
-/// masks back under the image's stamp. Only the newest image is worked on.
+/// masks back under the image's stamp. A link that loses packets lets go of several images at once:
+/// a few wait for their turn, the oldest of more are left out.
 class SegmentationNode {
+  static constexpr std::uint32_t kWaiting = 6;
+
  public:
   SegmentationNode()
       : segmenter_(make_network_segmenter(load_system_config(ros::NodeHandle("~")).segmentation)) {
+    Frame usual;  // the network plans its work at its first image, which would keep one waiting
+    usual.color = Image<Rgb>(640, 480);
+    segmenter_->segment(usual);
     ros::NodeHandle node("~");
     std::string transport = "tcp";
     node.getParam("mask_transport", transport);
@@ -27,7 +33,7 @@ class SegmentationNode {
     if (transport == "udp") hints.unreliable();
     using Pointer = boost::shared_ptr<const msg::CompressedImage>;
     images_ = node.subscribe<msg::CompressedImage>(
-        "image", 1,
+        "image", kWaiting,
         boost::function<void(const Pointer&)>([this](const Pointer& image) { segment(*image); }),
         ros::VoidConstPtr(), hints.reliable().tcpNoDelay());
     ROS_INFO("segmenting images of %s", images_.getTopic().c_str());

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Segmentation on another host: plays a simulated recording at its pace to the SLAM node in one network
 namespace, with the segmentation node in another, and prints what a delayed, lossy and cut link costs.
-Needs root for the namespaces. usage: remote_masks.py BUILD_FOLDER [FRAMES] [tcp|udp|bbr ...]"""
+Needs root for the namespaces. usage: [SCENE=crowd] remote_masks.py BUILD_FOLDER [FRAMES] [tcp|udp|bbr ...]"""
 import json
 import os
 import shutil
@@ -15,7 +15,7 @@ from ros_session import NODE, REMAPPINGS, Player, Recorder, Session, skip_withou
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROBOT, SERVER = 'mms_robot', 'mms_server'
 ROBOT_IP, SERVER_IP = '10.77.0.1', '10.77.0.2'
-SCENE = 'crowd'
+SCENE = os.environ.get('SCENE', 'warehouse_loop')
 DELAY_MS, LOSS = 100, 5
 LIMIT = 1.25
 
@@ -134,7 +134,8 @@ def run_once(build, folder, bag, frames, name, transport, delay_ms, loss, cut=Fa
             session.start('master', ['rosmaster', '--core', '-p', '11399'], robot)
             time.sleep(2)
             session.start('slam', [os.path.join(build, 'mms_slam_node'), '_masks:=remote',
-                                   '_mask_transport:=' + protocol] + REMAPPINGS, robot)
+                                   '_mask_transport:=' + protocol] +
+                          REMAPPINGS + os.environ.get('SLAM', '').split(), robot)
             session.start('segmentation', [os.path.join(build, 'mms_segmentation_node'),
                                            '_mask_transport:=' + protocol,
                                            '~image:=%s/segmentation/image' % NODE,
@@ -186,7 +187,7 @@ def main():
         print('| link | frames | a second | masks used | late | missing | delay [ms] | ATE [cm] | ratio |')
         print('| --- | --- | --- | --- | --- | --- | --- | --- | --- |', flush=True)
         reference = None
-        runs = [('no fault', 'tcp', 0, 0, False)]
+        runs = [('no fault, ' + transports[0], transports[0], 0, 0, False)]
         runs += [('%d ms, %d %% lost, %s' % (DELAY_MS, LOSS, t), t, DELAY_MS, LOSS, False)
                  for t in transports]
         runs += [('cut from 40 to 70 %%, %s' % transports[-1], transports[-1], DELAY_MS, 0, True)]
