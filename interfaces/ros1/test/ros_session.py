@@ -15,8 +15,8 @@ NODE = '/mms_slam'
 REMAPPINGS = ['color/image_raw:=/camera/color/image_raw',
               'color/camera_info:=/camera/color/camera_info',
               'depth/image_raw:=/camera/aligned_depth_to_color/image_raw']
-TOPICS = ['/camera/color/image_raw', '/camera/color/camera_info',
-          '/camera/aligned_depth_to_color/image_raw']
+COLOR, DEPTH, POINTS = ('/camera/color/image_raw', '/camera/aligned_depth_to_color/image_raw',
+                        '/points')
 
 
 def skip_without_ros():
@@ -135,26 +135,29 @@ class Recorder:
 
 
 class Player:
-    """Plays the sensor's topics of a bag."""
+    """Plays the sensor's topics of a bag: those of a depth camera, or of a LiDAR with a camera."""
 
-    def __init__(self, bag):
+    def __init__(self, bag, lidar=False):
         import rospy
-        from sensor_msgs.msg import CameraInfo, Image
+        from sensor_msgs.msg import CameraInfo, Image, PointCloud2
+        from tf2_msgs.msg import TFMessage
         self.bag = bag
-        self.publishers = {
-            topic: rospy.Publisher(topic, CameraInfo if 'info' in topic else Image, queue_size=100)
-            for topic in TOPICS}
+        self.frame_topic = POINTS if lidar else COLOR
+        classes = {COLOR: Image, '/camera/color/camera_info': CameraInfo}
+        classes.update({POINTS: PointCloud2, '/tf_static': TFMessage} if lidar else {DEPTH: Image})
+        self.publishers = {topic: rospy.Publisher(topic, message_class, queue_size=100)
+                           for topic, message_class in classes.items()}
 
     def connected(self):
         return all(p.get_num_connections() > 0 for p in self.publishers.values())
 
     def play(self, before_frame, count=10**9):
-        """Publishes message by message; calls before_frame(index, stamp) before a colour image."""
+        """Publishes message by message; calls before_frame(index, stamp) before each frame's first."""
         import rosbag
         frames = 0
         with rosbag.Bag(self.bag) as bag:
-            for topic, message, _ in bag.read_messages(topics=TOPICS):
-                if topic == TOPICS[0]:
+            for topic, message, _ in bag.read_messages(topics=list(self.publishers)):
+                if topic == self.frame_topic:
                     if frames == count:
                         return frames
                     before_frame(frames, message.header.stamp)
