@@ -16,9 +16,9 @@ struct NodeSettings {
   bool color_compressed = false;  ///< subscribe to .../compressed
   bool depth_compressed = false;  ///< subscribe to .../compressedDepth
   bool udp = false;               ///< masks by UDP
-  int queue_size = 40;            ///< frames that may wait
-  double mask_wait = 1.0;         ///< of a frame for masks from another host [s]
-  double link_timeout = 2.0;      ///< without masks until the link counts as lost [s]
+  int queue_size = 100;           ///< frames that may wait
+  double mask_wait = 3.0;         ///< of a frame for masks from another host [s]
+  double link_timeout = 4.0;      ///< without masks until the link counts as lost [s]
   int remote_width = 384;         ///< of images sent to another host, at most [px]
   int remote_quality = 80;        ///< of their JPEG
   double map_period = 2.0;        ///< between two maps [s]

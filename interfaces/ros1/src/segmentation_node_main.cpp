@@ -17,7 +17,7 @@ namespace {
 /// masks back under the image's stamp. A link that loses packets lets go of several images at once:
 /// a few wait for their turn, the oldest of more are left out.
 class SegmentationNode {
-  static constexpr std::uint32_t kWaiting = 6;
+  static constexpr std::uint32_t kWaiting = 30;
 
  public:
   SegmentationNode()

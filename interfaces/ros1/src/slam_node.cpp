@@ -51,7 +51,7 @@ SlamNode::SlamNode(const NodeSettings& settings)
   make_segmenter();  // so that faults of the settings end the node before it begins
   diagnostics_ = public_node_.advertise<msg::DiagnosticArray>("/diagnostics", 10);
   if (settings.masks == "remote") {
-    remote_images_ = node_.advertise<msg::CompressedImage>("segmentation/image", 2);
+    remote_images_ = node_.advertise<msg::CompressedImage>("segmentation/image", 50);
     using Pointer = boost::shared_ptr<const msg::Masks>;
     remote_masks_ = node_.subscribe<msg::Masks>(
         "segmentation/masks", 100,
