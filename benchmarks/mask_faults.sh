@@ -28,10 +28,12 @@ make_late() {
   mv "$out/scene/late" "$out/scene/masks"
 }
 
+# row SCENE MASKS [FLAGS FOR mms run]
 row() {
   local scene="$1" masks="$2"
   shift 2
-  quietly "$mms" run "$out/scene" --segmenter masks -o "$out/run" "$@"
+  [ $# -gt 0 ] || set -- --segmenter masks
+  quietly "$mms" run "$out/scene" -o "$out/run" "$@"
   local json="$out/run/metrics.json"
   printf '| %s | %s | %.2f | %.1f | %.1f | %.1f | %s |\n' "$scene" "$masks" \
     "$(cm "$json" ate_rmse_m)" "$(value "$json" SA)" "$(value "$json" DA)" "$(value "$json" AA)" \
@@ -50,4 +52,4 @@ for scene in warehouse_loop crowd stop_and_go; do
 done
 simulate static
 row static "network" --segmenter network
-row static "no filter" --fusion none
+row static "no filter" --segmenter none --fusion none

@@ -36,8 +36,8 @@ struct TrackConfig {
   double position_sigma = 0.03;     ///< of a box's middle [m]
   double cut_sigma = 0.25;          ///< of one whose ends are out of view [m]
   double max_speed = 3.0;           ///< [m/s]
-  double moving_speed = 0.3;        ///< [m/s]
-  double stopped_speed = 0.15;      ///< [m/s]
+  double moving_speed = 0.2;        ///< [m/s]
+  double stopped_speed = 0.12;      ///< [m/s]
   std::array<ClassPrior, kObjectClassCount> classes{
       {{0.6, 0.5, 1.7, 20, 0.35}, {1.2, 0.8, 1.2, 1, 0.5}}};
 
