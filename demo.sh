@@ -10,5 +10,6 @@ build mms_program
 build/release/mms run sim:warehouse_loop --frames 450
 echo
 echo "Open $PWD/results/latest/report.html in a browser (its pictures are in results/latest/pictures),"
-echo "and $PWD/results/latest/static_map.ply in a viewer of point clouds."
+echo "and $PWD/results/latest/static_map.ply in a viewer of point clouds,"
+echo "or play the whole run in a browser: build/release/mms view results/latest"
 echo "Your own recording: build/release/mms run FOLDER"
