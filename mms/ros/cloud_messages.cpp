@@ -158,6 +158,7 @@ LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::s
   check_size(message, where);
   const std::size_t count = std::size_t{message.width} * message.height;
   LidarScan scan;
+  if (count == 0) return scan;
   scan.points.reserve(count);
   for_points(message, [&](std::size_t row, std::size_t column) {
     scan.points.push_back(

@@ -64,8 +64,10 @@ class WireReader {
       const std::string_view raw = bytes_.take(values.size() * sizeof(T));
       if (!raw.empty()) std::memcpy(values.data(), raw.data(), raw.size());
     } else {
-      values.resize(bytes_.take_count(1));
-      for (T& value : values) read(value);
+      // One by one: a count that lies must not take more memory than the bytes that are there.
+      values.clear();
+      const std::size_t count = bytes_.take_count(1);
+      while (values.size() < count) read(values.emplace_back());
     }
   }
 

@@ -115,6 +115,15 @@ TEST(CloudMessages, TimesThatAreNanCountAsTheStamp) {
   EXPECT_TRUE(all.scan().time_offset.empty());
 }
 
+TEST(CloudMessages, RowsWithoutPointsAreNoPointsHoweverMany) {
+  msg::PointCloud2 empty = CloudBuilder(2, 1, 12).positions().cloud();
+  empty.width = 0;
+  empty.height = UINT32_MAX;
+  empty.row_step = 0;
+  empty.data.clear();
+  EXPECT_TRUE(scan_of(empty, Timestamp(), "test").points.empty());
+}
+
 TEST(CloudMessages, SaysWhatIsWrong) {
   const auto fault = [](const msg::PointCloud2& cloud) {
     return message_of<DataError>([&] { scan_of(cloud, kStamp, "test"); });
