@@ -1,11 +1,11 @@
 #include "mms/server/downloads.hpp"
 
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
+#include "mms/core/error.hpp"
 #include "mms/core/trajectory.hpp"
 #include "mms/io/ply_io.hpp"
 #include "mms/io/trajectory_io.hpp"
@@ -28,10 +28,13 @@ bool holds(const std::array<std::string_view, n>& names, std::string_view name) 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// In a folder of its own, which nobody else can have made or may write to.
 fs::path new_temporary(std::string_view name) {
-  static std::atomic<int> count = 0;
-  return fs::temp_directory_path() / ("mms-" + std::to_string(::getpid()) + "-" +
-                                      std::to_string(++count) + "-" + std::string(name));
+  std::string folder = fs::temp_directory_path() / "mms-XXXXXX";
+  if (::mkdtemp(folder.data()) == nullptr) {
+    throw FileError(folder, "no temporary folder can be made there", "set TMPDIR to another place");
+  }
+  return fs::path(folder) / name;
 }
 
 Trajectory trajectory_of(const Scene& scene) {

@@ -22,8 +22,8 @@ std::optional<std::filesystem::path> find_download(const std::filesystem::path& 
 /// Whether a live run gives a file of that name.
 bool is_live_download(std::string_view name);
 
-/// Writes what there is of a live run into a new file of the folder for temporary ones, which the
-/// caller removes. @throws FileError when it cannot be written.
+/// Writes what there is of a live run into a new file in a temporary folder of its own; the caller
+/// removes both. @throws FileError when it cannot be written.
 std::filesystem::path write_live_download(Scene& scene, std::string_view name);
 
 }  // namespace mms

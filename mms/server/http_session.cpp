@@ -102,7 +102,10 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       asio::post(self->service_.io, [self, answer] {
         self->send(answer);
         std::error_code ignored;  // an open file can still be read
-        if (!answer.live_file.empty()) std::filesystem::remove(answer.file, ignored);
+        if (!answer.live_file.empty()) {
+          std::filesystem::remove(answer.file, ignored);
+          std::filesystem::remove(answer.file.parent_path(), ignored);
+        }
       });
     });
   }
