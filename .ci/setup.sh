@@ -13,7 +13,7 @@ install_packages() {
       missing+=("$package")
     fi
   done < <(grep -Ev '^[[:space:]]*(#|$)' packages.txt)
-  install "${missing[@]}"
+  apt_install "${missing[@]}"
 }
 
 # Installs what only tests of the viewer use, where the command is missing: they are skipped where
@@ -23,11 +23,11 @@ install_test_tools() {
   command -v node > /dev/null || missing+=(nodejs)
   command -v npm > /dev/null || missing+=(npm)
   command -v chromium > /dev/null || missing+=(chromium)
-  install "${missing[@]}" || echo "going on without ${missing[*]}"
+  apt_install "${missing[@]}" || echo "going on without ${missing[*]}"
 }
 
-# install PACKAGE...: from Debian's archive.
-install() {
+# apt_install PACKAGE...: from Debian's archive.
+apt_install() {
   [ $# -eq 0 ] && return
   echo "installing $*"
   local as_root=()
