@@ -104,12 +104,25 @@ TEST(FrameAssembler, CloudsAloneAndWithImages) {
   alone.cloud(100);
   EXPECT_EQ(alone.frames(), "100alone");
   Assembly with(Sensor::kCloudWithCamera);
+  with.assembler.set_extrinsics({});
   with.cloud(100);
   EXPECT_EQ(with.frames(), "") << "its image may come";
   with.color(130);
   EXPECT_EQ(with.frames(), "100with image");
   for (const int t : {200, 300, 400}) with.cloud(t);
   EXPECT_EQ(with.frames(), "200alone") << "a camera that fails does not stop the LiDAR";
+}
+
+TEST(FrameAssembler, CloudsWithImagesWaitForTheExtrinsics) {
+  Assembly a(Sensor::kCloudWithCamera);
+  for (const int t : {100, 200, 300, 400}) {
+    a.cloud(t);
+    a.color(t);
+  }
+  EXPECT_EQ(a.frames(), "");
+  expect_in("no transform from the cloud's frame to the camera's", a.assembler.report(1.0));
+  a.assembler.set_extrinsics({});
+  EXPECT_EQ(a.frames(), "100with image 200with image 300with image 400with image");
 }
 
 TEST(FrameAssembler, DepthThatIsNotRegisteredIsAFault) {

@@ -53,6 +53,7 @@ void FrameAssembler::set_camera(const CameraIntrinsics& camera) {
 
 void FrameAssembler::set_extrinsics(const Transform<Camera, Lidar>& T_camera_lidar) {
   calibration_.T_camera_lidar = T_camera_lidar;
+  extrinsics_known_ = true;
   shared_.reset();
 }
 
@@ -129,7 +130,8 @@ std::optional<Frame> FrameAssembler::next_depth_frame() {
 
 std::optional<Frame> FrameAssembler::next_cloud_frame() {
   const bool camera = sensor_ == Sensor::kCloudWithCamera;
-  if (cloud_.waiting.empty() || (camera && !calibration_.camera)) return std::nullopt;
+  const bool calibrated = calibration_.camera && extrinsics_known_;
+  if (cloud_.waiting.empty() || (camera && !calibrated)) return std::nullopt;
   const Timestamp stamp = cloud_.waiting.front().stamp;
   const bool waits = camera && cloud_.waiting.size() < 3 && !is_decided(stamp, color_, kCloudReach);
   if (waits) return std::nullopt;
@@ -168,6 +170,10 @@ std::string FrameAssembler::report(double seconds) {
     }
   } else {
     add(counted("clouds", cloud_.arrived, seconds));
+    const bool both = cloud_.arrived > 0 && color_.arrived > 0;
+    if (sensor_ == Sensor::kCloudWithCamera && both && !extrinsics_known_) {
+      add("no transform from the cloud's frame to the camera's");
+    }
   }
   color_.arrived = depth_.arrived = cloud_.arrived = made_ = 0;
   return text;

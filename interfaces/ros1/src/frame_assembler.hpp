@@ -12,7 +12,8 @@ namespace mms {
 
 /// Puts frames together from images and clouds that arrive one by one: a colour image with the
 /// depth image nearest to it in time, or a cloud with the nearest colour image, by the same rules
-/// as recordings (within 0.02 s, with clouds 0.05 s). Knows what is missing when no frame comes
+/// as recordings (within 0.02 s, with clouds 0.05 s). Clouds with images wait for the extrinsics:
+/// without them masks would fall on the wrong points. Knows what is missing when no frame comes
 /// about.
 class FrameAssembler {
  public:
@@ -22,6 +23,7 @@ class FrameAssembler {
 
   void set_camera(const CameraIntrinsics& camera);
   void set_extrinsics(const Transform<Camera, Lidar>& T_camera_lidar);
+  bool extrinsics_known() const { return extrinsics_known_; }
 
   /// Images are to come in the order of their stamps; those that do not are left out.
   void add_color(Timestamp stamp, Image<Rgb> color);
@@ -62,6 +64,7 @@ class FrameAssembler {
 
   Sensor sensor_;
   Calibration calibration_;
+  bool extrinsics_known_ = false;
   std::shared_ptr<const Calibration> shared_;
   Stream<Image<Rgb>> color_;
   Stream<Image<float>> depth_;

@@ -36,11 +36,11 @@ SensorSubscriber::SensorSubscriber(ros::NodeHandle& node, const NodeSettings& se
 }
 
 template <class Add>
-void SensorSubscriber::take(const msg::Header& header, bool localised_by, const Add& add) {
+void SensorSubscriber::take(const Add& add) {
   const std::scoped_lock lock(mutex_);
   try {
-    if (localised_by) frame_id_ = header.frame_id;
     add();
+    if (settings_.sensor == FrameAssembler::Sensor::kCloudWithCamera) find_extrinsics();
     while (std::optional<Frame> frame = assembler_.next()) sink_(std::move(*frame));
   } catch (const Error& error) {
     ++damaged_;
@@ -50,10 +50,11 @@ void SensorSubscriber::take(const msg::Header& header, bool localised_by, const 
 
 void SensorSubscriber::subscribe_color(ros::NodeHandle& node) {
   const auto add = [this](const auto& message) {
-    color_frame_ = message.header.frame_id;
-    const bool depth_camera = settings_.sensor == FrameAssembler::Sensor::kDepth;
-    take(message.header, depth_camera,
-         [&] { assembler_.add_color(message.header.stamp, color_of(message, "colour image")); });
+    take([&] {
+      color_frame_ = message.header.frame_id;
+      if (settings_.sensor == FrameAssembler::Sensor::kDepth) frame_id_ = color_frame_;
+      assembler_.add_color(message.header.stamp, color_of(message, "colour image"));
+    });
   };
   if (settings_.color_compressed) {
     subscribers_.push_back(
@@ -63,15 +64,13 @@ void SensorSubscriber::subscribe_color(ros::NodeHandle& node) {
   }
   subscribers_.push_back(
       subscribe_to<msg::CameraInfo>(node, "color/camera_info", [this](const auto& message) {
-        take(message.header, false,
-             [&] { assembler_.set_camera(intrinsics_of(message, false, "camera_info")); });
+        take([&] { assembler_.set_camera(intrinsics_of(message, false, "camera_info")); });
       }));
 }
 
 void SensorSubscriber::subscribe_depth(ros::NodeHandle& node) {
   const auto add = [this](const auto& message) {
-    take(message.header, false,
-         [&] { assembler_.add_depth(message.header.stamp, depth_of(message, "depth image")); });
+    take([&] { assembler_.add_depth(message.header.stamp, depth_of(message, "depth image")); });
   };
   if (settings_.depth_compressed) {
     subscribers_.push_back(
@@ -84,8 +83,8 @@ void SensorSubscriber::subscribe_depth(ros::NodeHandle& node) {
 void SensorSubscriber::subscribe_cloud(ros::NodeHandle& node) {
   subscribers_.push_back(
       subscribe_to<msg::PointCloud2>(node, "points", [this](const auto& message) {
-        take(message.header, true, [&] {
-          find_extrinsics();
+        take([&] {
+          frame_id_ = message.header.frame_id;
           assembler_.add_cloud(message.header.stamp,
                                scan_of(message, message.header.stamp, "cloud"));
         });
@@ -94,14 +93,15 @@ void SensorSubscriber::subscribe_cloud(ros::NodeHandle& node) {
   for (const char* topic : {"/tf_static", "/tf"}) {
     subscribers_.push_back(
         subscribe_to<msg::Transforms>(node, topic, [this](const msg::Transforms& message) {
-          const std::scoped_lock lock(mutex_);
-          if (!extrinsics_known_) transforms_.add(message);
+          take([&] {
+            if (!assembler_.extrinsics_known()) transforms_.add(message);
+          });
         }));
   }
 }
 
 void SensorSubscriber::find_extrinsics() {
-  if (extrinsics_known_ || color_frame_.empty()) return;
+  if (assembler_.extrinsics_known() || color_frame_.empty() || frame_id_.empty()) return;
   const auto T_camera_lidar = transforms_.lookup(color_frame_, frame_id_, Timestamp());
   if (!T_camera_lidar) {
     ROS_WARN_THROTTLE(kRepeat, "no transform from '%s' to '%s' on /tf_static or /tf yet",
@@ -109,7 +109,6 @@ void SensorSubscriber::find_extrinsics() {
     return;
   }
   assembler_.set_extrinsics(Transform<Camera, Lidar>(*T_camera_lidar));
-  extrinsics_known_ = true;
 }
 
 std::size_t SensorSubscriber::unmatched() {

@@ -37,7 +37,7 @@ class SensorSubscriber {
 
   /// Runs `add`, which a damaged message may make fail, and hands out the frames it completed.
   template <class Add>
-  void take(const msg::Header& header, bool localised_by, const Add& add);
+  void take(const Add& add);
 
   NodeSettings settings_;
   Sink sink_;
@@ -46,7 +46,6 @@ class SensorSubscriber {
   TransformTree transforms_;
   std::string frame_id_;
   std::string color_frame_;
-  bool extrinsics_known_ = false;
   std::size_t damaged_ = 0;
   std::string topics_;
   std::vector<ros::Subscriber> subscribers_;

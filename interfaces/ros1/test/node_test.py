@@ -13,7 +13,7 @@ FRAMES = 60
 SCENE = 'sim:warehouse_loop?width=320&frames=%d' % FRAMES
 LIDAR_SCENE = 'sim:warehouse_loop?width=320&frames=15&sensor=lidar16'
 LIDAR_NODE = '/mms_lidar'
-AHEAD = 3  # frames that may be on their way, so that none is dropped
+AHEAD = 2  # frames that may be on their way: the node drops none, and waits for each image
 
 
 def check(condition, what):

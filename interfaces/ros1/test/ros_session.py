@@ -152,9 +152,11 @@ class Player:
         return all(p.get_num_connections() > 0 for p in self.publishers.values())
 
     def play(self, before_frame, count=10**9):
-        """Publishes message by message; calls before_frame(index, stamp) before each frame's first."""
+        """Publishes message by message; calls before_frame(index, stamp) before each frame's first.
+        Transforms come after the first frame, as they may where nodes start in any order."""
         import rosbag
         frames = 0
+        transforms = []
         with rosbag.Bag(self.bag) as bag:
             for topic, message, _ in bag.read_messages(topics=list(self.publishers)):
                 if topic == self.frame_topic:
@@ -162,6 +164,12 @@ class Player:
                         return frames
                     before_frame(frames, message.header.stamp)
                     frames += 1
+                if topic == '/tf_static' and frames == 0:
+                    transforms.append(message)
+                    continue
+                if frames == 2 and topic == self.frame_topic:
+                    for held_back in transforms:
+                        self.publishers['/tf_static'].publish(held_back)
                 self.publishers[topic].publish(message)
         return frames
 
