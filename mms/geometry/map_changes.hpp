@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -41,5 +42,18 @@ struct MapChanges {
 
   bool operator==(const MapChanges&) const = default;
 };
+
+/// How many times as many keyframes as are needed have to look at a block before what fewer saw is
+/// taken for a stray point. Far away the points of a surface fall now into one voxel, now into the
+/// next, and what people hide is seen seldom.
+inline constexpr std::size_t kViewsPerObservation = 5;
+
+/// Whether a voxel map shows a voxel: `needed` keyframes measured it, or too few looked at its
+/// block to tell.
+/// @param hits   keyframes that measured the voxel
+/// @param views  keyframes that measured in its block
+constexpr bool is_voxel_shown(std::size_t hits, std::size_t views, std::size_t needed) {
+  return hits >= needed || views <= kViewsPerObservation * needed;
+}
 
 }  // namespace mms

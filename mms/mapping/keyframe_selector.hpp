@@ -10,7 +10,7 @@ namespace mms {
 struct KeyframeConfig {
   double translation = 0.10;  ///< [m]
   double rotation = 5.0;      ///< [deg]
-  double max_interval = 1.0;  ///< [s]
+  double max_interval = 0.2;  ///< [s]
 
   void visit(ConfigVisitor& v) {
     v.number({"translation", "m", "movement that makes a keyframe"}, translation, {0.0, 100.0});

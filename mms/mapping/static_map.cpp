@@ -32,12 +32,6 @@ void add(const SurfacePoint& surface, const Eigen::Isometry3f& T_world_sensor,
   voxel.color += share * (color - voxel.color);
 }
 
-/// Voxels at the rim of what was seen, whose surroundings only few keyframes looked at, need not be
-/// seen again.
-bool is_shown(const VoxelBlock& block, const Voxel& voxel, std::size_t needed) {
-  return voxel.hits >= needed || block.views <= needed;
-}
-
 }  // namespace
 
 StaticMap::StaticMap(const StaticMapConfig& config) : config_(config), grid_(config.voxel_size) {}
@@ -127,7 +121,7 @@ MapCloud StaticMap::cloud() const {
   MapCloud cloud;
   for (const VoxelBlock& block : grid_.blocks()) {
     for (const Voxel& voxel : block.voxels) {
-      if (!is_shown(block, voxel, needed)) continue;
+      if (!is_voxel_shown(voxel.hits, block.views, needed)) continue;
       cloud.points.push_back(voxel.position);
       cloud.colors.push_back(to_rgb(voxel.color));
       cloud.normals.push_back(normal_of(block, voxel));

@@ -54,8 +54,8 @@ class StaticMap {
   /// @throws DataError when an organised cloud's `camera` makes no camera.
   MapUpdate integrate(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
 
-  /// The voxels seen by `min_observations` keyframes (or by all, while there are fewer), in the
-  /// order in which they came into the map.
+  /// The voxels that `is_voxel_shown` for `min_observations` keyframes (or for all, while there are
+  /// fewer), in the order in which they came into the map.
   MapCloud cloud() const;
 
   /// What the last keyframe did, so that `apply` of all keyframes' changes, in order, makes a map

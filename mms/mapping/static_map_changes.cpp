@@ -73,8 +73,9 @@ MapChanges StaticMap::changes() const {
       const bool news = voxel.last_keyframe == keyframe && is_news(voxel, config_.min_observations);
       if (coarsened_ || news) change.voxels.push_back(told(block, voxel, grid_.voxel_size()));
     }
-    // More views than needed show the same voxels as the views before.
-    const bool matters = block.views <= config_.min_observations + 1;
+    // Further views show the same voxels as those before.
+    const auto needed = static_cast<std::size_t>(config_.min_observations);
+    const bool matters = block.views <= kViewsPerObservation * needed + 1;
     if (matters || !change.voxels.empty()) changes.blocks.push_back(std::move(change));
   }
   return changes;

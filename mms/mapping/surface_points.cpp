@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace mms {
 namespace {
@@ -25,17 +27,13 @@ class Grid {
     return (static_cast<float>(config_.max_jump) + 7.3F * config_.noise.sigma(z)) / (z * z);
   }
 
-  /// Whether the pixel lies inside a surface: its neighbours have depths, and no jump goes
-  /// through it or those beside it. On the rims of things depth and colour wobble by a pixel.
+  /// Whether the pixel lies inside a surface: it has neighbours with depths on every side, and no
+  /// jump goes through it or those beside it. On the rims of things depth and colour wobble by a
+  /// pixel. Far away single dropouts are many, but seldom make a whole side.
   bool inside_surface(int x, int y, float tolerance) const {
-    constexpr int kMostMissing = 1;  // a dropout; at a rim it is three
-    int missing = 0;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (inverse_.contains(x + dx, y + dy) && inverse(x + dx, y + dy) <= 0.0F) ++missing;
-      }
+    for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      if (is_side_missing(x, y, dx, dy)) return false;
     }
-    if (missing > kMostMissing) return false;
     for (int d = -1; d <= 1; ++d) {
       if (inverse(x + d, y) > 0.0F && !smooth(x + d, y, 1, 0, tolerance)) return false;
       if (inverse(x, y + d) > 0.0F && !smooth(x, y + d, 0, 1, tolerance)) return false;
@@ -63,6 +61,14 @@ class Grid {
                          static_cast<std::size_t>(x)];
   }
 
+  bool is_missing(int x, int y) const { return inverse_.contains(x, y) && inverse_(x, y) <= 0.0F; }
+
+  /// Whether all three neighbours on the side of (dx, dy) have no depth.
+  bool is_side_missing(int x, int y, int dx, int dy) const {
+    return is_missing(x + dx, y + dy) && is_missing(x + dx - dy, y + dy - dx) &&
+           is_missing(x + dx + dy, y + dy + dx);
+  }
+
   float inverse(int x, int y) const { return inverse_.contains(x, y) ? inverse_(x, y) : 0.0F; }
 
   /// No jump at (x, y) along one axis. Beside a hole only the first difference is left.
@@ -80,6 +86,34 @@ class Grid {
   Image<float> inverse_;  // [1/m], 0 for no return
 };
 
+/// Sets what lies within `radius` pixels of what is set, along a row or a column.
+void grow(const std::uint8_t* from, std::size_t step, int count, int radius, std::uint8_t* to) {
+  for (int i = 0, next = 0; i < count; ++i) {
+    if (from[static_cast<std::size_t>(i) * step] == 0) continue;
+    next = std::max(next, i - radius);
+    for (; next <= std::min(i + radius, count - 1); ++next) {
+      to[static_cast<std::size_t>(next) * step] = 1;
+    }
+  }
+}
+
+/// Non-zero where something dynamic is within `radius` pixels; empty where nothing is dynamic.
+Image<std::uint8_t> near_dynamic(const Image<std::uint8_t>& dynamic, int radius) {
+  const auto& pixels = dynamic.pixels();
+  const bool any = std::any_of(pixels.begin(), pixels.end(), [](auto p) { return p != 0; });
+  if (!any || radius == 0) return any ? dynamic : Image<std::uint8_t>();
+  Image<std::uint8_t> rows(dynamic.width(), dynamic.height());
+  for (int y = 0; y < dynamic.height(); ++y) {
+    grow(dynamic.row(y), 1, dynamic.width(), radius, rows.row(y));
+  }
+  Image<std::uint8_t> grown(dynamic.width(), dynamic.height());
+  const auto width = static_cast<std::size_t>(dynamic.width());
+  for (int x = 0; x < dynamic.width(); ++x) {
+    grow(rows.row(0) + x, width, dynamic.height(), radius, grown.row(0) + x);
+  }
+  return grown;
+}
+
 Rgb color_of(const LabeledCloud& cloud, std::size_t i) {
   return cloud.colors.empty() ? SurfacePoint{}.color : cloud.colors[i];
 }
@@ -87,6 +121,8 @@ Rgb color_of(const LabeledCloud& cloud, std::size_t i) {
 std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const SurfaceConfig& config,
                                            int step) {
   const Grid grid(cloud, config);
+  const Image<std::uint8_t> rim =
+      near_dynamic(cloud.dynamic_pixels, static_cast<int>(std::lround(config.rim * cloud.width)));
   const auto least = static_cast<float>(config.noise.base);
   std::vector<SurfacePoint> result;
   result.reserve(cloud.points.size() / static_cast<std::size_t>(step * step));
@@ -97,6 +133,7 @@ std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const Surf
       const float z = cloud.points[i].z();
       if (cloud.labels[i] != PointLabel::kStatic || !(z > 0.0F)) continue;
       if (z > static_cast<float>(config.max_depth)) continue;
+      if (!rim.empty() && rim[i] != 0) continue;
       const float tolerance = grid.tolerance(z);
       if (!grid.inside_surface(x, y, tolerance)) continue;
       const float ratio = least / config.noise.sigma(z);

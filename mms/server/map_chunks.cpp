@@ -149,7 +149,7 @@ void MapChunks::erase(const VoxelKey& voxel) {
 
 bool MapChunks::is_shown(const Block& block, const VoxelChange& voxel) const {
   const std::size_t needed = std::min(static_cast<std::size_t>(min_observations_), keyframes_);
-  return voxel.hits >= needed || block.views <= needed;
+  return is_voxel_shown(voxel.hits, block.views, needed);
 }
 
 template <class Use>

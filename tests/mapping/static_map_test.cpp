@@ -52,16 +52,18 @@ TEST(StaticMap, CountsKeyframesNotPoints) {
 }
 
 TEST(StaticMap, ShowsWhatWasSeenOnceOnlyWhereNobodyLookedAgain) {
-  StaticMap map;
-  const LabeledCloud wall = plane_cloud(kForward, 2.0, pose({0, 0, 0}));
+  StaticMap map({.carving = {.enabled = false}});
+  const LabeledCloud wall = plane_cloud(kForward, 2.01, pose({0, 0, 0}));
   map.integrate(wall, pose({0, 0, 0}));
   EXPECT_EQ(map.cloud().size(), map.size());
   const auto elsewhere = pose({0, 0, 0}, 3.0);
   map.integrate(plane_cloud({0, 0, -1}, 2.0, elsewhere), elsewhere);
   EXPECT_EQ(map.cloud().size(), map.size());
-  // Looked at again and again half a voxel farther on, in the same blocks: what was seen once goes.
-  const LabeledCloud behind = plane_cloud(kForward, 2.02, pose({0, 0, 0}));
-  for (int i = 0; i < 4; ++i) map.integrate(behind, pose({0, 0, 0}));
+  // Looked at again and again two voxels farther on, in the same blocks: what was seen once goes.
+  const LabeledCloud behind = plane_cloud(kForward, 2.05, pose({0, 0, 0}));
+  for (int i = 0; i < 8; ++i) map.integrate(behind, pose({0, 0, 0}));
+  EXPECT_EQ(map.cloud().size(), map.size()) << "nine views of two needed observations";
+  for (int i = 0; i < 2; ++i) map.integrate(behind, pose({0, 0, 0}));
   EXPECT_LT(map.cloud().size(), map.size());
 }
 

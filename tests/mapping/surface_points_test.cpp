@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mms/core/random_stream.hpp"
 #include "tests/mapping/synthetic_cloud.hpp"
 
 namespace mms {
@@ -36,6 +37,36 @@ TEST(SurfacePoints, DropPixelsBetweenTwoSurfaces) {
   for (const SurfacePoint& surface : surface_points(cloud, {})) {
     EXPECT_TRUE(surface.point.z() == 1.0F || surface.point.z() == 3.0F) << surface.point.z();
   }
+}
+
+TEST(SurfacePoints, KeepAWallWithManyDropouts) {
+  RandomStream random(1);
+  const LabeledCloud cloud = organised_cloud(
+      [&](int, int, const Eigen::Vector3f&) { return random.uniform() < 0.4 ? 0.0F : 2.0F; });
+  const auto returns = std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kStatic);
+  // A side of three is missing in 0.4^3, none of the four in 77 % of the cases.
+  EXPECT_NEAR(static_cast<double>(surface_points(cloud, {}).size()),
+              0.77 * static_cast<double>(returns), 0.03 * static_cast<double>(returns));
+}
+
+TEST(SurfacePoints, DropTheRimOfAHole) {
+  const LabeledCloud cloud = organised_cloud(
+      [](int x, int y, const Eigen::Vector3f&) { return x > 100 && y > 50 ? 0.0F : 2.0F; });
+  const auto returns = std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kStatic);
+  // Up to the image's border, and but for the corner, whose sides are not missing whole.
+  EXPECT_EQ(surface_points(cloud, {}).size(), static_cast<std::size_t>(returns - 57 - 67));
+}
+
+TEST(SurfacePoints, DropTheRimOfWhatIsDynamic) {
+  LabeledCloud cloud = plane_cloud({0, 0, 1}, 2.0, pose({0, 0, 0}));
+  const std::size_t all = surface_points(cloud, {}).size();
+  cloud.dynamic_pixels = Image<std::uint8_t>(cloud.width, cloud.height);
+  EXPECT_EQ(surface_points(cloud, {}).size(), all);
+  cloud.dynamic_pixels(80, 60) = 1;
+  cloud.dynamic_pixels(0, 0) = 1;
+  // 0.02 of 160 pixels are three: a square of 7 x 7 pixels, 4 x 4 of it in the corner.
+  EXPECT_EQ(surface_points(cloud, {.rim = 0.02}).size(), all - 49 - 16);
+  EXPECT_EQ(surface_points(cloud, {.rim = 0.0}).size(), all - 2);
 }
 
 TEST(SurfacePoints, DropWhatIsFarDynamicOrInvalid) {

@@ -85,11 +85,11 @@ TEST(MapChunks, ShowsWhatTheMapWouldShow) {
   MapChunks map(2);
   map.apply(one_voxel({0, 0, 0}, 1, 1));
   EXPECT_EQ(map.cloud().points.size(), 1U) << "the only keyframe so far saw it";
-  map.apply(one_voxel({0, 0, 0}, 1, 2));
+  map.apply(one_voxel({0, 0, 0}, 1, 10));
   EXPECT_EQ(map.cloud().points.size(), 1U) << "few keyframes looked there";
-  map.apply(one_voxel({0, 0, 0}, 1, 3));
+  map.apply(one_voxel({0, 0, 0}, 1, 11));
   EXPECT_EQ(map.cloud().points.size(), 0U) << "others looked there and did not see it";
-  map.apply(one_voxel({0, 0, 0}, 2, 4));
+  map.apply(one_voxel({0, 0, 0}, 2, 12));
   EXPECT_EQ(map.cloud().points.size(), 1U) << "seen again";
 }
 
