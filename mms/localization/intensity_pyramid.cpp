@@ -93,8 +93,8 @@ Image<std::uint8_t> half_size(const Image<std::uint8_t>& fine, const CameraIntri
   return half;
 }
 
-/// Takes the depth off the pixels whose colour or gradient something dynamic has a part in.
-void keep_clear(const Image<std::uint8_t>& dynamic, Image<float>& depth) {
+/// Takes the depth off the pixels in whose colour or gradient something dynamic has a part.
+void clear_depth(const Image<std::uint8_t>& dynamic, Image<float>& depth) {
   for (int y = 0; y < dynamic.height(); ++y) {
     for (int x = 0; x < dynamic.width(); ++x) {
       if (dynamic(x, y) == 0) continue;
@@ -112,16 +112,20 @@ void keep_clear(const Image<std::uint8_t>& dynamic, Image<float>& depth) {
 std::vector<IntensityLevel> build_intensity_pyramid(const LabeledCloud& cloud, int levels) {
   std::vector<IntensityLevel> pyramid;
   pyramid.push_back(finest_level(cloud));
-  Image<std::uint8_t> dynamic = cloud.dynamic_pixels;
-  keep_clear(dynamic, pyramid.back().depth);
   while (static_cast<int>(pyramid.size()) < levels) {
     const CameraIntrinsics& last = pyramid.back().camera;
     if (last.width < 2 * kMinSide || last.height < 2 * kMinSide) break;
     pyramid.push_back(half_size(pyramid.back()));
-    dynamic = half_size(dynamic, pyramid.back().camera);
-    keep_clear(dynamic, pyramid.back().depth);
   }
+  keep_clear(cloud.dynamic_pixels, pyramid);
   return pyramid;
+}
+
+void keep_clear(Image<std::uint8_t> dynamic, std::vector<IntensityLevel>& pyramid) {
+  for (IntensityLevel& level : pyramid) {
+    if (&level != &pyramid.front()) dynamic = half_size(dynamic, level.camera);
+    clear_depth(dynamic, level.depth);
+  }
 }
 
 }  // namespace mms

@@ -119,6 +119,11 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
   return estimate;
 }
 
+std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {
+  if (!maps_) return std::nullopt;
+  return Transform<World, Sensor>(predict(stamp));
+}
+
 Odometry::Isometry Odometry::predict(Timestamp stamp) const {
   return pose_ * se3::exp(velocity_ * to_seconds(stamp - stamp_));
 }

@@ -32,6 +32,9 @@ class Odometry {
   /// The frames must come in the order of their stamps. Never throws for bad frames: see Status.
   OdometryEstimate estimate(FeatureCloud features);
 
+  /// Where the next frame is expected, as far as the motion goes on; nothing before the first one.
+  std::optional<Transform<World, Sensor>> expected(Timestamp stamp) const;
+
  private:
   using Isometry = Eigen::Isometry3d;
 

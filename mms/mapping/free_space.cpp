@@ -7,6 +7,7 @@ namespace mms {
 namespace {
 
 constexpr int kTile = 8;
+constexpr float kOutOfView = -1.0F;
 
 /// Depth of every pixel, 0 for none.
 Image<float> depth_of(const LabeledCloud& cloud) {
@@ -71,16 +72,26 @@ Eigen::Vector2f FreeSpace::pixel_of(const Eigen::Vector3f& point) const {
   return camera_.project(p).cast<float>();
 }
 
-bool FreeSpace::sees_through(const Eigen::Vector3f& point) const {
-  if (!(point.z() > 0.0F)) return false;
+/// Of the surface measured in a point's direction, 0 where none was, kOutOfView beyond the image.
+float FreeSpace::depth_at(const Eigen::Vector3f& point) const {
+  if (!(point.z() > 0.0F)) return kOutOfView;
   const Eigen::Vector2f pixel = pixel_of(point);
   // The outermost pixels, which have too few neighbours, never carve.
-  if (!(pixel.x() >= 0.5F && pixel.x() < static_cast<float>(nearest_.width()) - 1.0F)) return false;
+  if (!(pixel.x() >= 0.5F && pixel.x() < static_cast<float>(nearest_.width()) - 1.0F))
+    return kOutOfView;
   if (!(pixel.y() >= 0.5F && pixel.y() < static_cast<float>(nearest_.height()) - 1.0F))
-    return false;
-  const float depth =
-      nearest_(static_cast<int>(pixel.x() + 0.5F), static_cast<int>(pixel.y() + 0.5F));
-  return depth > needed_depth(point.z());
+    return kOutOfView;
+  return nearest_(static_cast<int>(pixel.x() + 0.5F), static_cast<int>(pixel.y() + 0.5F));
+}
+
+bool FreeSpace::sees_through(const Eigen::Vector3f& point) const {
+  const float depth = depth_at(point);
+  return depth > 0.0F && depth > needed_depth(point.z());
+}
+
+bool FreeSpace::touches(const Eigen::Vector3f& point) const {
+  const float depth = depth_at(point);
+  return depth > 0.0F && std::abs(depth - point.z()) <= needed_depth(point.z()) - point.z();
 }
 
 bool FreeSpace::may_see_into(const Eigen::Vector3f& center, float radius) const {

@@ -33,11 +33,18 @@ class FreeSpace {
   /// True where the measured surface is clearly behind `point` (sensor frame [m]).
   bool sees_through(const Eigen::Vector3f& point) const;
 
+  /// True where the measured surface is at `point` (sensor frame [m]).
+  bool touches(const Eigen::Vector3f& point) const;
+
+  /// True where `point` (sensor frame [m]) is in view and nothing sure was measured there.
+  bool is_blank(const Eigen::Vector3f& point) const { return depth_at(point) == 0.0F; }
+
   /// False where no point of the ball (sensor frame [m]) can be seen through; cheap.
   bool may_see_into(const Eigen::Vector3f& center, float radius) const;
 
  private:
   Eigen::Vector2f pixel_of(const Eigen::Vector3f& point) const;
+  float depth_at(const Eigen::Vector3f& point) const;
   /// One sigma is enough: the nearest of nine pixels lies some 1.5 sigma before the surface.
   float needed_depth(float z) const { return z + margin_ + noise_.sigma(z); }
 

@@ -7,6 +7,7 @@
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/dynamic_map.hpp"
 #include "mms/mapping/keyframe_selector.hpp"
+#include "mms/mapping/movement.hpp"
 #include "mms/mapping/occupancy_config.hpp"
 #include "mms/mapping/static_map.hpp"
 #include "mms/segmentation/segmentation_config.hpp"
@@ -22,6 +23,7 @@ struct SystemConfig {
   FusionConfig fusion;
   FeatureConfig features;
   OdometryConfig odometry;
+  MovementConfig movement;
   KeyframeConfig keyframes;
   StaticMapConfig static_map;
   OccupancyConfig occupancy;

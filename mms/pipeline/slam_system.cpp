@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "mms/localization/feature_exclusion.hpp"
+
 namespace mms {
 namespace {
 
@@ -24,6 +26,8 @@ SystemConfig with_shared_noise(SystemConfig config) {
   config.features.lidar_noise = config.lidar_noise;
   config.features.noise = config.depth_noise;
   config.static_map.surface.noise = config.depth_noise;
+  // Without masks, or with them alone, is how the method is compared with what was before it.
+  if (config.fusion.mode != FusionMode::kMultimodal) config.movement.enabled = false;
   return config;
 }
 
@@ -34,6 +38,7 @@ SlamSystem::SlamSystem(const SystemConfig& given, std::unique_ptr<Segmenter> seg
       fusion_(with_shared_noise(given).fusion),
       extractor_(with_shared_noise(given).features),
       odometry_(given.odometry, given.depth_noise),
+      movement_(with_shared_noise(given).movement, given.depth_noise),
       keyframes_(given.keyframes),
       static_map_(with_shared_noise(given).static_map),
       occupancy_map_(given.occupancy, with_shared_noise(given).static_map.surface),
@@ -63,17 +68,26 @@ Perception SlamSystem::perceive(const Frame& frame, const TimedSegmentation& mas
   return p;
 }
 
+void SlamSystem::leave_out_movement(Perception& perception) const {
+  const auto expected = odometry_.expected(perception.labeled.stamp);
+  if (!expected) return;
+  const Image<std::uint8_t> moved = movement_.relabel(perception.labeled, *expected);
+  if (!moved.empty()) exclude(moved, perception.labeled.camera, perception.features);
+}
+
 FrameResult SlamSystem::localize(Perception perception) {
   FrameResult result;
   result.stage_ms = perception.stage_ms;
-  result.cloud = std::move(perception.labeled);
-  result.dynamic_share = dynamic_share(result.cloud);
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
+    leave_out_movement(perception);
     return odometry_.estimate(std::move(perception.features));  // III-C.2, III-C.3, eqs. (3)-(5)
   });
+  result.cloud = std::move(perception.labeled);
+  result.dynamic_share = dynamic_share(result.cloud);
   result.keyframe = timed(result.stage_ms, Stage::kMapping, [&] {
     const bool keyframe = keyframes_.is_keyframe(result.odometry);  // III-C.4
     if (keyframe) {
+      movement_.remember(result.cloud, result.odometry.T_world_sensor);
       static_map_.integrate(result.cloud, result.odometry.T_world_sensor);  // III-D
       occupancy_map_.integrate(result.cloud, result.odometry.T_world_sensor);
     }

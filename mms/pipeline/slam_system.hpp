@@ -8,6 +8,7 @@
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/dynamic_map.hpp"
 #include "mms/mapping/keyframe_selector.hpp"
+#include "mms/mapping/movement.hpp"
 #include "mms/mapping/occupancy_map.hpp"
 #include "mms/mapping/static_map.hpp"
 #include "mms/pipeline/config.hpp"
@@ -51,10 +52,13 @@ class SlamSystem {
   const DynamicMap& dynamic_map() const { return dynamic_map_; }
 
  private:
+  void leave_out_movement(Perception& perception) const;
+
   std::unique_ptr<Segmenter> segmenter_;
   SemanticFusion fusion_;
   FeatureExtractor extractor_;
   Odometry odometry_;
+  Movement movement_;
   KeyframeSelector keyframes_;
   StaticMap static_map_;
   OccupancyMap occupancy_map_;

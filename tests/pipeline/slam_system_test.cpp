@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "mms/geometry/camera.hpp"
+#include "mms/segmentation/none_segmenter.hpp"
 #include "tests/geometry/threads.hpp"
 #include "tests/pipeline/played_scene.hpp"
 
@@ -116,6 +117,36 @@ TEST(SlamSystem, FollowsTheCameraWithMasksThatFail) {
   RecordProperty("ghost_percent", std::to_string(100.0 * ghosts));
   // Who had no mask yet in the first frames is in the map of so short a ride.
   EXPECT_LT(ghosts, 0.5 * ghost_share(played(FusionMode::kNone).map));
+}
+
+TEST(SlamSystem, FindsPeopleWithoutAnyMaskByTheirMovement) {
+  SceneConfig walker = scene_config("still_walker");
+  walker.width = 320;
+  SimulatedScene hall(walker);
+  SystemConfig config;
+  config.fusion.stride = 1;
+  SlamSystem system(config, std::make_unique<NoneSegmenter>());
+  std::size_t people = 0;
+  std::size_t found = 0;
+  std::size_t others = 0;
+  std::size_t wrong = 0;
+  for (int index = 0; index < 60; ++index) {
+    const SimulatedFrame frame = hall.render(index);
+    const FrameResult result = system.process(frame.frame);
+    for (std::size_t i = 0; i < result.cloud.labels.size(); ++i) {
+      if (result.cloud.labels[i] == PointLabel::kInvalid) continue;
+      const bool dynamic = result.cloud.labels[i] == PointLabel::kDynamic;
+      ++(frame.exact.object[i] != 0 ? people : others);
+      if (dynamic) ++(frame.exact.object[i] != 0 ? found : wrong);
+    }
+  }
+  const double recall = static_cast<double>(found) / static_cast<double>(people);
+  const double false_share = static_cast<double>(wrong) / static_cast<double>(others);
+  RecordProperty("people_percent", std::to_string(100.0 * recall));
+  RecordProperty("false_percent", std::to_string(100.0 * false_share));
+  EXPECT_GT(people, 10000U);
+  EXPECT_GT(recall, 0.4);
+  EXPECT_LT(false_share, 0.002);
 }
 
 TEST(SlamSystem, HardlyAnythingOfThePeopleIsInTheStaticMap) {

@@ -1,0 +1,27 @@
+#include "mms/localization/feature_exclusion.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "mms/geometry/camera.hpp"
+#include "mms/localization/intensity_pyramid.hpp"
+
+namespace mms {
+
+void exclude(const Image<std::uint8_t>& pixels, const CameraIntrinsics& camera,
+             FeatureCloud& features) {
+  const CameraModel model(camera);
+  const auto is_excluded = [&](const auto& feature) {
+    const Eigen::Vector3d point = feature.point.template cast<double>();
+    if (!(point.z() > 0.0) || !model.in_lens_range(point)) return false;
+    const Eigen::Vector2d pixel = model.project(point);
+    const auto x = static_cast<int>(std::lround(pixel.x()));
+    const auto y = static_cast<int>(std::lround(pixel.y()));
+    return pixels.contains(x, y) && pixels(x, y) != 0;
+  };
+  std::erase_if(features.edges, is_excluded);
+  std::erase_if(features.planes, is_excluded);
+  keep_clear(pixels, features.intensity);
+}
+
+}  // namespace mms
