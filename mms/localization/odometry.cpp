@@ -120,7 +120,9 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
 }
 
 std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {
-  if (!maps_) return std::nullopt;
+  constexpr double kSureTurnRate = 0.5;  // [rad/s]
+  const bool is_sure = maps_ && !lost_ && velocity_.tail<3>().norm() < kSureTurnRate;
+  if (!is_sure) return std::nullopt;
   return Transform<World, Sensor>(predict(stamp));
 }
 

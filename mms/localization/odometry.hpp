@@ -32,7 +32,8 @@ class Odometry {
   /// The frames must come in the order of their stamps. Never throws for bad frames: see Status.
   OdometryEstimate estimate(FeatureCloud features);
 
-  /// Where the next frame is expected, as far as the motion goes on; nothing before the first one.
+  /// Where the next frame is expected, as far as the motion goes on; nothing before the first one,
+  /// while lost, and in fast turns, where the motion of the last frame tells little of the next.
   std::optional<Transform<World, Sensor>> expected(Timestamp stamp) const;
 
  private:
