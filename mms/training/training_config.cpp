@@ -77,7 +77,7 @@ void TrainingConfig::visit(ConfigVisitor& v) {
             {1, kMany});
   v.group({"augmentation", "", "changes of the training images"}, augmentation);
   v.group({"schedule", "", "how the weights are learned"}, schedule);
-  v.boolean({"half_precision", "", "convolutions in bfloat16 (CUDA, CPUs with AMX)"},
+  v.boolean({"half_precision", "", "convolutions in bfloat16 where the device computes in it"},
             half_precision);
   v.boolean({"use_cuda", "", "where there is a GPU"}, use_cuda);
   v.integer({"cache_side", "px", "images are kept in memory no longer than this"}, cache_side,

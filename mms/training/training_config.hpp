@@ -71,7 +71,7 @@ struct TrainingConfig {
   int checkpoint_every = 2000;           ///< images seen between two checkpoints
   AugmentationConfig augmentation;
   ScheduleConfig schedule;
-  bool half_precision = true;  ///< convolutions in bfloat16 (CUDA, CPUs with AMX or AVX512-BF16)
+  bool half_precision = true;  ///< convolutions in bfloat16 (CUDA, CPUs with AVX512-BF16)
   bool use_cuda = true;        ///< where there is one
   int cache_side = 480;        ///< images are kept in memory no longer than this [px]
   int loader_threads = 1;      ///< that prepare images beside the training; 0: one a core

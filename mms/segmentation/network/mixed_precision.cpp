@@ -22,9 +22,18 @@ void switch_autocast(torch::DeviceType device, bool on) {
 #endif
 }
 
+bool cpu_computes_in_bfloat16() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx512bf16");
+#else
+  return false;
+#endif
+}
+
 }  // namespace
 
-MixedPrecision::MixedPrecision(bool on, torch::DeviceType device) : on_(on), device_(device) {
+MixedPrecision::MixedPrecision(bool wanted, torch::DeviceType device)
+    : on_(wanted && (device != torch::kCPU || cpu_computes_in_bfloat16())), device_(device) {
   if (on_) switch_autocast(device_, true);
 }
 

@@ -5,10 +5,11 @@
 namespace mms::network {
 
 /// While one lives, convolutions and matrix products of the device run in bfloat16 where that is
-/// sound (torch's autocast).
+/// sound (torch's autocast) and the device computes in it: without such instructions a CPU would
+/// only convert to and fro.
 class MixedPrecision {
  public:
-  MixedPrecision(bool on, torch::DeviceType device);
+  MixedPrecision(bool wanted, torch::DeviceType device);
   ~MixedPrecision();
   MixedPrecision(const MixedPrecision&) = delete;
   MixedPrecision& operator=(const MixedPrecision&) = delete;
