@@ -19,7 +19,11 @@ FusionConfig fusion_config(const SystemConfig& config) {
 
 SensorViews::SensorViews(RunRecord record, const SystemConfig& config,
                          std::vector<FrameRecord> frames)
-    : record_(std::move(record)), config_(config), frames_(std::move(frames)), source_(open()) {}
+    : record_(std::move(record)),
+      config_(config),
+      frames_(std::move(frames)),
+      source_(open()),
+      segmenter_(make_segmenter(record_.segmenter, record_.data, config_, *source_)) {}
 
 std::unique_ptr<FrameSource> SensorViews::open() const {
   return open_dataset(
@@ -48,7 +52,6 @@ std::shared_ptr<const SensorView> SensorViews::load(std::size_t index) {
   if (index >= frames_.size()) return nullptr;
   std::optional<Frame> frame = read(frames_[index]);
   if (!frame) return nullptr;
-  if (!segmenter_) segmenter_ = make_segmenter(record_.segmenter, record_.data, config_, *source_);
   if (!fusion_ || !last_ || index != *last_ + 1) fusion_.emplace(fusion_config(config_));
   last_ = index;
   LabeledCloud cloud = fusion_->fuse(*frame, segmenter_->segment(*frame));

@@ -22,11 +22,11 @@ namespace mms {
 class SensorViews {
  public:
   /// @param frames  of the run, with their places in the recording
-  /// @throws Error when the recording is not found or cannot be read.
+  /// @throws Error when the recording is not found or cannot be read, or nothing gives its masks.
   SensorViews(RunRecord record, const SystemConfig& config, std::vector<FrameRecord> frames);
 
   /// Null where the recording has no such frame any more.
-  /// @throws Error when there are no masks to be had.
+  /// @throws Error when the frame or its masks cannot be read.
   std::shared_ptr<const SensorView> load(std::size_t frame);
 
  private:
@@ -37,7 +37,7 @@ class SensorViews {
   SystemConfig config_;
   std::vector<FrameRecord> frames_;
   std::unique_ptr<FrameSource> source_;
-  std::unique_ptr<Segmenter> segmenter_;  // made when first wanted: networks take a while
+  std::unique_ptr<Segmenter> segmenter_;
   std::optional<SemanticFusion> fusion_;
   std::int64_t position_ = 0;        // of the source: the frame it gives next
   std::optional<std::size_t> last_;  // frame of the run that was loaded last

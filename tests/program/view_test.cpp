@@ -97,6 +97,21 @@ TEST(View, SaysWhyThereAreNoPicturesWhenTheRecordingIsGone) {
   EXPECT_EQ(lines_with(outcome, "warning: no images and scans to show"), 1);
 }
 
+TEST(View, SaysWhyThereAreNoPicturesWhenTheNetworkIsGone) {
+  const TempFolder folder;
+  const fs::path weights = folder.path() / "own.safetensors";
+  fs::copy(MMS_SOURCE_DIR "/weights/nano.safetensors", weights);
+  write_scene(folder.path() / "data", small_scene(3));
+  folder.write("own.yaml", "segmentation: {weights: " + weights.string() + "}\n");
+  expect_done(run_mms(folder.path(), {"run", "data", "-c", "own.yaml", "-o", "out"}));
+  fs::remove(weights);
+  RunningMms program(folder.path(), {"view", "out", "--port", "0"});
+  ViewerClient client(port_of(folder));
+  const nlohmann::json hello = client.wait_for("hello").json;
+  EXPECT_EQ(hello["has_pictures"], false);
+  expect_in("own.safetensors", hello["pictures_note"].get<std::string>());
+}
+
 TEST(View, ShowsWhatAKilledRunLeft) {
   const TempFolder folder;
   run_scene(folder, {"--keep-journal"});
