@@ -1,9 +1,9 @@
-const kPlurals: Record<string, string> = { person: 'people', agv: 'AGVs', vehicle: 'vehicles' };
+const kPlurals: Record<string, string> = { person: 'people', agv: 'AGVs', vehicle: 'vehicles', unknown: 'unknown' };
 const kSingulars: Record<string, string> = { agv: 'AGV' };
 
-/** "2 people", "1 AGV". */
-export function counted(count: number, name: string): string {
-  return `${count} ${count === 1 ? className(name) : (kPlurals[name] ?? `${name}s`)}`;
+/** What so many of a class are called: "people" of two, "AGV" of one. */
+export function classWord(count: number, name: string): string {
+  return count === 1 ? className(name) : (kPlurals[name] ?? `${name}s`);
 }
 
 /** A class as a word in a sentence. */

@@ -1,4 +1,5 @@
-import { counted } from '../state/class_words';
+import { classColor } from '../scene/palette';
+import { classWord } from '../state/class_words';
 import type { Run } from '../state/run';
 import { h, part, setText } from './dom';
 import { quantity } from './format';
@@ -16,6 +17,7 @@ export class Readout {
   private readonly dynamic = tile('tile');
   private readonly error = tile('tile');
   private readonly time = tile('tile optional');
+  private shownCounts: string | null = null;
 
   constructor(private readonly run: Run) {
     const tiles = [this.status, this.objects, this.dynamic, this.error, this.time];
@@ -31,7 +33,8 @@ export class Readout {
     if (!frame) return;
     this.status.root.dataset.status = frame.lost ? 'lost' : frame.status;
     fill(this.status, statusWord(frame.status, frame.lost), 'localisation');
-    fill(this.objects, this.counts(), 'tracked');
+    setText(this.objects.label, 'tracked');
+    this.showCounts();
     fill(this.dynamic, quantity(this.value('dynamic_share'), 'ratio'), 'dynamic');
     const [error, drift] = [this.value('error_cm'), this.value('drift_cm')];
     this.error.root.hidden = (error ?? drift) === undefined;
@@ -53,12 +56,23 @@ export class Readout {
     return known.length ? known.reduce((sum, value) => sum + value, 0) : undefined;
   }
 
-  private counts(): string {
+  private showCounts(): void {
     const byClass = new Map<string, number>();
     for (const object of this.run.frame?.objects ?? []) byClass.set(object.class, (byClass.get(object.class) ?? 0) + 1);
-    if (byClass.size === 0) return 'nobody';
-    return [...byClass].map(([name, count]) => counted(count, name)).join(' · ');
+    const text = [...byClass].map(([name, count]) => `${name} ${count}`).join();
+    if (text === this.shownCounts) return;
+    this.shownCounts = text;
+    const counts = [...byClass].map(([name, count]) => classCount(count, name));
+    this.objects.value.replaceChildren(...(counts.length ? counts : ['nobody']));
   }
+}
+
+/** "2 people"; on narrow screens a dot in the colour of the class stands for the word. */
+function classCount(count: number, name: string): HTMLElement {
+  const dot = h('i');
+  dot.style.background = classColor(name);
+  const word = classWord(count, name);
+  return h('span', { class: 'count', title: word }, dot, String(count), h('span', { class: 'word' }, ` ${word}`));
 }
 
 function statusWord(status: string, lost: boolean): string {

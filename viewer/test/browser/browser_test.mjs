@@ -96,13 +96,13 @@ test('points and boxes are drawn, and every layer goes and comes by its switch',
   const full = await eventually('the map', pixels, ({ lit, all }) => lit > kMap * all);
   for (const layer of ['scan', 'trails', 'labels', 'trajectory', 'truth', 'camera', 'grid']) await show(layer, false);
   await show('map', false);
-  const boxes = await eventually('only boxes', pixels, ({ lit, red, all }) => red > 80 && lit < kMap * all);
+  const boxes = await eventually('only boxes of people and vehicles', pixels, ({ lit, red, green, all }) => red > 80 && green > 80 && lit < kMap * all);
   await show('boxes', false);
-  await eventually('nothing at all', pixels, ({ red }) => red < 0.1 * boxes.red);
+  await eventually('nothing at all', pixels, ({ red, green }) => red < 0.1 * boxes.red && green < 0.1 * boxes.green);
   await show('map', true);
   await eventually('the map again', pixels, ({ lit }) => lit > 0.5 * full.lit);
   for (const layer of ['scan', 'trails', 'labels', 'trajectory', 'truth', 'camera', 'grid', 'boxes']) await show(layer, true);
-  await eventually('boxes again', pixels, ({ red }) => red > 0.3 * boxes.red);
+  await eventually('boxes again', pixels, ({ red, green }) => red > 0.3 * boxes.red && green > 0.3 * boxes.green);
   const masked = await countPixels(page, page.locator('#image'));
   await page.keyboard.press('k');
   await eventually('the image without masks', () => countPixels(page, page.locator('#image')), ({ sum }) => sum !== masked.sum);

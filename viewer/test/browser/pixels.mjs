@@ -1,6 +1,6 @@
 // What is really drawn: pixels of pictures of the page, counted in the browser itself.
 
-/** Red of the people's boxes, and anything much lighter than the background. */
+/** Red of the people's boxes, green of the vehicles', and anything much lighter than the background. */
 export async function countPixels(page, locator) {
   const picture = (await locator.screenshot()).toString('base64');
   return page.evaluate(async (base64) => {
@@ -11,11 +11,12 @@ export async function countPixels(page, locator) {
     const context = canvas.getContext('2d');
     context.drawImage(image, 0, 0);
     const { data } = context.getImageData(0, 0, image.width, image.height);
-    const count = { all: data.length / 4, lit: 0, red: 0, sum: 0 };
+    const count = { all: data.length / 4, lit: 0, red: 0, green: 0, sum: 0 };
     for (let i = 0; i < data.length; i += 4) {
       const [r, g, b] = data.subarray(i, i + 3);
       if (Math.max(r, g, b) > 70) ++count.lit;
       if (r > 200 && g < 130 && b < 140 && r - Math.max(g, b) > 90) ++count.red;
+      if (g > 150 && r < 130 && b < 170 && g - Math.max(r, b) > 60) ++count.green;
       count.sum = (count.sum + (i + 1) * (r + 3 * g + 7 * b)) % 1_000_000_007;
     }
     return count;

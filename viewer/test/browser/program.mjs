@@ -10,7 +10,7 @@ export function makeRun(folder) {
   if (!kProgram) throw new Error('MMS_PROGRAM does not say where mms is');
   const [recording, results] = [join(folder, 'recording'), join(folder, 'run')];
   const mms = (...words) => execFileSync(kProgram, words, { stdio: ['ignore', 'ignore', 'inherit'] });
-  mms('simulate', 'warehouse_loop', '-o', recording, '--frames', '24', '--blur', '1');
+  mms('simulate', 'stop_and_go', '-o', recording, '--frames', '24', '--blur', '1');
   mms('run', recording, '--segmenter', 'masks', '-o', results);
   return results;
 }

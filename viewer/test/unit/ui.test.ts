@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { plotData } from '../../src/ui/chart_data';
-import { counted } from '../../src/state/class_words';
+import { classWord } from '../../src/state/class_words';
 import { clock, quantity, words } from '../../src/ui/format';
 import { tint } from '../../src/ui/mask_overlay';
 
@@ -16,9 +16,9 @@ describe('format', () => {
   });
 
   it('speaks of objects in words', () => {
-    expect(counted(1, 'person')).toBe('1 person');
-    expect(counted(3, 'person')).toBe('3 people');
-    expect(counted(1, 'agv')).toBe('1 AGV');
+    expect(classWord(1, 'person')).toBe('person');
+    expect(classWord(3, 'person')).toBe('people');
+    expect(classWord(1, 'agv')).toBe('AGV');
     expect(words('dynamic_share')).toBe('dynamic share');
     expect(words('drift_cm')).toBe('drift');
   });
