@@ -21,7 +21,7 @@ enum class PointLabel : std::uint8_t {
 /// One dynamic object as this frame shows it (III-B.2), in the sensor frame [m].
 struct DynamicCluster {
   ObjectClass object_class = ObjectClass::kPerson;
-  float score = 1.0F;
+  float score = 1.0F;  ///< of its mask, in (0, 1]; 0 without one
   /// Index of its mask; -1 where that is not known. Of several clusters under one mask the first is
   /// the object, the others are what else the mask covers.
   int instance = -1;

@@ -10,11 +10,17 @@ namespace mms {
 
 /// The potentially dynamic object classes, numbered as in mask images (value = 1 + class id) and
 /// COCO results (category id = 1 + class id).
-enum class ObjectClass : std::uint8_t { kPerson = 0, kAgv = 1 };
-inline constexpr int kObjectClassCount = 2;
+enum class ObjectClass : std::uint8_t {
+  kPerson = 0,
+  kAgv = 1,
+  kUnknown = 2,  ///< it moves, but no mask names it; no network and no mask gives this one
+};
+inline constexpr int kObjectClassCount = 2;                       ///< that masks may have
+inline constexpr int kTrackedClassCount = kObjectClassCount + 1;  ///< that objects may have
 
 constexpr std::string_view to_string(ObjectClass object_class) {
-  return object_class == ObjectClass::kPerson ? "person" : "agv";
+  constexpr std::string_view kNames[kTrackedClassCount] = {"person", "agv", "unknown"};
+  return kNames[static_cast<int>(object_class)];
 }
 
 /// One segmented object (C_i, M_i of the paper's III-A).

@@ -51,10 +51,10 @@ Timestamp read_stamp(const JsonEntry& entry) {
 
 ObjectClass read_class(const JsonEntry& entry) {
   const std::string name = entry.text();
-  for (int i = 0; i < kObjectClassCount; ++i) {
+  for (int i = 0; i < kTrackedClassCount; ++i) {
     if (name == to_string(static_cast<ObjectClass>(i))) return static_cast<ObjectClass>(i);
   }
-  entry.fail("is '" + name + "', allowed are person and agv");
+  entry.fail("is '" + name + "', allowed are person, agv and unknown");
 }
 
 /// What the two files have in common.

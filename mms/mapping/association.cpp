@@ -20,13 +20,17 @@ double gate_of(const Track& track, const AssociationConfig& config) {
                     std::max(config.gate_radius, config.max_gate));
 }
 
+bool may_be_one(ObjectClass a, ObjectClass b) {
+  return a == b || a == ObjectClass::kUnknown || b == ObjectClass::kUnknown;
+}
+
 double cost_of(const Track& track, const ObjectMeasurement& object,
                const AssociationConfig& config) {
   const double distance = (track.fit(object).center - track.position()).norm();
   const bool is_near = distance <= gate_of(track, config);
   if (!is_near && !track.contains(object.centroid, 0.0)) return kNever;
   double cost = distance / config.gate_radius;
-  if (track.object_class() != object.object_class) cost += config.class_penalty;
+  if (!may_be_one(track.object_class(), object.object_class)) cost += config.class_penalty;
   const std::optional<double> difference = track.appearance().difference(object.appearance);
   const bool is_back = distance > config.gate_radius;
   const double allowed = is_back ? config.returning_color_difference : config.max_color_difference;

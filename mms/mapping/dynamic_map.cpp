@@ -7,6 +7,7 @@ namespace {
 
 /// By which a track's box is grown to tell parts of its object, and others beside it [m].
 constexpr double kPartMargin = 0.1;
+constexpr double kLoosePartMargin = 0.3;  // of what moves without a mask, as an arm may
 
 /// Share of a cluster's points in another object's box that makes it a cluster of both.
 constexpr double kSharedPart = 0.25;
@@ -44,7 +45,7 @@ void DynamicMap::let_go() {
 
 bool DynamicMap::is_over(const Track& track) const {
   return track.confirmed() ? to_seconds(last_stamp_ - track.last_seen()) > config_.max_missed
-                           : to_seconds(last_stamp_ - track.last_named()) > config_.max_tentative;
+                           : to_seconds(last_stamp_ - track.last_told()) > config_.max_tentative;
 }
 
 void DynamicMap::watch_ground(const LabeledCloud& cloud,
@@ -72,16 +73,20 @@ void DynamicMap::extend(const std::vector<ObjectMeasurement>& objects,
 void DynamicMap::begin_new(const std::vector<ObjectMeasurement>& objects,
                            const std::vector<int>& track_of) {
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const bool has_mask = objects[i].score > 0.0F;
-    if (track_of[i] >= 0 || !has_mask || is_part_of_a_track(objects[i])) continue;
+    // What follows an object without a mask of its own begins none.
+    const bool is_told =
+        objects[i].score > 0.0F || objects[i].object_class == ObjectClass::kUnknown;
+    if (track_of[i] >= 0 || !is_told || is_part_of_a_track(objects[i])) continue;
     confirm(tracks_.emplace_back(next_id_++, objects[i], *ground_, config_.track));
   }
 }
 
 void DynamicMap::confirm(Track& track) {
   const auto& prior = config_.track.classes[static_cast<std::size_t>(track.object_class())];
-  const bool enough = track.observations() >= config_.confirm_after;
-  if (track.confirmed() || !enough || track.score() < prior.min_score) return;
+  const bool is_named =
+      track.observations() >= config_.confirm_after && track.score() >= prior.min_score;
+  if (track.confirmed() || !(is_named || track.movements() >= config_.confirm_unknown_after))
+    return;
   if (const std::optional<Track> lost = lost_.take(track)) {
     track.continue_as(*lost);
     return;
@@ -91,9 +96,10 @@ void DynamicMap::confirm(Track& track) {
 }
 
 bool DynamicMap::is_part_of_a_track(const ObjectMeasurement& object) const {
+  const bool is_named = object.object_class != ObjectClass::kUnknown;
   return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
-    return track.confirmed() && track.last_seen() == object.stamp &&
-           track.contains(object.centroid, kPartMargin);
+    return (track.confirmed() || !is_named) && track.last_seen() == object.stamp &&
+           track.contains(object.centroid, is_named ? kPartMargin : kLoosePartMargin);
   });
 }
 

@@ -18,6 +18,7 @@ struct DynamicMapConfig {
   AssociationConfig association;
   TrackConfig track;
   int confirm_after = 4;
+  int confirm_unknown_after = 10;
   double max_missed = 1.5;     ///< [s]
   double max_tentative = 1.0;  ///< [s]
   double max_shown = 0.5;      ///< [s]
@@ -28,6 +29,8 @@ struct DynamicMapConfig {
     v.group({"track", "", "how objects move and are seen"}, track);
     v.integer({"confirm_after", "", "observations that make a tentative track one"}, confirm_after,
               {1.0, 100.0});
+    v.integer({"confirm_unknown_after", "", "the same of what moves without a mask"},
+              confirm_unknown_after, {1.0, 1000.0});
     v.number({"max_missed", "s", "longest time a track goes on unseen"}, max_missed, {0.0, 60.0});
     v.number({"max_tentative", "s", "the same for a tentative one, unseen by the network"},
              max_tentative, {0.0, 60.0});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,8 @@ constexpr double kOpenShare = 0.9;     // of the nodes in a disc that are on no 
 constexpr double kFreeShare = 0.3;     // of them that stand in free space
 constexpr std::size_t kMinNodes = 30;  // of a thing
 constexpr double kMaxBlank = 0.8;      // share of a thing's nodes in space that was blank
+constexpr int kNextTo = 2;             // nodes from a thing to a cluster that it adjoins
+constexpr int kFewestNext = 5;         // of its nodes next to such a cluster
 
 /// What the views say of the place of a node.
 enum Place : std::uint8_t {
@@ -119,7 +122,46 @@ std::vector<std::pair<int, int>> take_thing(const Nodes& nodes, std::pair<int, i
   return thing;
 }
 
-void make_dynamic(const std::vector<std::pair<int, int>>& thing, LabeledCloud& cloud,
+/// The cluster that most of the thing hangs together with, of which it is what the mask left out;
+/// -1 where there is none.
+int adjoining_cluster(const Nodes& nodes, const std::vector<std::pair<int, int>>& thing,
+                      const DepthNoise& noise) {
+  std::vector<int> next_to(nodes.cloud.clusters.size(), 0);
+  for (const auto& [cx, cy] : thing) {
+    const float z = nodes.depth(cx, cy);
+    const float gap = kGap + 2.0F * noise.sigma(z);
+    for (int y = std::max(0, cy - kNextTo); y <= std::min(cy + kNextTo, nodes.height - 1); ++y) {
+      for (int x = std::max(0, cx - kNextTo); x <= std::min(cx + kNextTo, nodes.width - 1); ++x) {
+        const int cluster = nodes.cloud.cluster[nodes.pixel(x, y)];
+        if (cluster < 0 || !(std::abs(nodes.depth(x, y) - z) <= gap)) continue;
+        ++next_to[static_cast<std::size_t>(cluster)];
+      }
+    }
+  }
+  const auto most = std::max_element(next_to.begin(), next_to.end());
+  if (most == next_to.end() || *most < kFewestNext) return -1;
+  return static_cast<int>(most - next_to.begin());
+}
+
+/// Index of a new cluster without points, of something that no mask named.
+int add_unknown(LabeledCloud& cloud) {
+  DynamicCluster cluster;
+  cluster.object_class = ObjectClass::kUnknown;
+  cluster.score = 0.0F;
+  cluster.box_min.setConstant(std::numeric_limits<float>::infinity());
+  cluster.box_max.setConstant(-std::numeric_limits<float>::infinity());
+  cloud.clusters.push_back(cluster);
+  return static_cast<int>(cloud.clusters.size()) - 1;
+}
+
+void add(const Eigen::Vector3f& point, DynamicCluster& cluster) {
+  ++cluster.points;
+  cluster.centroid += (point - cluster.centroid) / static_cast<float>(cluster.points);
+  cluster.box_min = cluster.box_min.cwiseMin(point);
+  cluster.box_max = cluster.box_max.cwiseMax(point);
+}
+
+void make_dynamic(const std::vector<std::pair<int, int>>& thing, int cluster, LabeledCloud& cloud,
                   Image<std::uint8_t>& moved) {
   for (const auto& [nx, ny] : thing) {
     for (int y = kStep * ny; y < kStep * (ny + 1); ++y) {
@@ -128,6 +170,8 @@ void make_dynamic(const std::vector<std::pair<int, int>>& thing, LabeledCloud& c
                        static_cast<std::size_t>(x);
         if (cloud.labels[i] != PointLabel::kStatic) continue;
         cloud.labels[i] = PointLabel::kDynamic;
+        cloud.cluster[i] = static_cast<std::int16_t>(cluster);
+        add(cloud.points[i], cloud.clusters[static_cast<std::size_t>(cluster)]);
         cloud.dynamic_pixels[i] = 1;
         moved[i] = 1;
       }
@@ -141,17 +185,19 @@ Image<std::uint8_t> Movement::relabel(LabeledCloud& cloud,
                                       const Transform<World, Sensor>& T_world_sensor) const {
   if (!config_.enabled || !cloud.organised() || views_.empty()) return {};
   const Nodes nodes(cloud);
-  std::vector<Eigen::Isometry3f> to_view;
+  std::vector<std::pair<const FreeSpace*, Eigen::Isometry3f>> views;
   for (const View& view : views_) {
-    to_view.push_back(view.T_sensor_world * T_world_sensor.isometry().cast<float>());
+    if (is_forgotten(view, cloud.stamp)) continue;
+    views.emplace_back(&view.free_space,
+                       view.T_sensor_world * T_world_sensor.isometry().cast<float>());
   }
   const auto place_of = [&](const Eigen::Vector3f& point) {
     Place place = kUnknown;
-    for (std::size_t v = 0; v < views_.size(); ++v) {
-      const Eigen::Vector3f there = to_view[v] * point;
-      if (views_[v].free_space.sees_through(there)) return kFree;
-      if (views_[v].free_space.touches(there)) place = kSurface;
-      if (place == kUnknown && views_[v].free_space.is_blank(there)) place = kBlank;
+    for (const auto& [free_space, T_view_sensor] : views) {
+      const Eigen::Vector3f there = T_view_sensor * point;
+      if (free_space->sees_through(there)) return kFree;
+      if (free_space->touches(there)) place = kSurface;
+      if (place == kUnknown && free_space->is_blank(there)) place = kBlank;
     }
     return place;
   };
@@ -170,22 +216,26 @@ Image<std::uint8_t> Movement::relabel(LabeledCloud& cloud,
   if (cloud.dynamic_pixels.empty()) {
     cloud.dynamic_pixels = Image<std::uint8_t>(cloud.width, cloud.height);
   }
+  if (cloud.cluster.empty()) cloud.cluster.assign(cloud.points.size(), -1);
   Image<std::uint8_t> moved;
   for (const auto& core : find_cores(nodes, places, config_.radius)) {
     if (places(core.first, core.second) != kFree) continue;
     const auto thing = take_thing(nodes, core, noise_, places);
     if (thing.empty()) continue;
     if (moved.empty()) moved = Image<std::uint8_t>(cloud.width, cloud.height);
-    make_dynamic(thing, cloud, moved);
+    const int cluster = adjoining_cluster(nodes, thing, noise_);
+    make_dynamic(thing, cluster < 0 ? add_unknown(cloud) : cluster, cloud, moved);
   }
   return moved;
 }
 
+bool Movement::is_forgotten(const View& view, Timestamp now) const {
+  return to_seconds(now - view.stamp) > config_.memory;
+}
+
 void Movement::remember(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor) {
   if (!config_.enabled || !cloud.organised()) return;
-  while (!views_.empty() && to_seconds(cloud.stamp - views_.front().stamp) > config_.memory) {
-    views_.pop_front();
-  }
+  while (!views_.empty() && is_forgotten(views_.front(), cloud.stamp)) views_.pop_front();
   if (!views_.empty() && to_seconds(cloud.stamp - views_.back().stamp) < config_.interval) return;
   views_.push_back({cloud.stamp, FreeSpace(cloud, config_.margin, noise_),
                     T_world_sensor.isometry().inverse().cast<float>()});

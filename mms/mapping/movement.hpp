@@ -45,7 +45,8 @@ class Movement {
       : config_(config), noise_(noise) {}
 
   /// Makes static points of `cloud` dynamic that stand in free space, as far as they belong to
-  /// things wider than the rims that an error of `T_world_sensor`, the expected pose, gives.
+  /// things wider than the rims that an error of `T_world_sensor`, the expected pose, gives. A
+  /// thing that adjoins a cluster becomes a part of it, any other one a cluster of unknown class.
   /// @returns non-zero at their pixels; empty where there are none
   Image<std::uint8_t> relabel(LabeledCloud& cloud,
                               const Transform<World, Sensor>& T_world_sensor) const;
@@ -59,6 +60,8 @@ class Movement {
     FreeSpace free_space;
     Eigen::Isometry3f T_sensor_world;
   };
+
+  bool is_forgotten(const View& view, Timestamp now) const;
 
   MovementConfig config_;
   DepthNoise noise_;

@@ -12,9 +12,11 @@ constexpr double kLongestGap = 0.5;
 
 constexpr Rgb kRed = {230, 30, 30};
 constexpr Rgb kGreen = {30, 190, 60};
+constexpr Rgb kAmber = {240, 170, 30};
 
 Rgb color_of(ObjectClass object_class) {
-  return object_class == ObjectClass::kPerson ? kRed : kGreen;
+  constexpr Rgb kColors[kTrackedClassCount] = {kRed, kGreen, kAmber};
+  return kColors[static_cast<int>(object_class)];
 }
 
 struct Seen {

@@ -29,6 +29,10 @@ double turn(double from, double to, double period) {
   return difference - period * std::floor(difference / period + 0.5);
 }
 
+bool is_named(const ObjectMeasurement& object) {
+  return object.score > 0.0F;
+}
+
 bool is_round(ObjectClass object_class) {
   return object_class == ObjectClass::kPerson;
 }
@@ -42,17 +46,17 @@ Track::Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
       id_(id),
       first_seen_(first.stamp),
       last_seen_(first.stamp),
-      last_named_(first.stamp),
+      last_told_(first.stamp),
       predicted_(first.stamp),
       last_position_(first.centroid),
       motion_(first.centroid, ground.up(), kFirstPositionSigma, kFirstVelocitySigma),
       heading_(ground.heading_of(first.sensor - first.centroid)),
       size_(config.classes[static_cast<std::size_t>(first.object_class)].size()) {
-  ++votes_[static_cast<std::size_t>(first.object_class)];
+  if (is_named(first)) ++votes_[static_cast<std::size_t>(first.object_class)];
   learn_heading(first);
   motion_ = MotionFilter(fit(first, std::nullopt).center, ground.up(), kFirstPositionSigma,
                          kFirstVelocitySigma);
-  --votes_[static_cast<std::size_t>(first.object_class)];
+  votes_ = {};
   update(first, false);
 }
 
@@ -83,7 +87,6 @@ void Track::take_name(const ObjectMeasurement& object) {
   const ObjectClass before = object_class();
   ++votes_[static_cast<std::size_t>(object.object_class)];
   ++observations_;
-  last_named_ = object.stamp;
   score_ += (static_cast<double>(object.score) - score_) / std::min(observations_, kScoreMemory);
   if (object_class() == before) return;
   size_ = config_.classes[static_cast<std::size_t>(object_class())].size();
@@ -91,7 +94,10 @@ void Track::take_name(const ObjectMeasurement& object) {
 }
 
 void Track::update(const ObjectMeasurement& object, bool shared) {
-  if (object.score > 0.0F) take_name(object);
+  if (is_named(object)) take_name(object);
+  const bool moves = object.object_class == ObjectClass::kUnknown;
+  if (moves) ++movements_;
+  if (is_named(object) || moves) last_told_ = object.stamp;
   last_seen_ = object.stamp;
   const BoxFit seen = fit(object);
   motion_.update(seen.center, sigma_of(object, shared || !seen.anchored));
@@ -173,6 +179,9 @@ void Track::judge_motion() {
 }
 
 ObjectClass Track::object_class() const {
+  if (std::all_of(votes_.begin(), votes_.end(), [](int votes) { return votes == 0; })) {
+    return ObjectClass::kUnknown;
+  }
   return static_cast<ObjectClass>(std::max_element(votes_.begin(), votes_.end()) - votes_.begin());
 }
 

@@ -47,17 +47,18 @@ class Track {
 
   int id() const { return id_; }
   int observations() const { return observations_; }  ///< with a mask of their own
+  int movements() const { return movements_; }        ///< told by nothing but its movement
   Timestamp first_seen() const { return first_seen_; }
   Timestamp last_seen() const { return last_seen_; }
   Eigen::Vector3d last_position() const { return last_position_; }  ///< at last_seen
-  Timestamp last_named() const { return last_named_; }              ///< seen with a mask of its own
+  Timestamp last_told() const { return last_told_; }  ///< seen with a mask of its own, or to move
   Eigen::Vector3d position() const { return motion_.position(); }
   Eigen::Matrix3d position_covariance() const { return motion_.position_covariance(); }
   Eigen::Matrix3d velocity_covariance() const { return motion_.velocity_covariance(); }
   const Eigen::Vector3d& size() const { return size_; }
   const Appearance& appearance() const { return appearance_; }
   double score() const { return score_; }  ///< mean over the last observations, in [0, 1]
-  ObjectClass object_class() const;        ///< the one that most frames saw
+  ObjectClass object_class() const;        ///< the one that most masks have
 
   ObjectBox box() const;
 
@@ -77,11 +78,12 @@ class Track {
   GroundFrame ground_;
   int id_;
   int observations_ = 0;
+  int movements_ = 0;
   double score_ = 0.0;
   bool confirmed_ = false;
   Timestamp first_seen_;
   Timestamp last_seen_;
-  Timestamp last_named_;
+  Timestamp last_told_;
   Timestamp predicted_;
   Eigen::Vector3d last_position_;
   std::array<int, kObjectClassCount> votes_{};

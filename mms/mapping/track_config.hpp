@@ -38,8 +38,8 @@ struct TrackConfig {
   double max_speed = 3.0;           ///< [m/s]
   double moving_speed = 0.2;        ///< [m/s]
   double stopped_speed = 0.12;      ///< [m/s]
-  std::array<ClassPrior, kObjectClassCount> classes{
-      {{0.6, 0.5, 1.7, 20, 0.35}, {1.2, 0.8, 1.2, 1, 0.5}}};
+  std::array<ClassPrior, kTrackedClassCount> classes{
+      {{0.6, 0.5, 1.7, 20, 0.35}, {1.2, 0.8, 1.2, 1, 0.5}, {0.5, 0.5, 1.0, 1, 0.0}}};
 
   void visit(ConfigVisitor& v) {
     v.number({"acceleration_noise", "m^2/s^3", "how quickly objects change their velocity"},
@@ -55,6 +55,7 @@ struct TrackConfig {
              stopped_speed, {0.0, 10.0});
     v.group({"person", "", "a person before it was seen"}, classes[0]);
     v.group({"agv", "", "a vehicle before it was seen"}, classes[1]);
+    v.group({"unknown", "", "what moves without a name before it was seen"}, classes[2]);
   }
 };
 

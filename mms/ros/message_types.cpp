@@ -120,12 +120,13 @@ const Entries& entries() {
         {"std_msgs/Header", "mms_msgs/Instance"}}},
       {"mms_msgs/Object",
        {"",
-        "uint8 PERSON=0\nuint8 AGV=1\nuint32 id\nuint8 object_class\nfloat32 score\nbool "
+        "uint8 PERSON=0\nuint8 AGV=1\nuint8 UNKNOWN=2\nuint32 id\nuint8 object_class\nfloat32 "
+        "score\nbool "
         "moving\ngeometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\ngeometry_msgs/Vector3 "
         "velocity\n",
         {}}},
       {"mms_msgs/Objects",
-       {"784efad7f257b607e94bbef51da4cf42",
+       {"c4b1e6e18ca86e4ec5e372ed9196a91f",
         "Header header\nObject[] objects\n",
         {"std_msgs/Header", "mms_msgs/Object", "geometry_msgs/Pose", "geometry_msgs/Point",
          "geometry_msgs/Quaternion", "geometry_msgs/Vector3"}}},

@@ -94,7 +94,7 @@ void add_pictures(MessageWriter& writer, const EncodedPictures& pictures,
 Message hello_message(const SceneInfo& info, const std::vector<std::string>& files,
                       std::string_view version) {
   Json classes = Json::array();
-  for (int i = 0; i < kObjectClassCount; ++i) {
+  for (int i = 0; i < kTrackedClassCount; ++i) {
     classes.push_back(to_string(static_cast<ObjectClass>(i)));
   }
   return MessageWriter({{"type", "hello"},

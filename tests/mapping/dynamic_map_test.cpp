@@ -95,6 +95,50 @@ TEST(DynamicMap, CoastsBehindAPillarAndEndsAfterThat) {
   EXPECT_EQ(map.objects()[0].box.id, 2);
 }
 
+/// What no mask named, but which moves.
+DynamicCluster moving_at(const Eigen::Vector3f& center) {
+  DynamicCluster cluster = cluster_at(center, ObjectClass::kUnknown);
+  cluster.score = 0.0F;
+  return cluster;
+}
+
+TEST(DynamicMap, WhatMovesWithoutAMaskIsAnObjectOfUnknownClass) {
+  DynamicMap map;
+  const auto at = [](int i) { return moving_at({static_cast<float>(0.07 * i), 0.0F, 3.0F}); };
+  for (int i = 0; i < 9; ++i) give(map, i, {at(i)});
+  EXPECT_TRUE(map.objects().empty());  // it may be an error of the pose
+  for (int i = 9; i < 20; ++i) give(map, i, {at(i)});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_EQ(map.objects()[0].box.object_class, ObjectClass::kUnknown);
+  EXPECT_TRUE(map.objects()[0].box.moving);
+  EXPECT_NEAR(map.objects()[0].box.velocity.x(), 1.05, 0.2);
+}
+
+TEST(DynamicMap, ItGetsTheNameThatAMaskGives) {
+  DynamicMap map;
+  const auto place = [](int i) { return Eigen::Vector3f(static_cast<float>(0.07 * i), 0, 3); };
+  for (int i = 0; i < 20; ++i) give(map, i, {moving_at(place(i))});
+  for (int i = 20; i < 24; ++i) give(map, i, {cluster_at(place(i))});
+  for (int i = 24; i < 40; ++i) give(map, i, {moving_at(place(i))});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_EQ(map.objects()[0].box.object_class, ObjectClass::kPerson);
+  EXPECT_EQ(map.objects()[0].box.id, 1);
+  EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
+}
+
+TEST(DynamicMap, WhatMovesBesideAnObjectIsAPartOfIt) {
+  DynamicMap map;
+  for (int i = 0; i < 40; ++i) {
+    const Eigen::Vector3f place(static_cast<float>(0.07 * i), 0, 3);
+    DynamicCluster arm = moving_at(place + Eigen::Vector3f(0.4F, 0.0F, 0.0F));
+    arm.box_min = arm.centroid.array() - 0.1F;
+    arm.box_max = arm.centroid.array() + 0.1F;
+    give(map, i, {cluster_at(place), arm});
+  }
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_EQ(map.confirmed(), 1);
+}
+
 TEST(DynamicMap, OneThatStandsForTwentySecondsStaysTheSameObject) {
   DynamicMap map;
   for (int i = 0; i < 30; ++i) {

@@ -52,6 +52,57 @@ TEST(Movement, IsWhatStandsWhereSpaceWasFree) {
   }
 }
 
+TEST(Movement, IsAClusterOfUnknownClass) {
+  LabeledCloud cloud = wall_with_thing(0.5, 60);
+  after_a_view_of_the_wall().relabel(cloud, kHere);
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  const DynamicCluster& thing = cloud.clusters[0];
+  EXPECT_EQ(thing.object_class, ObjectClass::kUnknown);
+  EXPECT_EQ(thing.score, 0.0F);
+  EXPECT_EQ(thing.instance, -1);
+  EXPECT_EQ(thing.points, static_cast<int>(kThing));
+  EXPECT_TRUE(thing.centroid.isApprox(0.5F * (thing.box_min + thing.box_max), 1e-3F));
+  EXPECT_NEAR(thing.box_max.x() - thing.box_min.x(), 39 * 2.0F / 130.0F, 1e-3F);
+  EXPECT_EQ(thing.box_min.z(), 2.0F);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    EXPECT_EQ(cloud.cluster[i] == 0, cloud.labels[i] == PointLabel::kDynamic);
+  }
+}
+
+/// Makes the points of `wall_with_thing`'s thing with y in [low, high) those of a person.
+void name_rows(LabeledCloud& cloud, int low, int high) {
+  cloud.clusters.emplace_back().points = 40 * (high - low);
+  for (int y = low; y < high; ++y) {
+    for (int x = 60; x < 100; ++x) {
+      const auto i = static_cast<std::size_t>(160 * y + x);
+      cloud.labels[i] = PointLabel::kDynamic;
+      cloud.cluster[i] = 0;
+    }
+  }
+}
+
+TEST(Movement, ThatAMaskLeftOutBelongsToTheObject) {
+  LabeledCloud cloud = wall_with_thing(0.5, 60);
+  name_rows(cloud, 30, 60);
+  EXPECT_FALSE(after_a_view_of_the_wall().relabel(cloud, kHere).empty());
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  EXPECT_EQ(cloud.clusters[0].object_class, ObjectClass::kPerson);
+  EXPECT_EQ(cloud.clusters[0].points, static_cast<int>(kThing));
+  EXPECT_EQ(std::count(cloud.cluster.begin(), cloud.cluster.end(), 0),
+            static_cast<std::ptrdiff_t>(kThing));
+}
+
+TEST(Movement, BesideAnObjectInTheImageButNotInSpaceIsAnotherThing) {
+  LabeledCloud cloud = wall_with_thing(0.5, 60);
+  name_rows(cloud, 30, 60);
+  for (int y = 60; y < 90; ++y) {
+    for (int x = 60; x < 100; ++x) cloud.points[static_cast<std::size_t>(160 * y + x)] *= 0.8F;
+  }
+  EXPECT_FALSE(after_a_view_of_the_wall().relabel(cloud, kHere).empty());
+  ASSERT_EQ(cloud.clusters.size(), 2U);
+  EXPECT_EQ(cloud.clusters[1].object_class, ObjectClass::kUnknown);
+}
+
 TEST(Movement, IsSeenByACameraThatMoves) {
   // Half a metre nearer to both.
   LabeledCloud cloud = organised_cloud([](int x, int y, const Eigen::Vector3f&) {
@@ -103,6 +154,12 @@ TEST(Movement, EndsSomeTimeAfterAThingCameToRest) {
   movement.remember(wall_with_thing(2.5, 60), kHere);
   LabeledCloud cloud = wall_with_thing(2.6, 60);
   EXPECT_TRUE(movement.relabel(cloud, kHere).empty());
+}
+
+TEST(Movement, IsNotToldByViewsOfLongAgo) {
+  LabeledCloud cloud = wall_with_thing(2.1, 60);
+  EXPECT_TRUE(after_a_view_of_the_wall({.memory = 2.0}).relabel(cloud, kHere).empty());
+  EXPECT_EQ(dynamic_points(cloud), 0U);
 }
 
 TEST(Movement, TakesInWhatHangsTogetherWithItBeforeSpaceWithoutReturns) {

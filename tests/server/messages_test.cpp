@@ -46,7 +46,7 @@ TEST(Message, HelloSaysWhatTheRunIs) {
   EXPECT_EQ(json["live"], true);
   EXPECT_EQ(json["frames"], nullptr);
   EXPECT_EQ(json["image"]["fy"], 501.0);
-  EXPECT_EQ(json["classes"], (nlohmann::json{"person", "agv"}));
+  EXPECT_EQ(json["classes"], (nlohmann::json{"person", "agv", "unknown"}));
   EXPECT_EQ(json["up"], (nlohmann::json{0.0, -1.0, 0.0}));
   EXPECT_EQ(json["files"], nlohmann::json{"a.ply"});
 }

@@ -60,15 +60,15 @@ std::string text_of(const ObjectBox& box) {
 }
 
 msg::Marker box_marker(const msg::Header& header, const ObjectBox& box) {
-  const bool person = box.object_class == ObjectClass::kPerson;
+  constexpr std::array<float, 4> kColors[kTrackedClassCount] = {
+      {0.9F, 0.1F, 0.1F, 0.5F}, {0.1F, 0.8F, 0.2F, 0.5F}, {1.0F, 0.7F, 0.1F, 0.5F}};
   msg::Marker marker;
   marker.header = header;
   marker.ns = "boxes";
   marker.id = box.id;
   marker.pose = pose_message(box.T_world_box);
   marker.scale = array_of(box.size);
-  marker.color = person ? std::array<float, 4>{0.9F, 0.1F, 0.1F, 0.5F}
-                        : std::array<float, 4>{0.1F, 0.8F, 0.2F, 0.5F};
+  marker.color = kColors[static_cast<int>(box.object_class)];
   return marker;
 }
 
