@@ -32,6 +32,7 @@ void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odome
   const std::vector<int> track_of = associate(tracks_, objects, config_.association);
   extend(objects, track_of);
   begin_new(objects, track_of);
+  confirm_seen();
   let_go();
 }
 
@@ -66,7 +67,6 @@ void DynamicMap::extend(const std::vector<ObjectMeasurement>& objects,
     if (track_of[i] < 0) continue;
     const auto t = static_cast<std::size_t>(track_of[i]);
     tracks_[t].update(objects[i], is_shared(objects[i], has_own));
-    confirm(tracks_[t]);
   }
 }
 
@@ -77,22 +77,44 @@ void DynamicMap::begin_new(const std::vector<ObjectMeasurement>& objects,
     const bool is_told =
         objects[i].score > 0.0F || objects[i].object_class == ObjectClass::kUnknown;
     if (track_of[i] >= 0 || !is_told || is_part_of_a_track(objects[i])) continue;
-    confirm(tracks_.emplace_back(next_id_++, objects[i], *ground_, config_.track));
+    tracks_.emplace_back(next_id_++, objects[i], *ground_, config_.track);
   }
 }
 
-void DynamicMap::confirm(Track& track) {
+void DynamicMap::confirm_seen() {
+  std::vector<int> back;
+  for (Track& track : tracks_) {
+    if (track.confirmed() || track.last_seen() != last_stamp_ || !is_sure(track)) continue;
+    if (const std::optional<Track> lost = take_lost(track)) {
+      track.continue_as(*lost);
+      back.push_back(track.id());
+    } else {
+      track.confirm();
+      ++confirmed_;
+    }
+  }
+  std::erase_if(tracks_, [&](const Track& track) {
+    return track.last_seen() != last_stamp_ &&
+           std::find(back.begin(), back.end(), track.id()) != back.end();
+  });
+}
+
+bool DynamicMap::is_sure(const Track& track) const {
   const auto& prior = config_.track.classes[static_cast<std::size_t>(track.object_class())];
   const bool is_named =
       track.observations() >= config_.confirm_after && track.score() >= prior.min_score;
-  if (track.confirmed() || !(is_named || track.movements() >= config_.confirm_unknown_after))
-    return;
-  if (const std::optional<Track> lost = lost_.take(track)) {
-    track.continue_as(*lost);
-    return;
+  return is_named || track.movements() >= config_.confirm_unknown_after;
+}
+
+/// What `track` continues of what was lost, or is out of view but still expected elsewhere.
+std::optional<Track> DynamicMap::take_lost(const Track& track) {
+  LostTracks away = lost_;
+  for (const Track& other : tracks_) {
+    if (other.confirmed() && other.last_seen() != last_stamp_) away.add(other);
   }
-  track.confirm();
-  ++confirmed_;
+  std::optional<Track> taken = away.take(track);
+  if (taken) lost_.drop(taken->id());
+  return taken;
 }
 
 bool DynamicMap::is_part_of_a_track(const ObjectMeasurement& object) const {

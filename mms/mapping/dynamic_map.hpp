@@ -74,7 +74,9 @@ class DynamicMap {
   void begin_new(const std::vector<ObjectMeasurement>& objects, const std::vector<int>& track_of);
   bool is_part_of_a_track(const ObjectMeasurement& object) const;
   bool is_shared(const ObjectMeasurement& object, const std::vector<bool>& has_own) const;
-  void confirm(Track& track);
+  void confirm_seen();
+  bool is_sure(const Track& track) const;
+  std::optional<Track> take_lost(const Track& track);
   void let_go();
   bool is_over(const Track& track) const;
 

@@ -27,6 +27,10 @@ void LostTracks::forget(Timestamp now) {
   });
 }
 
+void LostTracks::drop(int id) {
+  std::erase_if(lost_, [&](const Track& track) { return track.id() == id; });
+}
+
 std::optional<Track> LostTracks::take(const Track& track) {
   double least = config_.max_color_difference;
   double second = std::numeric_limits<double>::max();

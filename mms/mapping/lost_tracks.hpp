@@ -34,6 +34,9 @@ class LostTracks {
   /// Drops what was seen last too long ago.
   void forget(Timestamp now);
 
+  /// Drops the track of that id, if it is there.
+  void drop(int id);
+
   /// The lost track that `track` continues, which is then no longer kept.
   std::optional<Track> take(const Track& track);
 

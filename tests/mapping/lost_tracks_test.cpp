@@ -69,6 +69,24 @@ TEST(LostTracks, WhoComesBackElsewhereInTheSameDressKeepsTheId) {
   EXPECT_EQ(map.confirmed(), 2);
 }
 
+TEST(LostTracks, WhoComesBackWhileExpectedElsewhereKeepsTheId) {
+  DynamicMap map;
+  show(map, 0.0, {{3.0, -2.0, kRed}});
+  // Half a second unseen, and farther away than where an object may be expected.
+  show(map, 1.4, {{3.0, -0.5, kRed}});
+  EXPECT_EQ(ids(map), std::vector<int>{1});
+  EXPECT_EQ(map.objects().at(0).state, TrackState::kActive);
+  EXPECT_EQ(map.confirmed(), 1);
+}
+
+TEST(LostTracks, WhoStandsBesideOneInTheSameDressIsSomebodyElse) {
+  DynamicMap map;
+  show(map, 0.0, {{3.0, -2.0, kRed}});
+  show(map, 1.0, {{3.0, -2.0, kRed}, {3.0, -0.5, kRed}});
+  EXPECT_EQ(ids(map).size(), 2U);
+  EXPECT_EQ(map.confirmed(), 2);
+}
+
 TEST(LostTracks, WhoIsDressedOtherwiseIsSomebodyElse) {
   DynamicMap map;
   show(map, 0.0, {{3.0, -2.0, kRed}});
