@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # What viewers cost a run: milliseconds per frame and memory without --view, with it and nobody
 # looking, with one viewer, and with a crowd that comes and goes and sends garbage. The kinds take
-# turns, so that what else the machine does falls on all of them; the fastest run of each counts, as
-# the one that was disturbed the least.
+# turns, so that what else the machine does falls on all of them; the median run of each counts, and
+# the range says how far the machine itself is to be trusted.
 # Clients run at the lowest priority, as if they were on other machines.
 # usage: benchmarks/viewer_clients.sh [DATA=a simulated scene] [ROUNDS=3] [CLIENTS=20] [FLAGS FOR mms run]
 set -euo pipefail
@@ -43,17 +43,22 @@ for ((i = 0; i < rounds; ++i)); do
   run crowd "$clients" --view "$port" "$@"
 done
 
-# least KIND COLUMN
-least() {
-  awk -v kind="$1" -v column="$2" '$1 == kind { print $column }' "$out/rows" | sort -g | head -n 1
+# sorted KIND COLUMN
+sorted() {
+  awk -v kind="$1" -v column="$2" '$1 == kind { print $column }' "$out/rows" | sort -g
 }
+least() { sorted "$@" | head -n 1; }
+most() { sorted "$@" | tail -n 1; }
+median() { sorted "$@" | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'; }
 
-echo "| viewers | ms per frame | against none | MiB |"
-echo "| --- | --- | --- | --- |"
-alone="$(least alone 2)"
+echo "| viewers | ms per frame, median | least to most | against none | MiB |"
+echo "| --- | --- | --- | --- | --- |"
+alone="$(median alone 2)"
 for kind in alone nobody one crowd; do
-  awk -v kind="$kind" -v ms="$(least $kind 2)" -v alone="$alone" -v mib="$(least $kind 3)" -v n="$clients" '
+  awk -v kind="$kind" -v ms="$(median $kind 2)" -v least="$(least $kind 2)" -v most="$(most $kind 2)" \
+    -v alone="$alone" -v mib="$(most $kind 3)" -v n="$clients" '
     BEGIN { name["alone"] = "no --view"; name["nobody"] = "--view, nobody looks"
             name["one"] = "one"; name["crowd"] = n " that come, go and send garbage"
-            printf "| %s | %.1f | %+.0f %% | %.0f |\n", name[kind], ms, 100 * (ms / alone - 1), mib }'
+            printf "| %s | %.1f | %.1f to %.1f | %+.0f %% | %.0f |\n", name[kind], ms, least, most,
+                   100 * (ms / alone - 1), mib }'
 done
