@@ -1,6 +1,7 @@
 import { Connection } from './protocol/connection';
 import type { Vector3 } from './protocol/messages';
 import { SceneView } from './scene/scene_view';
+import { Place } from './state/place';
 import { Run } from './state/run';
 import { Settings } from './state/settings';
 import { ChartPanel } from './ui/chart_panel';
@@ -40,6 +41,7 @@ const connection = new Connection(socketAddress(), {
 
 const scene = new SceneView(part('scene'), run, settings);
 const player = new Player(run, (command) => connection.send(command));
+new Place(run, (command) => connection.send(command));
 new ImagePanel(run, settings);
 new ChartPanel(run, (frame) => player.seek(frame));
 new ObjectPanel(run);
@@ -58,15 +60,12 @@ const help = part('help-button');
 help.append(icon('help'));
 help.addEventListener('click', () => part<HTMLDialogElement>('help').showModal());
 
-run.on('hello', ({ hello, again }) => {
+run.on('hello', ({ hello }) => {
   document.title = `${hello.name} · MMS-SLAM`;
   part('run-name').textContent = hello.name;
   part('run-data').textContent = hello.data === hello.name ? '' : hello.data;
   showBadge();
-  if (again && !hello.live) player.seek(lastFrame);
 });
-let lastFrame = 0;
-run.on('frame', ({ frame }) => (lastFrame = frame));
 run.on('playback', showBadge);
 settings.on('layer', (layer) => layer === 'scan' && sendWanted());
 addEventListener('online', () => connection.hurry());

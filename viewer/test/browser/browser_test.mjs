@@ -155,7 +155,8 @@ test('it says that the server is gone, and goes on where it was when it is back'
   assert.match(await page.textContent('#notice'), /Connection lost/);
   await server.start();
   await eventually('the server again', pill, (text) => text === 'Connected');
-  await eventually('the frame it was at', frame, (number) => Math.abs(number - before) <= 3);
+  await eventually('the frame it was at', frame, (number) => number === before);
+  assert.match(await page.locator('.play').getAttribute('title'), /^Play/, 'it stays paused');
   await eventually('the map again', pixels, ({ lit, all }) => lit > kMap * all);
 });
 

@@ -1,6 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { decodeMessage } from '../../src/protocol/decode';
 import type { Buffer } from '../../src/protocol/envelope';
+import type { Command } from '../../src/protocol/messages';
+import { Place } from '../../src/state/place';
 import { Run } from '../../src/state/run';
 import { Settings } from '../../src/state/settings';
 import { forEachTrailSegment, type Track } from '../../src/state/tracks';
@@ -121,6 +123,46 @@ describe('Tracks', () => {
       [2, 3, 0],
       [1, 2, 0.04],
     ]);
+  });
+});
+
+describe('Place', () => {
+  const lostAt = (state: object, hello: object = kHello): Command[] => {
+    const run = new Run();
+    const sent: Command[] = [];
+    new Place(run, (command) => sent.push(command));
+    tell(run, hello);
+    tell(run, { type: 'state', playing: true, speed: 1, frame: 0 });
+    tell(run, { type: 'frame', frame: 2 }, [['pose', 7, pose(0)]]);
+    tell(run, { type: 'state', frame: 2, speed: 1, ...state });
+    expect(sent).toEqual([]);
+    tell(run, hello);
+    return sent;
+  };
+
+  it('goes on playing where it was, as fast as it was', () => {
+    expect(lostAt({ playing: true })).toEqual([{ type: 'seek', frame: 2 }]);
+    expect(lostAt({ playing: true, speed: 4 })).toEqual([{ type: 'speed', value: 4 }, { type: 'seek', frame: 2 }]);
+  });
+
+  it('stays paused', () => {
+    expect(lostAt({ playing: false })).toEqual([{ type: 'pause' }, { type: 'seek', frame: 2 }]);
+  });
+
+  it('shows the newest of a live run, or the frame at which that was paused', () => {
+    const live = { ...kHello, frames: null, live: true };
+    expect(lostAt({ playing: true }, live)).toEqual([]);
+    expect(lostAt({ playing: false }, live)).toEqual([{ type: 'pause' }, { type: 'seek', frame: 2 }]);
+  });
+
+  it('begins another run at its beginning', () => {
+    const run = new Run();
+    const sent: Command[] = [];
+    new Place(run, (command) => sent.push(command));
+    tell(run, kHello);
+    tell(run, { type: 'frame', frame: 2 }, [['pose', 7, pose(0)]]);
+    tell(run, { ...kHello, run: 'b' });
+    expect(sent).toEqual([]);
   });
 });
 

@@ -1,0 +1,25 @@
+import type { Command } from '../protocol/messages';
+import type { Run } from './run';
+
+/** Where the user was in the run, and how fast: the server, which forgets it with the connection, is told anew. */
+export class Place {
+  private frame = 0;
+  private playing = true;
+  private speed = 1;
+
+  constructor(
+    run: Run,
+    private readonly send: (command: Command) => void,
+  ) {
+    run.on('hello', ({ hello, again }) => again && this.restore(hello.live));
+    run.on('frame', ({ frame }) => (this.frame = frame));
+    run.on('playback', ({ playing, speed }) => Object.assign(this, { playing, speed }));
+  }
+
+  private restore(live: boolean): void {
+    if (live && this.playing) return; // it shows the newest
+    if (!this.playing) this.send({ type: 'pause' });
+    if (this.speed !== 1) this.send({ type: 'speed', value: this.speed });
+    this.send({ type: 'seek', frame: this.frame });
+  }
+}
