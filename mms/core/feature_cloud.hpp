@@ -11,15 +11,17 @@ namespace mms {
 
 /// A point with large local smoothness (eq. 2), in the sensor frame.
 struct EdgeFeature {
-  Eigen::Vector3f point;  ///< [m]
-  float sigma = 0.0F;     ///< 1-sigma measurement noise at its range [m]
+  Eigen::Vector3f point;     ///< [m]
+  float sigma = 0.0F;        ///< 1-sigma measurement noise at its range [m]
+  float time_offset = 0.0F;  ///< when a scan's point was measured, since its middle [s]
 };
 
 /// A point with small local smoothness (eq. 2) and its local surface normal, in the sensor frame.
 struct PlaneFeature {
-  Eigen::Vector3f point;   ///< [m]
-  Eigen::Vector3f normal;  ///< unit, towards the sensor
-  float sigma = 0.0F;      ///< 1-sigma measurement noise along the ray at its range [m]
+  Eigen::Vector3f point;     ///< [m]
+  Eigen::Vector3f normal;    ///< unit, towards the sensor
+  float sigma = 0.0F;        ///< 1-sigma measurement noise along the ray at its range [m]
+  float time_offset = 0.0F;  ///< when a scan's point was measured, since its middle [s]
 };
 
 /// Luminance [0, 255] with its derivatives [1/px] by central differences.
@@ -40,7 +42,8 @@ struct IntensityLevel {
 /// the static part of the image for the photometric term.
 struct FeatureCloud {
   Timestamp stamp;
-  Duration points_offset{0};  ///< when edges and planes were measured, relative to `stamp`
+  Duration points_offset{0};  ///< when edges and planes were measured, relative to `stamp`; of a
+                              ///< scan the middle
   std::vector<EdgeFeature> edges;
   std::vector<PlaneFeature> planes;
   std::vector<IntensityLevel> intensity;  ///< finest first; empty without an image

@@ -40,6 +40,8 @@ struct LabeledCloud {
   int width = 0;
   int height = 0;
   std::vector<Eigen::Vector3f> points;  ///< [m]
+  /// Unorganised: when each point was measured, since `stamp` [s]; empty where all were at once.
+  std::vector<float> time_offset;
   std::vector<PointLabel> labels;
   std::vector<Rgb> colors;            ///< empty where there is no image
   std::vector<std::int16_t> cluster;  ///< index into `clusters`, -1 for none

@@ -63,6 +63,7 @@ LabeledCloud build_scan_cloud(const Frame& frame, const FusionConfig& config) {
   LabeledCloud cloud;
   cloud.stamp = frame.stamp;
   cloud.points = frame.scan.points;
+  cloud.time_offset = frame.scan.time_offset;
   cloud.width = static_cast<int>(cloud.points.size());
   cloud.height = cloud.points.empty() ? 0 : 1;
   cloud.labels.assign(cloud.points.size(), PointLabel::kStatic);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mms/geometry/se3.hpp"
+#include "mms/localization/motion_compensation.hpp"
 
 namespace mms {
 namespace {
@@ -20,27 +21,6 @@ constexpr double kVoxelsPerRange = 25.0;
 constexpr double kMinVoxel = 0.05;  ///< [m]
 constexpr double kMaxVoxel = 1.0;   ///< [m]
 constexpr double kRadiusPerVoxel = 200.0;
-
-/// Largest offset of the points that is made good, as a share of the time between frames. The
-/// velocity comes from poses that were corrected with the velocity before; from one half on its
-/// error would grow from frame to frame.
-constexpr double kMaxOffset = 0.45;
-
-/// The features as they would have been measured at the frame's stamp by a sensor that moves with
-/// `velocity`: cameras take depth and colour a few milliseconds apart.
-/// @param elapsed  since the frame before [s]
-FeatureCloud at_frame_stamp(FeatureCloud features, const Vector6d& velocity, double elapsed) {
-  if (features.points_offset == Duration::zero() || elapsed <= 0.0) return features;
-  const double limit = kMaxOffset * elapsed;
-  const double offset = std::clamp(to_seconds(features.points_offset), -limit, limit);
-  const Eigen::Isometry3f T = se3::exp(velocity * offset).cast<float>();
-  for (EdgeFeature& edge : features.edges) edge.point = T * edge.point;
-  for (PlaneFeature& plane : features.planes) {
-    plane.point = T * plane.point;
-    plane.normal = T.linear() * plane.normal;
-  }
-  return features;
-}
 
 }  // namespace
 
@@ -68,15 +48,31 @@ Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
     : config_(config), keyframes_(config.registration.photometric, noise), noise_(noise) {}
 
 OdometryEstimate Odometry::estimate(FeatureCloud measured) {
-  if (!maps_) return initialize(measured);
-  const double elapsed = to_seconds(measured.stamp - stamp_);
-  const FeatureCloud features = at_frame_stamp(std::move(measured), velocity_, elapsed);
+  const Timestamp stamp = measured.stamp;
+  FeatureCloud features = at_pose_time(std::move(measured));
+  OdometryEstimate estimate = maps_ ? track(features) : initialize(features);
+  estimate.stamp = stamp;
+  estimate.T_world_sensor = Transform<World, Sensor>(predict(stamp));
+  return estimate;
+}
+
+/// A scan takes the time between two frames. Its pose is that of its middle, where an error of the
+/// velocity that it is de-skewed with moves nothing; that of an image with depth is the image's.
+FeatureCloud Odometry::at_pose_time(FeatureCloud features) const {
+  const double elapsed = maps_ ? to_seconds(features.stamp - stamp_) : 0.0;
+  if (!features.intensity.empty()) return at_stamp(std::move(features), velocity_, elapsed);
+  deskew(features, velocity_);
+  features.stamp = features.stamp + features.points_offset;
+  return features;
+}
+
+OdometryEstimate Odometry::track(const FeatureCloud& features) {
+  const double elapsed = to_seconds(features.stamp - stamp_);
   const Isometry prediction = predict(features.stamp);
   const RegistrationResult result = register_frame(
       features, {*maps_, keyframes_.nearest(prediction)}, prediction, config_.registration, noise_);
 
   OdometryEstimate estimate;
-  estimate.stamp = features.stamp;
   estimate.information = result.information;
   estimate.edge_inliers = result.geometric.edges.inliers;
   estimate.plane_inliers = result.geometric.planes.inliers;
@@ -95,14 +91,11 @@ OdometryEstimate Odometry::estimate(FeatureCloud measured) {
     coast(prediction);
   }
   stamp_ = features.stamp;
-  estimate.T_world_sensor = Transform<World, Sensor>(pose_);
   return estimate;
 }
 
 OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
   OdometryEstimate estimate;
-  estimate.stamp = features.stamp;
-  estimate.T_world_sensor = Transform<World, Sensor>(pose_);
   stamp_ = known_at_ = features.stamp;
   const auto count = features.planes.size() + features.edges.size();
   if (count < static_cast<std::size_t>(config_.min_inliers)) {

@@ -32,6 +32,9 @@ class Odometry {
   /// The frames must come in the order of their stamps. Never throws for bad frames: see Status.
   OdometryEstimate estimate(FeatureCloud features);
 
+  /// Of the sensor in its own frame [m/s, rad/s]; zero until two frames in a row were tracked.
+  const Vector6d& velocity() const { return velocity_; }
+
   /// Where the next frame is expected, as far as the motion goes on; nothing before the first one,
   /// while lost, and in fast turns, where the motion of the last frame tells little of the next.
   std::optional<Transform<World, Sensor>> expected(Timestamp stamp) const;
@@ -39,7 +42,9 @@ class Odometry {
  private:
   using Isometry = Eigen::Isometry3d;
 
+  FeatureCloud at_pose_time(FeatureCloud features) const;
   OdometryEstimate initialize(const FeatureCloud& features);
+  OdometryEstimate track(const FeatureCloud& features);
   Isometry predict(Timestamp stamp) const;
   bool trustworthy(const FeatureCloud& features, const RegistrationResult& result,
                    const Isometry& prediction, double elapsed) const;
@@ -56,7 +61,7 @@ class Odometry {
   Isometry pose_ = Isometry::Identity();
   Vector6d velocity_ = Vector6d::Zero();  ///< of the sensor in its own frame [m/s, rad/s]
   Isometry trimmed_at_ = Isometry::Identity();
-  Timestamp stamp_;
+  Timestamp stamp_;              ///< that `pose_` is of
   bool velocity_known_ = false;  ///< from two frames in a row
   Timestamp known_at_;           ///< when the pose was last measured
   bool lost_ = false;

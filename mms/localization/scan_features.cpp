@@ -23,25 +23,56 @@ constexpr float kMinPlaneWidth = 0.25F;  ///< share of the radius: a single ring
 constexpr double kMinVoxel = 0.05;       ///< [m]
 constexpr double kMaxVoxel = 1.0;        ///< [m]
 
-std::vector<Eigen::Vector3f> static_points(const LabeledCloud& cloud) {
-  std::vector<Eigen::Vector3f> points;
-  points.reserve(cloud.points.size());
+using Indices = std::vector<std::size_t>;
+
+Indices static_points(const LabeledCloud& cloud) {
+  Indices indices;
+  indices.reserve(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (cloud.labels[i] == PointLabel::kStatic) points.push_back(cloud.points[i]);
+    if (cloud.labels[i] == PointLabel::kStatic) indices.push_back(i);
   }
+  return indices;
+}
+
+std::vector<Eigen::Vector3f> points_of(const LabeledCloud& cloud, const Indices& indices) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(indices.size());
+  for (const std::size_t i : indices) points.push_back(cloud.points[i]);
   return points;
 }
 
 /// One point a voxel, the first: a mean would lie off thin structures.
-std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points, double voxel) {
+Indices thinned(const LabeledCloud& cloud, const Indices& indices, double voxel) {
   const auto inverse_size = static_cast<float>(1.0 / voxel);
   tsl::robin_set<VoxelKey, VoxelKeyHash> taken;
-  std::vector<Eigen::Vector3f> kept;
-  for (const Eigen::Vector3f& point : points) {
-    if (taken.insert(voxel_key(point, inverse_size)).second) kept.push_back(point);
+  Indices kept;
+  for (const std::size_t i : indices) {
+    if (taken.insert(voxel_key(cloud.points[i], inverse_size)).second) kept.push_back(i);
   }
   return kept;
 }
+
+/// When the points of a scan were measured, about the middle between the first and the last.
+class PointTimes {
+ public:
+  explicit PointTimes(const std::vector<float>& time_offset) : time_offset_(time_offset) {
+    if (time_offset.empty()) return;
+    const auto [first, last] = std::minmax_element(time_offset.begin(), time_offset.end());
+    middle_ = 0.5F * (*first + *last);
+  }
+
+  /// Since the middle [s].
+  float of(std::size_t i) const { return time_offset_.empty() ? 0.0F : time_offset_[i] - middle_; }
+
+  /// Since the scan's stamp.
+  Duration middle() const {
+    return Timestamp::from_seconds(static_cast<double>(middle_)) - Timestamp();
+  }
+
+ private:
+  const std::vector<float>& time_offset_;
+  float middle_ = 0.0F;
+};
 
 struct Analysis {
   float smoothness = 0.0F;  ///< magnitude of eq. (2) over range
@@ -86,11 +117,11 @@ std::size_t direction_sector(const Eigen::Vector3f& p) {
 struct EdgeCandidate {
   std::size_t sector;
   float smoothness;
-  std::size_t index;
+  std::size_t index;  ///< in the cloud
 };
 
-void choose_edges(std::vector<EdgeCandidate>& candidates,
-                  const std::vector<Eigen::Vector3f>& points, const FeatureConfig& config,
+void choose_edges(std::vector<EdgeCandidate>& candidates, const LabeledCloud& cloud,
+                  const PointTimes& times, const FeatureConfig& config,
                   std::vector<EdgeFeature>& edges) {
   std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return std::tie(a.sector, b.smoothness, a.index) < std::tie(b.sector, a.smoothness, b.index);
@@ -99,7 +130,8 @@ void choose_edges(std::vector<EdgeCandidate>& candidates,
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (i > 0 && candidates[i].sector != candidates[i - 1].sector) taken = 0;
     if (taken++ >= kEdgesPerSector) continue;
-    edges.push_back({points[candidates[i].index], static_cast<float>(config.lidar_noise)});
+    const std::size_t index = candidates[i].index;
+    edges.push_back({cloud.points[index], static_cast<float>(config.lidar_noise), times.of(index)});
   }
 }
 
@@ -117,13 +149,17 @@ double automatic_scan_voxel(const std::vector<Eigen::Vector3f>& points) {
 
 void extract_scan_features(const LabeledCloud& cloud, const FeatureConfig& config,
                            FeatureCloud& features) {
-  const std::vector<Eigen::Vector3f> all = static_points(cloud);
-  const double voxel = config.scan_voxel > 0.0 ? config.scan_voxel : automatic_scan_voxel(all);
-  const std::vector<Eigen::Vector3f> dense = thinned(all, 0.5 * voxel);
-  const std::vector<Eigen::Vector3f> points = thinned(dense, voxel);
+  const PointTimes times(cloud.time_offset);
+  features.points_offset = times.middle();
+  const Indices all = static_points(cloud);
+  const double voxel =
+      config.scan_voxel > 0.0 ? config.scan_voxel : automatic_scan_voxel(points_of(cloud, all));
+  const Indices dense = thinned(cloud, all, 0.5 * voxel);
+  const Indices chosen = thinned(cloud, dense, voxel);
+  const std::vector<Eigen::Vector3f> points = points_of(cloud, chosen);
   const float radius = kRadiusInVoxels * 0.5F * static_cast<float>(voxel);
   PointMap map(radius, {.max_points_per_voxel = 64});
-  map.insert(dense);
+  map.insert(points_of(cloud, dense));
 
   std::vector<std::optional<Analysis>> analyses(points.size());
   parallel_chunks(points.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -138,11 +174,12 @@ void extract_scan_features(const LabeledCloud& cloud, const FeatureConfig& confi
     if (!analyses[i]) continue;
     if (analyses[i]->plane) {
       features.planes.push_back(*analyses[i]->plane);
+      features.planes.back().time_offset = times.of(chosen[i]);
     } else if (analyses[i]->smoothness > static_cast<float>(config.edge_smoothness)) {
-      candidates.push_back({direction_sector(points[i]), analyses[i]->smoothness, i});
+      candidates.push_back({direction_sector(points[i]), analyses[i]->smoothness, chosen[i]});
     }
   }
-  choose_edges(candidates, points, config, features.edges);
+  choose_edges(candidates, cloud, times, config, features.edges);
 }
 
 }  // namespace mms

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mms/localization/feature_exclusion.hpp"
+#include "mms/localization/motion_compensation.hpp"
 
 namespace mms {
 namespace {
@@ -79,6 +80,7 @@ FrameResult SlamSystem::localize(Perception perception) {
   FrameResult result;
   result.stage_ms = perception.stage_ms;
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
+    deskew(perception.labeled, odometry_.velocity());
     leave_out_movement(perception);
     return odometry_.estimate(std::move(perception.features));  // III-C.2, III-C.3, eqs. (3)-(5)
   });

@@ -110,12 +110,22 @@ LabeledCloud organised_cloud(const BoxRoom& room, const Eigen::Isometry3d& T_wor
 
 LabeledCloud spinning_scan(const BoxRoom& room, const Eigen::Isometry3d& T_world_sensor, int rings,
                            double noise, unsigned seed) {
+  LabeledCloud cloud = moving_scan(
+      room, [&](double) { return T_world_sensor; }, 0.1, rings, noise, seed);
+  cloud.time_offset.clear();
+  return cloud;
+}
+
+LabeledCloud moving_scan(const BoxRoom& room, const std::function<Eigen::Isometry3d(double)>& pose,
+                         double period, int rings, double noise, unsigned seed) {
   constexpr int kColumns = 600;
   LabeledCloud cloud;
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, noise);
   for (int column = 0; column < kColumns; ++column) {
     const double azimuth = 2.0 * M_PI * column / kColumns;
+    const double seconds = period * column / kColumns;
+    const Eigen::Isometry3d T_world_sensor = pose(seconds);
     for (int ring = 0; ring < rings; ++ring) {
       const double elevation = (-25.0 + 50.0 * ring / (rings - 1)) * M_PI / 180.0;
       const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth),
@@ -123,6 +133,7 @@ LabeledCloud spinning_scan(const BoxRoom& room, const Eigen::Isometry3d& T_world
       const auto hit = room.cast(T_world_sensor.translation(), T_world_sensor.linear() * ray);
       const double range = (hit.point - T_world_sensor.translation()).norm();
       push(cloud, (range + normal(random)) * ray);
+      cloud.time_offset.push_back(static_cast<float>(seconds));
     }
   }
   cloud.width = static_cast<int>(cloud.points.size());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <random>
 #include <string>
 #include <vector>
@@ -52,6 +53,11 @@ LabeledCloud organised_cloud(const BoxRoom& room, const Eigen::Isometry3d& T_wor
 /// What a spinning LiDAR of `rings` rings at that pose measures, range noise in metres.
 LabeledCloud spinning_scan(const BoxRoom& room, const Eigen::Isometry3d& T_world_sensor, int rings,
                            double noise, unsigned seed);
+
+/// The same of a sensor that moves while it turns around once in `period` [s], with the points'
+/// times; `pose` is T_world_sensor at a time since the scan's stamp [s].
+LabeledCloud moving_scan(const BoxRoom& room, const std::function<Eigen::Isometry3d(double)>& pose,
+                         double period, int rings, double noise, unsigned seed);
 
 /// Exact planar features of rays in all directions, `density` to a side of each of 6 cube faces,
 /// those nearer to a crease than `margin` [m] left out; exact edge features along the creases.
