@@ -38,7 +38,7 @@ void convert_recording(const RecordingConversion& conversion) {
       open_dataset(conversion.input, {.map_truth = false, .topics = conversion.topics});
   const auto recorder = open_recorder(output, conversion.compressed);
   RateProgress progress("frame");
-  source->on_warning([&](const std::string& message) { progress.say(message); });
+  source->on_warning([&](const std::string& message) { progress.warn(message); });
   const InterruptGuard interrupt;
   int done = 0;
   while (!InterruptGuard::requested()) {

@@ -44,7 +44,7 @@ std::vector<PreparedImage> pictures_of(const QuantizeArguments& arguments,
   std::vector<PreparedImage> pictures;
   for (const std::string& where : arguments.data) {
     const auto source =
-        open_pictures(where, [&](const std::string& message) { progress.say(message); });
+        open_pictures(where, [&](const std::string& message) { progress.warn(message); });
     const std::size_t wanted = std::max<std::size_t>(1, arguments.images / arguments.data.size());
     const std::size_t every = std::max<std::size_t>(1, source->size() / wanted);
     for (std::size_t i = 0; const std::optional<Picture> picture = source->next(); ++i) {

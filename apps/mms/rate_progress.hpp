@@ -17,7 +17,8 @@ class RateProgress {
   /// @param note   what to say behind it
   void show(int done, int total, int fresh, const std::string& note = "");
   void show(int done, int total) { show(done, total, done); }
-  void say(const std::string& message) { status_.warn(message); }
+  void say(const std::string& message) { status_.say(message); }
+  void warn(const std::string& message) { status_.warn(message); }
   void finish() { status_.finish(); }
 
   double seconds() const;  ///< since the start

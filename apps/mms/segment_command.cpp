@@ -140,7 +140,7 @@ void segment(const SegmentArguments& arguments) {
   const SegmentationConfig config = settings_of(arguments);
   RateProgress progress("picture");
   const auto source =
-      open_source(arguments, [&](const std::string& message) { progress.say(message); });
+      open_source(arguments, [&](const std::string& message) { progress.warn(message); });
   const std::unique_ptr<Detector> detector = make_detector(config);
   SegmentOutputs outputs(arguments.output, detector->classes(), config.objects.score,
                          arguments.json_only);

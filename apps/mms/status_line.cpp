@@ -35,9 +35,9 @@ void StatusLine::show(const std::string& text) {
   std::fflush(stderr);
 }
 
-void StatusLine::warn(const std::string& message) {
+void StatusLine::say(const std::string& message) {
   const std::scoped_lock lock(mutex_);
-  fmt::print(stderr, "{}warning: {}\n", open_line_ ? "\r\033[K" : "", message);
+  fmt::print(stderr, "{}{}\n", open_line_ ? "\r\033[K" : "", message);
   open_line_ = false;
 }
 

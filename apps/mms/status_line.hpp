@@ -16,7 +16,8 @@ class StatusLine {
   bool due(bool last);
 
   void show(const std::string& text);
-  void warn(const std::string& message);
+  void say(const std::string& message);  ///< in a line of its own, which stays
+  void warn(const std::string& message) { say("warning: " + message); }
 
   /// Ends the line, so that what is printed next begins a new one.
   void finish();

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 namespace mms {
 
 void TrainingProgress::show(const TrainingEvent& event) {
@@ -17,6 +19,7 @@ void TrainingProgress::show(const TrainingEvent& event) {
                                 event.loss.category_loss, event.loss.mask_loss));
   } else {
     for (const ApPoint& point : event.aps) {
+      if (std::isnan(point.ap)) continue;  // the set has no such object
       training_->say(fmt::format("after {} images, {}, {}: AP {:.3f}, AP50 {:.3f}", point.images,
                                  point.set, point.category, point.ap, point.ap50));
     }

@@ -14,6 +14,7 @@ struct EdgeFeature {
   Eigen::Vector3f point;     ///< [m]
   float sigma = 0.0F;        ///< 1-sigma measurement noise at its range [m]
   float time_offset = 0.0F;  ///< when a scan's point was measured, since its middle [s]
+  int index = -1;            ///< of a scan's point in its cloud
 };
 
 /// A point with small local smoothness (eq. 2) and its local surface normal, in the sensor frame.
@@ -22,6 +23,7 @@ struct PlaneFeature {
   Eigen::Vector3f normal;    ///< unit, towards the sensor
   float sigma = 0.0F;        ///< 1-sigma measurement noise along the ray at its range [m]
   float time_offset = 0.0F;  ///< when a scan's point was measured, since its middle [s]
+  int index = -1;            ///< of a scan's point in its cloud
 };
 
 /// Luminance [0, 255] with its derivatives [1/px] by central differences.

@@ -24,4 +24,13 @@ void exclude(const Image<std::uint8_t>& pixels, const CameraIntrinsics& camera,
   keep_clear(pixels, features.intensity);
 }
 
+void exclude_dynamic(const std::vector<PointLabel>& labels, FeatureCloud& features) {
+  const auto is_excluded = [&](const auto& feature) {
+    return feature.index >= 0 &&
+           labels[static_cast<std::size_t>(feature.index)] != PointLabel::kStatic;
+  };
+  std::erase_if(features.edges, is_excluded);
+  std::erase_if(features.planes, is_excluded);
+}
+
 }  // namespace mms

@@ -131,7 +131,8 @@ void choose_edges(std::vector<EdgeCandidate>& candidates, const LabeledCloud& cl
     if (i > 0 && candidates[i].sector != candidates[i - 1].sector) taken = 0;
     if (taken++ >= kEdgesPerSector) continue;
     const std::size_t index = candidates[i].index;
-    edges.push_back({cloud.points[index], static_cast<float>(config.lidar_noise), times.of(index)});
+    edges.push_back({cloud.points[index], static_cast<float>(config.lidar_noise), times.of(index),
+                     static_cast<int>(index)});
   }
 }
 
@@ -175,6 +176,7 @@ void extract_scan_features(const LabeledCloud& cloud, const FeatureConfig& confi
     if (analyses[i]->plane) {
       features.planes.push_back(*analyses[i]->plane);
       features.planes.back().time_offset = times.of(chosen[i]);
+      features.planes.back().index = static_cast<int>(chosen[i]);
     } else if (analyses[i]->smoothness > static_cast<float>(config.edge_smoothness)) {
       candidates.push_back({direction_sector(points[i]), analyses[i]->smoothness, chosen[i]});
     }

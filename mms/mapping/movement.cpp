@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
+
+#include "mms/mapping/unknown_clusters.hpp"
 
 namespace mms {
 namespace {
@@ -18,15 +19,6 @@ constexpr std::size_t kMinNodes = 30;  // of a thing
 constexpr double kMaxBlank = 0.8;      // share of a thing's nodes in space that was blank
 constexpr int kNextTo = 2;             // nodes from a thing to a cluster that it adjoins
 constexpr int kFewestNext = 5;         // of its nodes next to such a cluster
-
-/// What the views say of the place of a node.
-enum Place : std::uint8_t {
-  kNone,     ///< no static point
-  kSurface,  ///< it was there before
-  kUnknown,  ///< hidden or out of view
-  kBlank,    ///< looked at, but nothing was measured there or behind
-  kFree,     ///< it was looked through
-};
 
 /// Every `kStep`-th point a row and column.
 struct Nodes {
@@ -76,13 +68,13 @@ class Sums {
 /// Nodes in free space about which hardly anything was there before.
 std::vector<std::pair<int, int>> find_cores(const Nodes& nodes, const Image<Place>& places,
                                             double radius) {
-  const Sums all(places, [](Place place) { return place != kNone; });
-  const Sums surface(places, [](Place place) { return place == kSurface; });
-  const Sums free(places, [](Place place) { return place == kFree; });
+  const Sums all(places, [](Place place) { return place != Place::kNone; });
+  const Sums surface(places, [](Place place) { return place == Place::kSurface; });
+  const Sums free(places, [](Place place) { return place == Place::kFree; });
   std::vector<std::pair<int, int>> cores;
   for (int y = 0; y < nodes.height; ++y) {
     for (int x = 0; x < nodes.width; ++x) {
-      if (places(x, y) != kFree) continue;
+      if (places(x, y) != Place::kFree) continue;
       const double pixels = radius * nodes.cloud.camera.fx / nodes.depth(x, y);
       const int reach = std::clamp(static_cast<int>(std::lround(pixels / kStep)), 1, nodes.width);
       const int side = 2 * reach + 1;
@@ -100,7 +92,7 @@ std::vector<std::pair<int, int>> find_cores(const Nodes& nodes, const Image<Plac
 std::vector<std::pair<int, int>> take_thing(const Nodes& nodes, std::pair<int, int> core,
                                             const DepthNoise& noise, Image<Place>& places) {
   std::vector<std::pair<int, int>> thing{core};
-  places(core.first, core.second) = kNone;
+  places(core.first, core.second) = Place::kNone;
   std::size_t blank = 0;
   for (std::size_t i = 0; i < thing.size(); ++i) {
     const auto [cx, cy] = thing[i];
@@ -108,10 +100,10 @@ std::vector<std::pair<int, int>> take_thing(const Nodes& nodes, std::pair<int, i
     const float gap = kGap + 2.0F * noise.sigma(z);
     for (int y = std::max(0, cy - 1); y <= std::min(cy + 1, nodes.height - 1); ++y) {
       for (int x = std::max(0, cx - 1); x <= std::min(cx + 1, nodes.width - 1); ++x) {
-        const bool is_open = places(x, y) == kFree || places(x, y) == kBlank;
+        const bool is_open = places(x, y) == Place::kFree || places(x, y) == Place::kBlank;
         if (!is_open || std::abs(nodes.depth(x, y) - z) > gap) continue;
-        blank += places(x, y) == kBlank;
-        places(x, y) = kNone;
+        blank += places(x, y) == Place::kBlank;
+        places(x, y) = Place::kNone;
         thing.emplace_back(x, y);
       }
     }
@@ -143,24 +135,6 @@ int adjoining_cluster(const Nodes& nodes, const std::vector<std::pair<int, int>>
   return static_cast<int>(most - next_to.begin());
 }
 
-/// Index of a new cluster without points, of something that no mask named.
-int add_unknown(LabeledCloud& cloud) {
-  DynamicCluster cluster;
-  cluster.object_class = ObjectClass::kUnknown;
-  cluster.score = 0.0F;
-  cluster.box_min.setConstant(std::numeric_limits<float>::infinity());
-  cluster.box_max.setConstant(-std::numeric_limits<float>::infinity());
-  cloud.clusters.push_back(cluster);
-  return static_cast<int>(cloud.clusters.size()) - 1;
-}
-
-void add(const Eigen::Vector3f& point, DynamicCluster& cluster) {
-  ++cluster.points;
-  cluster.centroid += (point - cluster.centroid) / static_cast<float>(cluster.points);
-  cluster.box_min = cluster.box_min.cwiseMin(point);
-  cluster.box_max = cluster.box_max.cwiseMax(point);
-}
-
 void make_dynamic(const std::vector<std::pair<int, int>>& thing, int cluster, LabeledCloud& cloud,
                   Image<std::uint8_t>& moved) {
   for (const auto& [nx, ny] : thing) {
@@ -169,9 +143,7 @@ void make_dynamic(const std::vector<std::pair<int, int>>& thing, int cluster, La
         const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
                        static_cast<std::size_t>(x);
         if (cloud.labels[i] != PointLabel::kStatic) continue;
-        cloud.labels[i] = PointLabel::kDynamic;
-        cloud.cluster[i] = static_cast<std::int16_t>(cluster);
-        add(cloud.points[i], cloud.clusters[static_cast<std::size_t>(cluster)]);
+        make_dynamic(i, cluster, cloud);
         cloud.dynamic_pixels[i] = 1;
         moved[i] = 1;
       }
@@ -185,31 +157,16 @@ Image<std::uint8_t> Movement::relabel(LabeledCloud& cloud,
                                       const Transform<World, Sensor>& T_world_sensor) const {
   if (!config_.enabled || !cloud.organised() || views_.empty()) return {};
   const Nodes nodes(cloud);
-  std::vector<std::pair<const FreeSpace*, Eigen::Isometry3f>> views;
-  for (const View& view : views_) {
-    if (is_forgotten(view, cloud.stamp)) continue;
-    views.emplace_back(&view.free_space,
-                       view.T_sensor_world * T_world_sensor.isometry().cast<float>());
-  }
-  const auto place_of = [&](const Eigen::Vector3f& point) {
-    Place place = kUnknown;
-    for (const auto& [free_space, T_view_sensor] : views) {
-      const Eigen::Vector3f there = T_view_sensor * point;
-      if (free_space->sees_through(there)) return kFree;
-      if (free_space->touches(there)) place = kSurface;
-      if (place == kUnknown && free_space->is_blank(there)) place = kBlank;
-    }
-    return place;
-  };
-  Image<Place> places(nodes.width, nodes.height, kNone);
+  const auto views = views_.query(cloud.stamp, T_world_sensor);
+  Image<Place> places(nodes.width, nodes.height, Place::kNone);
   std::size_t count = 0;
   std::size_t free = 0;
   for (int y = 0; y < nodes.height; ++y) {
     for (int x = 0; x < nodes.width; ++x) {
       if (!nodes.is_static(x, y)) continue;
-      places(x, y) = place_of(cloud.points[nodes.pixel(x, y)]);
+      places(x, y) = views.place_of(cloud.points[nodes.pixel(x, y)]);
       ++count;
-      free += places(x, y) == kFree;
+      free += places(x, y) == Place::kFree;
     }
   }
   if (static_cast<double>(free) > config_.max_share * static_cast<double>(count)) return {};
@@ -219,26 +176,19 @@ Image<std::uint8_t> Movement::relabel(LabeledCloud& cloud,
   if (cloud.cluster.empty()) cloud.cluster.assign(cloud.points.size(), -1);
   Image<std::uint8_t> moved;
   for (const auto& core : find_cores(nodes, places, config_.radius)) {
-    if (places(core.first, core.second) != kFree) continue;
+    if (places(core.first, core.second) != Place::kFree) continue;
     const auto thing = take_thing(nodes, core, noise_, places);
     if (thing.empty()) continue;
     if (moved.empty()) moved = Image<std::uint8_t>(cloud.width, cloud.height);
     const int cluster = adjoining_cluster(nodes, thing, noise_);
-    make_dynamic(thing, cluster < 0 ? add_unknown(cloud) : cluster, cloud, moved);
+    make_dynamic(thing, cluster < 0 ? add_unknown_cluster(cloud) : cluster, cloud, moved);
   }
   return moved;
 }
 
-bool Movement::is_forgotten(const View& view, Timestamp now) const {
-  return to_seconds(now - view.stamp) > config_.memory;
-}
-
 void Movement::remember(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor) {
-  if (!config_.enabled || !cloud.organised()) return;
-  while (!views_.empty() && is_forgotten(views_.front(), cloud.stamp)) views_.pop_front();
-  if (!views_.empty() && to_seconds(cloud.stamp - views_.back().stamp) < config_.interval) return;
-  views_.push_back({cloud.stamp, FreeSpace(cloud, config_.margin, noise_),
-                    T_world_sensor.isometry().inverse().cast<float>()});
+  if (!config_.enabled || !cloud.organised() || !views_.wants(cloud.stamp)) return;
+  views_.add(cloud.stamp, FreeSpace(cloud, config_.margin, noise_), T_world_sensor);
 }
 
 }  // namespace mms

@@ -7,7 +7,7 @@
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/dynamic_map.hpp"
 #include "mms/mapping/keyframe_selector.hpp"
-#include "mms/mapping/movement.hpp"
+#include "mms/mapping/movement_config.hpp"
 #include "mms/mapping/occupancy_config.hpp"
 #include "mms/mapping/static_map.hpp"
 #include "mms/segmentation/segmentation_config.hpp"

@@ -40,6 +40,7 @@ SlamSystem::SlamSystem(const SystemConfig& given, std::unique_ptr<Segmenter> seg
       extractor_(with_shared_noise(given).features),
       odometry_(given.odometry, given.depth_noise),
       movement_(with_shared_noise(given).movement, given.depth_noise),
+      scan_movement_(with_shared_noise(given).movement, given.lidar_noise),
       keyframes_(given.keyframes),
       static_map_(with_shared_noise(given).static_map),
       occupancy_map_(given.occupancy, with_shared_noise(given).static_map.surface),
@@ -72,8 +73,10 @@ Perception SlamSystem::perceive(const Frame& frame, const TimedSegmentation& mas
 void SlamSystem::leave_out_movement(Perception& perception) const {
   const auto expected = odometry_.expected(perception.labeled.stamp);
   if (!expected) return;
-  const Image<std::uint8_t> moved = movement_.relabel(perception.labeled, *expected);
-  if (!moved.empty()) exclude(moved, perception.labeled.camera, perception.features);
+  LabeledCloud& cloud = perception.labeled;
+  const Image<std::uint8_t> moved = movement_.relabel(cloud, *expected);
+  if (!moved.empty()) exclude(moved, cloud.camera, perception.features);
+  if (scan_movement_.relabel(cloud, *expected)) exclude_dynamic(cloud.labels, perception.features);
 }
 
 FrameResult SlamSystem::localize(Perception perception) {
@@ -90,6 +93,7 @@ FrameResult SlamSystem::localize(Perception perception) {
     const bool keyframe = keyframes_.is_keyframe(result.odometry);  // III-C.4
     if (keyframe) {
       movement_.remember(result.cloud, result.odometry.T_world_sensor);
+      scan_movement_.remember(result.cloud, result.odometry.T_world_sensor);
       static_map_.integrate(result.cloud, result.odometry.T_world_sensor);  // III-D
       occupancy_map_.integrate(result.cloud, result.odometry.T_world_sensor);
     }

@@ -10,6 +10,7 @@
 #include "mms/mapping/keyframe_selector.hpp"
 #include "mms/mapping/movement.hpp"
 #include "mms/mapping/occupancy_map.hpp"
+#include "mms/mapping/scan_movement.hpp"
 #include "mms/mapping/static_map.hpp"
 #include "mms/pipeline/config.hpp"
 #include "mms/pipeline/frame_result.hpp"
@@ -59,6 +60,7 @@ class SlamSystem {
   FeatureExtractor extractor_;
   Odometry odometry_;
   Movement movement_;
+  ScanMovement scan_movement_;
   KeyframeSelector keyframes_;
   StaticMap static_map_;
   OccupancyMap occupancy_map_;

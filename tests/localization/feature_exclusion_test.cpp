@@ -38,5 +38,19 @@ TEST(FeatureExclusion, TakesOutWhatLiesOnThePixels) {
   EXPECT_EQ(features.intensity[1].depth(22, 20), 2.0F);
 }
 
+TEST(FeatureExclusion, TakesOutTheFeaturesOfAScansDynamicPoints) {
+  FeatureCloud features;
+  features.edges = {{{1, 0, 0}, 0.0F, 0.0F, 2}, {{2, 0, 0}, 0.0F, 0.0F, 0}, {{3, 0, 0}, 0.0F}};
+  features.planes = {{{4, 0, 0}, {}, 0.0F, 0.0F, 1}, {{5, 0, 0}, {}, 0.0F, 0.0F, 0}};
+
+  exclude_dynamic({PointLabel::kStatic, PointLabel::kDynamic, PointLabel::kDynamic}, features);
+
+  ASSERT_EQ(features.edges.size(), 2U);
+  EXPECT_EQ(features.edges[0].point.x(), 2.0F);
+  EXPECT_EQ(features.edges[1].point.x(), 3.0F) << "of no point";
+  ASSERT_EQ(features.planes.size(), 1U);
+  EXPECT_EQ(features.planes[0].point.x(), 5.0F);
+}
+
 }  // namespace
 }  // namespace mms

@@ -1,0 +1,70 @@
+#include "mms/mapping/scan_free_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace mms {
+namespace {
+
+constexpr double kMargin = 0.1;
+
+/// Points at distance `range` in every direction, or in those that `has` accepts.
+template <class Has>
+LabeledCloud ball(float range, const Has& has) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> normal;
+  LabeledCloud cloud;
+  while (cloud.points.size() < 200'000) {
+    const Eigen::Vector3f direction(normal(random), normal(random), normal(random));
+    if (has(direction)) cloud.points.push_back(range * direction.normalized());
+  }
+  cloud.labels.assign(cloud.points.size(), PointLabel::kStatic);
+  return cloud;
+}
+
+LabeledCloud ball(float range) {
+  return ball(range, [](const Eigen::Vector3f&) { return true; });
+}
+
+TEST(ScanFreeSpace, IsBeforeThePointsInEveryDirection) {
+  const ScanFreeSpace space(ball(5.0F), kMargin);
+  std::mt19937 random(2);
+  std::normal_distribution<float> normal;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3f direction =
+        Eigen::Vector3f(normal(random), normal(random), normal(random)).normalized();
+    EXPECT_TRUE(space.sees_through(4.85F * direction));
+    EXPECT_FALSE(space.sees_through(4.95F * direction));
+    EXPECT_TRUE(space.touches(4.95F * direction));
+    EXPECT_TRUE(space.touches(5.05F * direction));
+    EXPECT_FALSE(space.touches(5.2F * direction));
+    EXPECT_FALSE(space.is_blank(6.0F * direction));
+  }
+}
+
+TEST(ScanFreeSpace, EndsAtTheNearestOfNeighbouringPoints) {
+  LabeledCloud cloud = ball(5.0F);
+  cloud.points.emplace_back(2.0F, 0.0F, 0.0F);
+  cloud.labels.push_back(PointLabel::kDynamic);  // whoever stands there hides what is behind
+  const ScanFreeSpace space(cloud, kMargin);
+  EXPECT_FALSE(space.sees_through({3.0F, 0.0F, 0.0F}));
+  EXPECT_FALSE(space.sees_through({3.0F, 0.05F, 0.0F}));
+  EXPECT_TRUE(space.sees_through({3.0F, 0.3F, 0.0F}));
+  EXPECT_TRUE(space.sees_through({1.5F, 0.0F, 0.0F}));
+}
+
+TEST(ScanFreeSpace, IsUnknownWhereNothingWasMeasured) {
+  LabeledCloud cloud = ball(5.0F, [](const Eigen::Vector3f& d) { return d.x() < 0.0F; });
+  cloud.points.emplace_back(1.0F, 1.0F, 1.0F);
+  cloud.labels.push_back(PointLabel::kInvalid);
+  const ScanFreeSpace space(cloud, kMargin);
+  EXPECT_TRUE(space.is_blank({2.0F, 0.0F, 0.0F}));
+  EXPECT_TRUE(space.is_blank({0.5F, 0.5F, 0.5F}));
+  EXPECT_FALSE(space.sees_through({2.0F, 0.0F, 0.0F}));
+  EXPECT_FALSE(space.touches({2.0F, 0.0F, 0.0F}));
+  EXPECT_TRUE(space.sees_through({-2.0F, 0.0F, 0.0F}));
+}
+
+}  // namespace
+}  // namespace mms
