@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <system_error>
 
 #include "mms/core/error.hpp"
 #include "mms/core/trajectory.hpp"
@@ -76,10 +77,16 @@ bool is_live_download(std::string_view name) {
 
 fs::path write_live_download(Scene& scene, std::string_view name) {
   const fs::path path = new_temporary(name);
-  if (name == "trajectory.tum") {
-    write_trajectory_tum(path, trajectory_of(scene));
-  } else {
-    write_ply(path, map_of(scene));
+  try {
+    if (name == "trajectory.tum") {
+      write_trajectory_tum(path, trajectory_of(scene));
+    } else {
+      write_ply(path, map_of(scene));
+    }
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove_all(path.parent_path(), ignored);
+    throw;
   }
   return path;
 }
