@@ -116,12 +116,17 @@ class Recorder:
 
     def __init__(self):
         self.messages = {}
+        self.subscribers = {}
         self.lock = threading.Lock()
 
     def subscribe(self, topic, message_class):
         import rospy
         self.messages[topic] = []
-        rospy.Subscriber(topic, message_class, self.keep, topic, queue_size=1000)
+        self.subscribers[topic] = rospy.Subscriber(topic, message_class, self.keep, topic,
+                                                   queue_size=1000)
+
+    def connected(self):
+        return all(s.get_num_connections() > 0 for s in self.subscribers.values())
 
     def keep(self, message, topic):
         with self.lock:
