@@ -49,8 +49,10 @@ Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
 
 OdometryEstimate Odometry::estimate(FeatureCloud measured) {
   const Timestamp stamp = measured.stamp;
-  FeatureCloud features = at_pose_time(std::move(measured));
+  const FeatureCloud features = at_pose_time(std::move(measured));
+  const std::optional<FeatureCloud> first = std::exchange(first_scan_, std::nullopt);
   OdometryEstimate estimate = maps_ ? track(features) : initialize(features);
+  if (first && velocity_known_) estimate = begin_in_motion(*first, features);
   estimate.stamp = stamp;
   estimate.T_world_sensor = Transform<World, Sensor>(predict(stamp));
   return estimate;
@@ -107,9 +109,28 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
           ? config_.voxel_size
           : std::clamp(median_range(features) / kVoxelsPerRange, kMinVoxel, kMaxVoxel);
   map_radius_ = config_.map_radius > 0.0 ? config_.map_radius : kRadiusPerVoxel * voxel;
+  begin_maps(voxel, features);
+  if (features.intensity.empty() && features.points_offset != Duration::zero()) {
+    first_scan_ = features;
+  }
+  return estimate;
+}
+
+void Odometry::begin_maps(double voxel, const FeatureCloud& features) {
   maps_.emplace(voxel, static_cast<std::size_t>(config_.max_voxels));
   update_maps(features);
-  return estimate;
+}
+
+/// Two scans tell the motion, which skewed both of them alike: the first one is mapped again, and
+/// the second one localised again. The first frame's stamp stays the origin.
+/// Both are given as measured, for nothing was known of the motion.
+OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud second) {
+  deskew(first, velocity_);
+  deskew(second, velocity_);
+  pose_ = se3::exp(velocity_ * to_seconds(first.points_offset));
+  stamp_ = known_at_ = first.stamp;
+  begin_maps(static_cast<double>(maps_->voxel_size()), first);
+  return track(second);
 }
 
 std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {

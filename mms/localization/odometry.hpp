@@ -45,6 +45,8 @@ class Odometry {
   FeatureCloud at_pose_time(FeatureCloud features) const;
   OdometryEstimate initialize(const FeatureCloud& features);
   OdometryEstimate track(const FeatureCloud& features);
+  OdometryEstimate begin_in_motion(FeatureCloud first, FeatureCloud second);
+  void begin_maps(double voxel, const FeatureCloud& features);
   Isometry predict(Timestamp stamp) const;
   bool trustworthy(const FeatureCloud& features, const RegistrationResult& result,
                    const Isometry& prediction, double elapsed) const;
@@ -54,7 +56,8 @@ class Odometry {
   void update_maps(const FeatureCloud& features);
 
   OdometryConfig config_;
-  std::optional<LocalMaps> maps_;  ///< made when the first features tell their scale
+  std::optional<LocalMaps> maps_;           ///< made when the first features tell their scale
+  std::optional<FeatureCloud> first_scan_;  ///< as measured, until the second one
   ReferenceKeyframes keyframes_;
   DepthNoise noise_;
   double map_radius_ = 0.0;
