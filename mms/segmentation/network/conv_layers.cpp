@@ -27,10 +27,14 @@ torch::Tensor kaiming_weight(const ConvShape& shape) {
 
 /// The mean over each output channel, and how far its weights spread: (out, 1, 1, 1) both.
 std::pair<torch::Tensor, torch::Tensor> channel_statistics(const torch::Tensor& weight) {
-  const torch::Tensor flat = weight.flatten(1);
-  const torch::Tensor mean = flat.mean(1).view({-1, 1, 1, 1});
-  const torch::Tensor variance = flat.var(1, /*unbiased=*/true).view({-1, 1, 1, 1});
+  const auto [variance, mean] =
+      torch::var_mean(weight, {1, 2, 3}, /*unbiased=*/true, /*keepdim=*/true);
   return {mean, (variance + kVarianceFloor).sqrt()};
+}
+
+/// Mean of the 5x5 pixels about each stride-th one, mirrored at the border.
+torch::Tensor mean_about(const torch::Tensor& x, std::int64_t stride = 1) {
+  return torch::avg_pool2d(torch::reflection_pad2d(x, {2, 2, 2, 2}), 5, stride);
 }
 
 torch::Tensor add_context(const torch::Tensor& x, nn::Conv2d& context) {
@@ -42,7 +46,8 @@ torch::Tensor add_context(const torch::Tensor& x, nn::Conv2d& context) {
 torch::Tensor standardise_weight(const torch::Tensor& weight, const torch::Tensor& gamma,
                                  const torch::Tensor& beta) {
   const auto [mean, deviation] = channel_statistics(weight);
-  return gamma * ((weight - mean) / deviation) + beta;
+  const torch::Tensor scale = gamma / deviation;
+  return torch::addcmul(beta - mean * scale, weight, scale);
 }
 
 std::pair<torch::Tensor, torch::Tensor> folded_weight(const torch::Tensor& weight,
@@ -127,15 +132,22 @@ torch::Tensor SwitchableConvImpl::convolve_at(const torch::Tensor& x, const torc
   return deformable_conv(x, convolve(pooled, offset), weight, shape_.stride, dilation);
 }
 
+/// The switch of the means is the mean of the switches, whose map has one channel.
+torch::Tensor SwitchableConvImpl::switch_at(const torch::Tensor& x) {
+  const torch::Tensor each = torch::conv2d(x, switch_->weight, switch_->bias);
+  return mean_about(each, shape_.stride);
+}
+
 torch::Tensor SwitchableConvImpl::forward(const torch::Tensor& input) {
   const torch::Tensor x = add_context(input, pre_context_);
-  const torch::Tensor pooled = torch::avg_pool2d(torch::reflection_pad2d(x, {2, 2, 2, 2}), 5, 1);
-  const torch::Tensor mix = convolve(pooled, switch_);
+  const bool deformable = !offset_small_.is_empty();
+  const torch::Tensor pooled = deformable ? mean_about(x) : torch::Tensor();
+  const torch::Tensor mix = deformable ? convolve(pooled, switch_) : switch_at(x);
   const torch::Tensor weight = small_weight();
   const torch::Tensor small = convolve_at(x, weight, offset_small_, pooled, 1);
   const torch::Tensor large =
       convolve_at(x, weight + difference_, offset_large_, pooled, kLargeDilation);
-  return add_context(mix * small + (1 - mix) * large, post_context_);
+  return add_context(torch::lerp(large, small, mix), post_context_);
 }
 
 HeadUnitImpl::HeadUnitImpl(const ConvShape& shape, HeadNorm norm) {

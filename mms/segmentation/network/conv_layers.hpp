@@ -55,6 +55,7 @@ class SwitchableConvImpl : public torch::nn::Module {
 
  private:
   torch::Tensor small_weight() const;
+  torch::Tensor switch_at(const torch::Tensor& x);
   torch::Tensor convolve_at(const torch::Tensor& x, const torch::Tensor& weight,
                             torch::nn::Conv2d& offset, const torch::Tensor& pooled,
                             std::int64_t dilation);
