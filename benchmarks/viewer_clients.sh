@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# What viewers cost a run: milliseconds per frame and memory without --view, with it and nobody
-# looking, with one viewer, and with a crowd that comes and goes and sends garbage. The kinds take
-# turns, so that what else the machine does falls on all of them; the median run of each counts, and
-# the range says how far the machine itself is to be trusted.
-# Clients run at the lowest priority, as if they were on other machines.
+# What a crowd of viewers costs a run: milliseconds per frame and memory without --view, with it and
+# nobody looking, with one viewer, and with a crowd that comes and goes and sends garbage. The run
+# has all cores but the last, on which the clients are, as if they were on other machines. They still
+# share its caches and memory; so the crowd is also let loose on another server beside a run without
+# --view (elsewhere), and what the crowd costs the run is told against that.
+# The kinds take turns, so that what else the machine does falls on all of them; ratios are taken
+# within a turn, and their median counts.
 # usage: benchmarks/viewer_clients.sh [DATA=a simulated scene] [ROUNDS=3] [CLIENTS=20] [FLAGS FOR mms run]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
@@ -13,25 +15,35 @@ rounds="${2:-3}"
 clients="${3:-20}"
 shift $(($# > 3 ? 3 : $#))
 port=8471
+last_core=$(($(nproc) - 1))
 
 if [ -z "$data" ]; then
   data="$out/data"
   quietly "$mms" simulate warehouse_loop --frames 450 -o "$data"
 fi
+quietly "$mms" run "sim:warehouse_loop?frames=60" -o "$out/elsewhere" --segmenter none
+
+# aside COMMAND...: in the background, on the last core.
+aside() { taskset -c "$last_core" timeout 600 "$@" > /dev/null 2>&1 & }
 
 # run KIND CLIENTS FLAGS...: one run with so many clients, as a line "KIND ms MiB".
 run() {
-  local kind="$1" number="$2"
+  local kind="$1" number="$2" others=()
   shift 2
-  if [ "$number" -gt 0 ]; then
-    nice -n 19 timeout 600 "$crowd" "$port" "$number" 600 > /dev/null 2>&1 &
-    local visitors=$!
+  if [ "$kind" = elsewhere ]; then
+    aside "$mms" view "$out/elsewhere" --port $((port + 1))
+    others+=($!)
+    aside "$crowd" $((port + 1)) "$number" 600
+    others+=($!)
+  elif [ "$number" -gt 0 ]; then
+    aside "$crowd" "$port" "$number" 600
+    others+=($!)
   fi
-  quietly "$mms" run "$data" -o "$out/run" "$@"
-  if [ "$number" -gt 0 ]; then
-    kill "$visitors"
-    wait "$visitors" 2> /dev/null || true
-  fi
+  quietly taskset -c "0-$((last_core - 1))" "$mms" run "$data" -o "$out/run" "$@"
+  for other in "${others[@]}"; do
+    kill "$other"
+    wait "$other" 2> /dev/null || true
+  done
   echo "$kind $(value "$out/run/metrics.json" mean ms_per_frame) $(value "$out/run/metrics.json" peak_rss_mb)" |
     tee -a "$out/rows" >&2
 }
@@ -41,24 +53,30 @@ for ((i = 0; i < rounds; ++i)); do
   run nobody 0 --view "$port" "$@"
   run one 1 --view "$port" "$@"
   run crowd "$clients" --view "$port" "$@"
+  run elsewhere "$clients" "$@"
 done
 
-# sorted KIND COLUMN
-sorted() {
-  awk -v kind="$1" -v column="$2" '$1 == kind { print $column }' "$out/rows" | sort -g
+# column KIND NUMBER
+column() { awk -v kind="$1" -v number="$2" '$1 == kind { print $number }' "$out/rows"; }
+median() { sort -g | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'; }
+
+# slower KIND BASE: how much slower than the other kind, in percent.
+slower() {
+  paste <(column "$1" 2) <(column "$2" 2) | awk '{ print 100 * ($1 / $2 - 1) }' | median |
+    xargs printf '%+.0f %%'
 }
-least() { sorted "$@" | head -n 1; }
-most() { sorted "$@" | tail -n 1; }
-median() { sorted "$@" | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'; }
 
-echo "| viewers | ms per frame, median | least to most | against none | MiB |"
-echo "| --- | --- | --- | --- | --- |"
-alone="$(median alone 2)"
-for kind in alone nobody one crowd; do
-  awk -v kind="$kind" -v ms="$(median $kind 2)" -v least="$(least $kind 2)" -v most="$(most $kind 2)" \
-    -v alone="$alone" -v mib="$(most $kind 3)" -v n="$clients" '
-    BEGIN { name["alone"] = "no --view"; name["nobody"] = "--view, nobody looks"
-            name["one"] = "one"; name["crowd"] = n " that come, go and send garbage"
-            printf "| %s | %.1f | %.1f to %.1f | %+.0f %% | %.0f |\n", name[kind], ms, least, most,
-                   100 * (ms / alone - 1), mib }'
-done
+# row KIND NAME
+row() {
+  printf '| %s | %.1f | %.1f to %.1f | %s | %s | %.0f |\n' "$2" "$(column "$1" 2 | median)" \
+    "$(column "$1" 2 | sort -g | head -n 1)" "$(column "$1" 2 | sort -g | tail -n 1)" \
+    "$(slower "$1" alone)" "$(slower "$1" elsewhere)" "$(column "$1" 3 | sort -g | tail -n 1)"
+}
+
+echo "| viewers | ms per frame, median | least to most | against none | against elsewhere | MiB |"
+echo "| --- | --- | --- | --- | --- | --- |"
+row alone "no --view"
+row elsewhere "no --view, $clients at another server"
+row nobody "--view, nobody looks"
+row one "one"
+row crowd "$clients that come, go and send garbage"

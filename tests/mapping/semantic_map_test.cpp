@@ -50,6 +50,14 @@ TEST(SemanticMap, ABoxIsItsTwelveEdges) {
   }
 }
 
+TEST(SemanticMap, WhatMovesWithoutANameIsAmber) {
+  const ObjectHistory history = {{Timestamp(1), {object(1, ObjectClass::kUnknown, {0, 0, 1})}}};
+  const MapCloud map = semantic_map({}, history, kSpacing);
+  ASSERT_FALSE(map.colors.empty());
+  EXPECT_TRUE(std::all_of(map.colors.begin(), map.colors.end(),
+                          [](Rgb c) { return c.r > c.g && c.g > 2 * c.b; }));
+}
+
 TEST(SemanticMap, AWayRunsOverTheFloorToTheLastBox) {
   ObjectHistory history;
   for (int i = 0; i < 5; ++i) {
