@@ -98,6 +98,25 @@ TEST(MaskExchange, ANarrowLinkGetsFewerImages) {
   EXPECT_EQ(under_way, static_cast<int>(std::ceil(fast.counts().window)));
 }
 
+TEST(MaskExchange, ALinkThatWasCutIsFoundAgainByASingleAnswer) {
+  constexpr auto kWait = 3s;
+  MaskExchange exchange(kWait, kLong);
+  int t = 0;
+  while (exchange.may_send()) exchange.sent(Timestamp(++t));
+  const int lost = t;
+  const auto cut = MaskExchange::Clock::now();
+  while (!exchange.may_send()) std::this_thread::sleep_for(1ms);
+  const auto silence = MaskExchange::Clock::now() - cut;
+  EXPECT_GT(silence, kWait / 4);
+  EXPECT_LT(silence, 2 * kWait);
+  exchange.sent(Timestamp(++t));
+  EXPECT_FALSE(exchange.may_send());  // one at a time
+  exchange.received(Timestamp(t), masks_of(1));
+  int room = 0;
+  for (; exchange.may_send(); ++room) exchange.sent(Timestamp(++t));
+  EXPECT_GE(room, lost);
+}
+
 TEST(MaskExchange, ClosingEndsTheWait) {
   MaskExchange exchange(kLong, kLong);
   exchange.sent(Timestamp(1));

@@ -9,15 +9,25 @@ constexpr std::size_t kRemembered = 1000;  // images without an answer
 constexpr double kSmoothing = 0.1;
 constexpr double kLargestWindow = 30.0;
 constexpr double kShrink = 0.7;  // of the window by masks that came too late
+constexpr int kProbes = 6;       // on a silent link, in the longest time that a frame waits
 
 }  // namespace
 
 bool MaskExchange::may_send() const {
   const std::scoped_lock lock(mutex_);
-  const Clock::time_point given_up = Clock::now() - 2 * max_wait_;
+  const Clock::time_point now = Clock::now();
+  if (may_probe(now)) return true;
+  const Clock::time_point given_up = now - 2 * max_wait_;
   const auto under_way = std::count_if(sent_.begin(), sent_.end(),
                                        [&](const auto& image) { return image.second > given_up; });
   return static_cast<double>(under_way) < window_;
+}
+
+/// What was under way when a link was cut fills the window. One answer tells that all before it
+/// is lost, so that a silent link is asked for one now and then.
+bool MaskExchange::may_probe(Clock::time_point now) const {
+  const Clock::duration period = max_wait_ / kProbes;
+  return waits_since_ && now - *waits_since_ > 2 * period && now - last_sent_ > period;
 }
 
 void MaskExchange::sent(Timestamp stamp) {
@@ -26,6 +36,7 @@ void MaskExchange::sent(Timestamp stamp) {
   sent_[stamp] = now;
   if (sent_.size() > kRemembered) sent_.erase(sent_.begin());
   if (!waits_since_) waits_since_ = now;
+  last_sent_ = now;
   ++counts_.sent;
 }
 

@@ -36,7 +36,8 @@ class MaskExchange {
   MaskExchange(Clock::duration max_wait, Clock::duration link_timeout)
       : max_wait_(max_wait), link_timeout_(link_timeout) {}
 
-  /// Whether there is room on the link for one more image.
+  /// Whether there is room on the link for one more image, or whether to try a link that has been
+  /// silent for long.
   bool may_send() const;
 
   void sent(Timestamp stamp);
@@ -51,6 +52,7 @@ class MaskExchange {
   Counts counts() const;
 
  private:
+  bool may_probe(Clock::time_point now) const;
   bool link_lost(Clock::time_point now) const;
   void adapt_window(Clock::duration delay);
 
@@ -62,7 +64,8 @@ class MaskExchange {
   std::map<Timestamp, Segmentation> masks_;
   std::optional<Timestamp> done_;                 ///< the last frame asked for
   std::optional<Clock::time_point> waits_since_;  ///< when the oldest unanswered image was sent
-  double window_ = 16.0;                          ///< images that may be under way
+  Clock::time_point last_sent_;
+  double window_ = 16.0;  ///< images that may be under way
   Clock::time_point last_shrunk_;
   Counts counts_;
   bool closed_ = false;
