@@ -10,8 +10,8 @@ shift
 holdout=data/simulated-holdout
 mkdir -p "$runs"
 
-# mean_loss FILE: of the last 500 steps.
-mean_loss() { grep '"loss"' "$1" | tail -n 20 | grep -oE '[0-9.]+' |
+# mean_loss FILE: of the last 1,000 images.
+mean_loss() { grep '"loss"' "$1" | tail -n 5 | grep -oE '[0-9.]+' |
   awk '{ sum += $1 } END { printf "%.3f", sum / NR }'; }
 
 row() {
