@@ -16,6 +16,7 @@ clients="${3:-20}"
 shift $(($# > 3 ? 3 : $#))
 port=8471
 last_core=$(($(nproc) - 1))
+[ "$last_core" -gt 0 ] || { echo "two cores are needed, here is one: the clients have one of their own" >&2; exit 1; }
 
 if [ -z "$data" ]; then
   data="$out/data"
