@@ -13,7 +13,7 @@ constexpr double kCutShare = 0.25;  // of a side's rim
 
 enum Side : std::size_t { kLeft, kRight, kTop, kBottom, kSideCount };
 
-/// Rim pixels of a cluster by side.
+/// Rim pixels of a part by side.
 struct Rim {
   std::array<int, kSideCount> all{};
   std::array<int, kSideCount> cut{};
@@ -22,7 +22,8 @@ struct Rim {
 
 class RimCounter {
  public:
-  explicit RimCounter(const LabeledCloud& cloud) : cloud_(cloud), rims_(cloud.clusters.size()) {}
+  RimCounter(const LabeledCloud& cloud, const ClusterParts& parts)
+      : cloud_(cloud), part_(parts.part), rims_(parts.cluster.size()) {}
 
   std::vector<Rim> count() {
     for (int y = 0; y < cloud_.height; ++y) scan_line(0, y, 1, 0, cloud_.width, kLeft, kRight);
@@ -31,11 +32,11 @@ class RimCounter {
   }
 
  private:
-  /// The first and the last pixel of every cluster along a row or column are its rim there.
+  /// The first and the last pixel of every part along a row or column are its rim there.
   void scan_line(int x, int y, int dx, int dy, int length, Side low, Side high) {
     ends_.assign(rims_.size(), {-1, -1});
     for (int i = 0; i < length; ++i) {
-      const int c = cloud_.cluster[index(x + i * dx, y + i * dy)];
+      const int c = part_[index(x + i * dx, y + i * dy)];
       if (c < 0) continue;
       auto& [first, last] = ends_[static_cast<std::size_t>(c)];
       if (first < 0) first = i;
@@ -49,9 +50,9 @@ class RimCounter {
     }
   }
 
-  void note(std::size_t cluster, Side side, int x, int y, int dx, int dy) {
-    ++rims_[cluster].all[side];
-    if (ends_at_border_or_occluder(x, y, dx, dy)) ++rims_[cluster].cut[side];
+  void note(std::size_t part, Side side, int x, int y, int dx, int dy) {
+    ++rims_[part].all[side];
+    if (ends_at_border_or_occluder(x, y, dx, dy)) ++rims_[part].cut[side];
   }
 
   bool ends_at_border_or_occluder(int x, int y, int dx, int dy) const {
@@ -69,15 +70,17 @@ class RimCounter {
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * cloud_.width + x); }
 
   const LabeledCloud& cloud_;
+  const std::vector<std::int16_t>& part_;
   std::vector<Rim> rims_;
   std::vector<std::pair<int, int>> ends_;
 };
 
 }  // namespace
 
-std::vector<ObjectMeasurement::Cut> find_cuts(const LabeledCloud& cloud) {
+std::vector<ObjectMeasurement::Cut> find_cuts(const LabeledCloud& cloud,
+                                              const ClusterParts& parts) {
   std::vector<ObjectMeasurement::Cut> cuts;
-  for (const Rim& rim : RimCounter(cloud).count()) {
+  for (const Rim& rim : RimCounter(cloud, parts).count()) {
     cuts.push_back({rim.is_cut(kLeft), rim.is_cut(kRight), rim.is_cut(kTop), rim.is_cut(kBottom)});
   }
   return cuts;

@@ -2,13 +2,15 @@
 
 #include <vector>
 
+#include "mms/mapping/group_division.hpp"
 #include "mms/mapping/object_measurement.hpp"
 
 namespace mms {
 
-/// Looks along the rims of an organised cloud's clusters for what cuts them off: the image's border
-/// or a nearer surface beside them. A side is cut where that holds for a good part of its rim.
-/// @return one for each of cloud.clusters
-std::vector<ObjectMeasurement::Cut> find_cuts(const LabeledCloud& cloud);
+/// Looks along the rims of the parts of an organised cloud's clusters for what cuts them off: the
+/// image's border or a nearer surface beside them. A side is cut where that holds for a good part
+/// of its rim.
+/// @return one for each part
+std::vector<ObjectMeasurement::Cut> find_cuts(const LabeledCloud& cloud, const ClusterParts& parts);
 
 }  // namespace mms

@@ -28,7 +28,7 @@ void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odome
     track.predict(cloud.stamp);
   }
   const std::vector<ObjectMeasurement> objects =
-      measure_objects(cloud, odometry.T_world_sensor, *ground_);
+      measure_objects(cloud, odometry.T_world_sensor, *ground_, config_.track);
   const std::vector<int> track_of = associate(tracks_, objects, config_.association);
   extend(objects, track_of);
   begin_new(objects, track_of);

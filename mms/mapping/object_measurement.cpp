@@ -14,12 +14,12 @@ std::size_t stride_of(std::size_t points) {
   return 1 + (points - 1) / kMaxPoints;
 }
 
-/// Indices of every cluster's points.
-std::vector<std::vector<std::size_t>> members(const LabeledCloud& cloud) {
-  std::vector<std::vector<std::size_t>> lists(cloud.clusters.size());
-  for (std::size_t i = 0; i < cloud.cluster.size(); ++i) {
-    const int c = cloud.cluster[i];
-    if (c >= 0 && cloud.points[i].allFinite()) lists[static_cast<std::size_t>(c)].push_back(i);
+/// Indices of every part's points.
+std::vector<std::vector<std::size_t>> members(const ClusterParts& parts) {
+  std::vector<std::vector<std::size_t>> lists(parts.cluster.size());
+  for (std::size_t i = 0; i < parts.part.size(); ++i) {
+    const int p = parts.part[i];
+    if (p >= 0) lists[static_cast<std::size_t>(p)].push_back(i);
   }
   return lists;
 }
@@ -74,29 +74,33 @@ void measure_colors(const LabeledCloud& cloud, const std::vector<std::size_t>& i
 
 std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
                                                const Transform<World, Sensor>& T_world_sensor,
-                                               const GroundFrame& ground) {
-  const auto indices = members(cloud);
-  std::vector<ObjectMeasurement::Cut> cuts(cloud.clusters.size());
-  if (cloud.organised()) cuts = find_cuts(cloud);
+                                               const GroundFrame& ground,
+                                               const TrackConfig& config) {
+  const ClusterParts parts = divide_groups(cloud, T_world_sensor, ground, config);
+  const auto indices = members(parts);
+  std::vector<ObjectMeasurement::Cut> cuts(parts.cluster.size());
+  if (cloud.organised()) cuts = find_cuts(cloud, parts);
   std::vector<ObjectMeasurement> objects;
-  for (std::size_t c = 0; c < cloud.clusters.size(); ++c) {
-    const DynamicCluster& cluster = cloud.clusters[c];
+  for (std::size_t p = 0; p < parts.cluster.size(); ++p) {
+    const DynamicCluster& cluster = cloud.clusters[parts.cluster[p]];
     const bool has_place =
-        !indices[c].empty() || (cluster.box_min.allFinite() && cluster.box_max.allFinite());
-    if (!has_place || is_secondary(cloud, c)) continue;
+        !indices[p].empty() || (cluster.box_min.allFinite() && cluster.box_max.allFinite());
+    if (!has_place || is_secondary(cloud, parts.cluster[p])) continue;
     ObjectMeasurement& object = objects.emplace_back();
     object.stamp = cloud.stamp;
     object.object_class = cluster.object_class;
     object.score = cluster.score;
     object.sensor = T_world_sensor.translation();
     object.right = T_world_sensor.rotation().col(0);
-    object.cut = cuts[c];
-    if (indices[c].empty()) {
-      for (const Eigen::Vector3d& p : corners(cluster)) object.points.push_back(T_world_sensor * p);
+    object.cut = cuts[p];
+    if (indices[p].empty()) {
+      for (const Eigen::Vector3d& corner : corners(cluster)) {
+        object.points.push_back(T_world_sensor * corner);
+      }
       object.centroid = 0.5 * (object.points.front() + object.points.back());
     } else {
-      measure_points(cloud, indices[c], T_world_sensor, object);
-      measure_colors(cloud, indices[c], ground, object);
+      measure_points(cloud, indices[p], T_world_sensor, object);
+      measure_colors(cloud, indices[p], ground, object);
     }
   }
   return objects;

@@ -7,10 +7,11 @@
 #include "mms/core/transform.hpp"
 #include "mms/mapping/appearance.hpp"
 #include "mms/mapping/ground_frame.hpp"
+#include "mms/mapping/track_config.hpp"
 
 namespace mms {
 
-/// One dynamic cluster of a frame, in the world frame.
+/// One dynamic object of a frame, in the world frame.
 struct ObjectMeasurement {
   Timestamp stamp;
   ObjectClass object_class = ObjectClass::kPerson;
@@ -31,12 +32,13 @@ struct ObjectMeasurement {
   } cut;
 };
 
-/// Measures the clusters of `cloud` in their order, of those under one mask the first. Cuts are
-/// known of organised clouds only. Clusters that list no points of theirs (as in tests) are taken
-/// for the corners of their boxes. Without a floor the lowest point of an object is taken to stand
-/// on it.
+/// Measures the clusters of `cloud` in their order, of those under one mask the first, each as the
+/// objects it holds. Cuts are known of organised clouds only. Clusters that list no points of
+/// theirs (as in tests) are taken for the corners of their boxes. Without a floor the lowest point
+/// of an object is taken to stand on it.
 std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
                                                const Transform<World, Sensor>& T_world_sensor,
-                                               const GroundFrame& ground);
+                                               const GroundFrame& ground,
+                                               const TrackConfig& config);
 
 }  // namespace mms

@@ -108,7 +108,8 @@ void Track::update(const ObjectMeasurement& object, bool shared) {
 }
 
 double Track::sigma_of(const ObjectMeasurement& object, bool is_loose) const {
-  if (is_loose || object.cut.left || object.cut.right) return config_.cut_sigma;
+  if (is_loose) return config_.loose_sigma;
+  if (object.cut.left || object.cut.right) return config_.cut_sigma;
   return std::hypot(config_.position_sigma, kRangeSigma * (object.centroid - object.sensor).norm());
 }
 

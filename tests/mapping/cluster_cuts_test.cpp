@@ -23,6 +23,10 @@ LabeledCloud board(int x_begin, int x_end, int y_begin, int y_end) {
   return cloud;
 }
 
+std::vector<ObjectMeasurement::Cut> cuts_of(const LabeledCloud& cloud) {
+  return find_cuts(cloud, {cloud.cluster, {0}});
+}
+
 /// Puts something at a depth over pixels; no return for NaN.
 void cover(LabeledCloud& cloud, int x_begin, int x_end, int y_begin, int y_end, float z) {
   for (int y = y_begin; y < y_end; ++y) {
@@ -37,11 +41,11 @@ void cover(LabeledCloud& cloud, int x_begin, int x_end, int y_begin, int y_end, 
 }
 
 TEST(ClusterCuts, FreeOnAllSidesIsNotCut) {
-  EXPECT_FALSE(find_cuts(board(40, 90, 30, 100)).at(0).any());
+  EXPECT_FALSE(cuts_of(board(40, 90, 30, 100)).at(0).any());
 }
 
 TEST(ClusterCuts, TheImagesBordersCut) {
-  const auto corner = find_cuts(board(0, 50, 60, 120)).at(0);
+  const auto corner = cuts_of(board(0, 50, 60, 120)).at(0);
   EXPECT_TRUE(corner.left);
   EXPECT_TRUE(corner.bottom);
   EXPECT_FALSE(corner.right);
@@ -52,7 +56,7 @@ TEST(ClusterCuts, SomethingNearerCutsThoughNoReturnLiesBetween) {
   LabeledCloud cloud = board(40, 90, 30, 100);
   cover(cloud, 80, 110, 20, 110, 2.0F);
   cover(cloud, 78, 80, 20, 110, NAN);
-  const auto cut = find_cuts(cloud).at(0);
+  const auto cut = cuts_of(cloud).at(0);
   EXPECT_TRUE(cut.right);
   EXPECT_FALSE(cut.left);
   EXPECT_FALSE(cut.top);
@@ -61,7 +65,7 @@ TEST(ClusterCuts, SomethingNearerCutsThoughNoReturnLiesBetween) {
 TEST(ClusterCuts, ASmallThingBeforeTheRimDoesNotCut) {
   LabeledCloud cloud = board(40, 90, 30, 100);
   cover(cloud, 86, 100, 30, 40, 2.0F);
-  EXPECT_FALSE(find_cuts(cloud).at(0).right);
+  EXPECT_FALSE(cuts_of(cloud).at(0).right);
 }
 
 }  // namespace
