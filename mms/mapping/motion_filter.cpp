@@ -13,26 +13,30 @@ namespace {
 
 constexpr double kHeightNoise = 0.01;  // spectral density of the height's drift [m^2/s]
 constexpr double kLikely = 5.0;        // standard deviations
+constexpr double kOffsetMemory = 1.0;  // time constant with which an offset changes [s]
 
 }  // namespace
 
 MotionFilter::MotionFilter(const Vector3d& position, const Vector3d& up, double position_sigma,
                            double velocity_sigma)
     : horizontal_(Matrix3d::Identity() - up * up.transpose()) {
-  state_ << position, Vector3d::Zero();
-  covariance_.setZero();
+  state_.head<3>() = position;
   covariance_.topLeftCorner<3, 3>().diagonal().setConstant(position_sigma * position_sigma);
-  covariance_.bottomRightCorner<3, 3>() = velocity_sigma * velocity_sigma * horizontal_;
+  covariance_.block<3, 3>(3, 3) = velocity_sigma * velocity_sigma * horizontal_;
 }
 
 void MotionFilter::predict(double seconds, double noise) {
+  const double kept = std::exp(-seconds / kOffsetMemory);
   Covariance transition = Covariance::Identity();
-  transition.topRightCorner<3, 3>() = seconds * Matrix3d::Identity();
+  transition.block<3, 3>(0, 3) = seconds * Matrix3d::Identity();
+  transition.bottomRightCorner<3, 3>() *= kept;
   const Matrix3d acceleration = noise * seconds * horizontal_;
   const Matrix3d drift = kHeightNoise * seconds * (Matrix3d::Identity() - horizontal_);
-  Covariance added;
-  added << acceleration * (seconds * seconds / 3.0) + drift, acceleration * (seconds / 2.0),
-      acceleration * (seconds / 2.0), acceleration;
+  Covariance added = Covariance::Zero();
+  added.topLeftCorner<6, 6>() << acceleration * (seconds * seconds / 3.0) + drift,
+      acceleration * (seconds / 2.0), acceleration * (seconds / 2.0), acceleration;
+  const double forgotten = (1.0 - kept * kept) * offset_sigma_ * offset_sigma_;
+  added.bottomRightCorner<3, 3>().diagonal().setConstant(forgotten);
   state_ = transition * state_;
   covariance_ = transition * covariance_ * transition.transpose() + added;
 }
@@ -40,26 +44,46 @@ void MotionFilter::predict(double seconds, double noise) {
 void MotionFilter::set_up(const Vector3d& up) {
   horizontal_ = Matrix3d::Identity() - up * up.transpose();
   Covariance level = Covariance::Identity();
-  level.bottomRightCorner<3, 3>() = horizontal_;
+  level.block<3, 3>(3, 3) = horizontal_;
   state_ = level * state_;
   covariance_ = level * covariance_ * level;
 }
 
-void MotionFilter::update(const Vector3d& position, double sigma) {
-  const Vector3d off = position - state_.head<3>();
-  const Matrix3d expected = covariance_.topLeftCorner<3, 3>();
-  const Matrix3d noise = sigma * sigma * Matrix3d::Identity();
+void MotionFilter::begin_offset(double sigma) {
+  if (offset_sigma_ == 0.0) {
+    covariance_.bottomRightCorner<3, 3>().diagonal().setConstant(sigma * sigma);
+  }
+  offset_sigma_ = sigma;
+}
+
+void MotionFilter::end_offset() {
+  offset_sigma_ = 0.0;
+  state_.tail<3>().setZero();
+  covariance_.rightCols<3>().setZero();
+  covariance_.bottomRows<3>().setZero();
+}
+
+void MotionFilter::update(const Vector3d& position, const PositionError& error) {
+  if (error.offset > 0.0) begin_offset(error.offset);
+  Eigen::Matrix<double, 3, 9> measured = Eigen::Matrix<double, 3, 9>::Zero();
+  measured.leftCols<3>().setIdentity();
+  if (error.offset > 0.0) measured.rightCols<3>().setIdentity();
+  const Vector3d off = position - measured * state_;
+  const Matrix3d expected = measured * covariance_ * measured.transpose();
+  const Matrix3d noise = error.noise * error.noise * Matrix3d::Identity();
   const double sigmas = std::sqrt(off.dot((expected + noise).inverse() * off));
   const Matrix3d innovation = expected + std::max(1.0, sigmas / kLikely) * noise;
-  const Eigen::Matrix<double, 6, 3> gain = covariance_.leftCols<3>() * innovation.inverse();
+  const Eigen::Matrix<double, 9, 3> gain =
+      covariance_ * measured.transpose() * innovation.inverse();
   state_ += gain * off;
-  covariance_ -= (gain * covariance_.topRows<3>()).eval();
+  covariance_ -= (gain * measured * covariance_).eval();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+  if (error.offset == 0.0) end_offset();
 }
 
 void MotionFilter::limit_speed(double speed) {
   const double now = velocity().norm();
-  if (now > speed) state_.tail<3>() *= speed / now;
+  if (now > speed) state_.segment<3>(3) *= speed / now;
 }
 
 }  // namespace mms

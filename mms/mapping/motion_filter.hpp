@@ -4,14 +4,20 @@
 
 namespace mms {
 
+/// How far a measured position may be off [m].
+struct PositionError {
+  double noise = 0.0;   ///< standard deviation from one measurement to the next
+  double offset = 0.0;  ///< that of an error which stays the same for a while; 0: none
+};
+
 /// Position and velocity of a point that goes over the floor and keeps its velocity but for random
 /// accelerations (a Kalman filter with white acceleration noise; Bar-Shalom et al., Estimation with
 /// Applications to Tracking and Navigation, 2001, 6.2). Its height drifts, and has no velocity: a
-/// body that comes into view does not rise. World frame, [m] and [m/s].
+/// body that comes into view does not rise. Measurements of a part of an object are off by an
+/// offset that stays while it is seen so, and that is estimated too (8.3): when all of it comes
+/// into view, the position changes, the velocity does not. World frame, [m] and [m/s].
 class MotionFilter {
  public:
-  using Covariance = Eigen::Matrix<double, 6, 6>;
-
   /// At rest at `position`, with standard deviations [m] and [m/s].
   /// @param up  of length 1
   MotionFilter(const Eigen::Vector3d& position, const Eigen::Vector3d& up, double position_sigma,
@@ -24,9 +30,9 @@ class MotionFilter {
   /// Takes another direction for the upright one.
   void set_up(const Eigen::Vector3d& up);
 
-  /// Takes in a measured position with its standard deviation [m]. One that is farther off than is
-  /// likely counts as little as that is unlikely (Huber's weights).
-  void update(const Eigen::Vector3d& position, double sigma);
+  /// Takes in a measured position. One that is farther off than is likely counts as little as that
+  /// is unlikely (Huber's weights).
+  void update(const Eigen::Vector3d& position, const PositionError& error);
 
   /// Moves the point without a motion: it was taken for another.
   void shift(const Eigen::Vector3d& by) { state_.head<3>() += by; }
@@ -35,14 +41,22 @@ class MotionFilter {
   void limit_speed(double speed);
 
   Eigen::Vector3d position() const { return state_.head<3>(); }
-  Eigen::Vector3d velocity() const { return state_.tail<3>(); }
+  Eigen::Vector3d velocity() const { return state_.segment<3>(3); }
   Eigen::Matrix3d position_covariance() const { return covariance_.topLeftCorner<3, 3>(); }
-  Eigen::Matrix3d velocity_covariance() const { return covariance_.bottomRightCorner<3, 3>(); }
+  Eigen::Matrix3d velocity_covariance() const { return covariance_.block<3, 3>(3, 3); }
 
  private:
+  /// Position, velocity, offset.
+  using State = Eigen::Matrix<double, 9, 1>;
+  using Covariance = Eigen::Matrix<double, 9, 9>;
+
+  void begin_offset(double sigma);
+  void end_offset();
+
   Eigen::Matrix3d horizontal_;  ///< projection
-  Eigen::Matrix<double, 6, 1> state_;
-  Covariance covariance_;
+  State state_ = State::Zero();
+  Covariance covariance_ = Covariance::Zero();
+  double offset_sigma_ = 0.0;  ///< 0 while the measurements have none
 };
 
 }  // namespace mms

@@ -100,17 +100,20 @@ void Track::update(const ObjectMeasurement& object, bool shared) {
   if (is_named(object) || moves) last_told_ = object.stamp;
   last_seen_ = object.stamp;
   const BoxFit seen = fit(object);
-  motion_.update(seen.center, sigma_of(object, shared || !seen.anchored));
+  motion_.update(seen.center, error_of(object, shared || !seen.anchored));
   motion_.limit_speed(config_.max_speed);
   judge_motion();
   if (!shared) learn_shape(object);
   last_position_ = motion_.position();
 }
 
-double Track::sigma_of(const ObjectMeasurement& object, bool is_loose) const {
-  if (is_loose) return config_.loose_sigma;
-  if (object.cut.left || object.cut.right) return config_.cut_sigma;
-  return std::hypot(config_.position_sigma, kRangeSigma * (object.centroid - object.sensor).norm());
+PositionError Track::error_of(const ObjectMeasurement& object, bool is_loose) const {
+  PositionError error;
+  const double range = (object.centroid - object.sensor).norm();
+  error.noise = std::hypot(config_.position_sigma, kRangeSigma * range);
+  if (object.cut.left || object.cut.right) error.offset = config_.cut_sigma;
+  if (is_loose) error.offset = config_.loose_sigma;
+  return error;
 }
 
 void Track::learn_shape(const ObjectMeasurement& object) {

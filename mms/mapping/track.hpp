@@ -68,7 +68,7 @@ class Track {
  private:
   BoxFit fit(const ObjectMeasurement& object, const std::optional<Eigen::Vector3d>& expected) const;
   void take_name(const ObjectMeasurement& object);
-  double sigma_of(const ObjectMeasurement& object, bool is_loose) const;
+  PositionError error_of(const ObjectMeasurement& object, bool is_loose) const;
   void learn_shape(const ObjectMeasurement& object);
   void learn_size(const BoxFit& fit);
   void learn_heading(const ObjectMeasurement& object);
