@@ -47,7 +47,9 @@ void ScheduleConfig::visit(ConfigVisitor& v) {
            backbone_factor, {0.0, 10.0});
   v.number({"momentum", "", "of sgd"}, momentum, {0.0, 0.9999});
   v.number({"weight_decay", "", "pull of the weights towards 0"}, weight_decay, {0.0, 1.0});
-  v.integer({"warm_up", "steps", "in which the rate rises from a hundredth"}, warm_up, {0, kMany});
+  v.integer(
+      {"warm_up", "steps", "in which the rate rises from a hundredth, at most a quarter of all"},
+      warm_up, {0, kMany});
   v.number({"first_drop", "", "share of the steps after which the rate falls to a tenth"},
            first_drop, {0.0, 1.0});
   v.number({"second_drop", "", "share of the steps after which it falls again"}, second_drop,

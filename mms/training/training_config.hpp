@@ -47,7 +47,7 @@ struct ScheduleConfig {
   double backbone_factor = 1.0;  ///< learning rate of the pretrained part, relative
   double momentum = 0.9;         ///< of SGD
   double weight_decay = 1e-4;
-  int warm_up = 500;          ///< steps in which the rate rises from a hundredth
+  int warm_up = 500;  ///< steps in which the rate rises from a hundredth, at most a quarter of all
   double first_drop = 0.75;   ///< share of the steps after which the rate falls to a tenth
   double second_drop = 0.92;  ///< and again
   double clip_norm = 35.0;    ///< largest L2 norm of all gradients

@@ -22,6 +22,13 @@ TEST(Schedule, WarmsUpAndDropsTwice) {
   EXPECT_NEAR(learning_rate_at(kSchedule, 920), 0.005, 1e-12);
 }
 
+TEST(Schedule, AShortTrainingHasAShortWarmUp) {
+  const ScheduleConfig schedule = {.images = 320, .batch = 8, .learning_rate = 0.5, .warm_up = 500};
+  EXPECT_NEAR(learning_rate_at(schedule, 5), 0.5 * 0.505, 1e-12);
+  EXPECT_NEAR(learning_rate_at(schedule, 10), 0.5, 1e-12);
+  EXPECT_NEAR(learning_rate_at({.images = 1, .learning_rate = 0.5}, 0), 0.5, 1e-12);
+}
+
 TEST(Schedule, AverageForgetsTheFirstSteps) {
   EXPECT_NEAR(ema_decay_at(kSchedule, 0), 0.1, 1e-12);
   EXPECT_NEAR(ema_decay_at(kSchedule, 1'000'000), kSchedule.ema, 1e-12);
