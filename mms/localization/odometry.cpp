@@ -10,12 +10,7 @@
 namespace mms {
 namespace {
 
-/// Velocity kept from frame to frame while lost: people who stop before the lens do not send the
-/// estimate through the wall.
-constexpr double kCoasting = 0.5;
-
-/// How far two measurements of one pose may be apart [m].
-constexpr double kMeasurementError = 0.01;
+constexpr double kClearlyMore = 1.05;  ///< times the inliers
 
 constexpr double kVoxelsPerRange = 25.0;
 constexpr double kMinVoxel = 0.05;  ///< [m]
@@ -35,44 +30,40 @@ void OdometryConfig::visit(ConfigVisitor& v) {
             {6, 100000});
   v.number({"min_inlier_share", "", "a frame with a smaller share of inliers is lost"},
            min_inlier_share, {0.0, 1.0});
-  v.number({"max_speed", "m/s", "a faster estimate is not believed"}, max_speed, {0.1, 1000.0});
-  v.number({"max_turn_rate", "deg/s", "a faster estimate is not believed"}, max_turn_rate,
-           {1.0, 36000.0});
-  v.number({"max_acceleration", "m/s^2", "a faster change of the velocity is not believed"},
-           max_acceleration, {0.1, 10000.0});
+  v.group({"motion", "", "how the sensor moves between frames"}, motion);
   v.group({"registration", "", "robust Gauss-Newton of a frame against the local maps"},
           registration);
 }
 
 Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
-    : config_(config), keyframes_(config.registration.photometric, noise), noise_(noise) {}
+    : config_(config),
+      keyframes_(config.registration.photometric, noise),
+      noise_(noise),
+      motion_(config.motion) {}
 
 OdometryEstimate Odometry::estimate(FeatureCloud measured) {
   const Timestamp stamp = measured.stamp;
   const FeatureCloud features = at_pose_time(std::move(measured));
   const std::optional<FeatureCloud> first = std::exchange(first_scan_, std::nullopt);
   OdometryEstimate estimate = maps_ ? track(features) : initialize(features);
-  if (first && velocity_known_) estimate = begin_in_motion(*first, features);
+  if (first && !lost_) estimate = begin_in_motion(*first, features);
   estimate.stamp = stamp;
-  estimate.T_world_sensor = Transform<World, Sensor>(predict(stamp));
+  estimate.T_world_sensor = Transform<World, Sensor>(motion_.predict(stamp).T_world_sensor);
   return estimate;
 }
 
 /// A scan takes the time between two frames. Its pose is that of its middle, where an error of the
 /// velocity that it is de-skewed with moves nothing; that of an image with depth is the image's.
 FeatureCloud Odometry::at_pose_time(FeatureCloud features) const {
-  const double elapsed = maps_ ? to_seconds(features.stamp - stamp_) : 0.0;
-  if (!features.intensity.empty()) return at_stamp(std::move(features), velocity_, elapsed);
-  deskew(features, velocity_);
+  const double elapsed = maps_ ? to_seconds(features.stamp - motion_.stamp()) : 0.0;
+  if (!features.intensity.empty()) return at_stamp(std::move(features), velocity(), elapsed);
+  deskew(features, velocity());
   features.stamp = features.stamp + features.points_offset;
   return features;
 }
 
 OdometryEstimate Odometry::track(const FeatureCloud& features) {
-  const double elapsed = to_seconds(features.stamp - stamp_);
-  const Isometry prediction = predict(features.stamp);
-  const RegistrationResult result = register_frame(
-      features, {*maps_, keyframes_.nearest(prediction)}, prediction, config_.registration, noise_);
+  const RegistrationResult result = register_best(features);
 
   OdometryEstimate estimate;
   estimate.information = result.information;
@@ -83,22 +74,52 @@ OdometryEstimate Odometry::track(const FeatureCloud& features) {
   estimate.degenerate_directions = result.degenerate_directions;
   estimate.plane_rms =
       std::sqrt(result.geometric.plane_square_sum / std::max(1, result.geometric.planes.inliers));
-  if (trustworthy(features, result, prediction, elapsed)) {
+  if (trustworthy(features, result)) {
     estimate.status = lost_                              ? Status::kRecovered
                       : result.degenerate_directions > 0 ? Status::kDegenerate
                                                          : Status::kTracking;
-    accept(features, result.T_world_sensor, elapsed);
+    motion_.measure(features.stamp, result.T_world_sensor);
+    update_maps(features);
   } else {
     estimate.status = Status::kLost;
-    coast(prediction);
+    motion_.miss(features.stamp);
   }
-  stamp_ = features.stamp;
+  lost_ = estimate.status == Status::kLost;
   return estimate;
+}
+
+/// The usual way first. Slack lets people weigh as much as the world until the pose is nearly
+/// there: what leads to where the sensor cannot be is sought without it. Where the data contradict
+/// the prediction, their residuals lose their weight until they seem to say nothing: if they alone
+/// tell the whole pose, and agree better, then the sensor was pushed.
+RegistrationResult Odometry::register_best(const FeatureCloud& features) const {
+  const PosePrediction prediction = motion_.predict(features.stamp);
+  RegistrationResult best = register_near(features, prediction, config_.registration);
+  if (!trustworthy(features, best)) {
+    RegistrationConfig strict = config_.registration;
+    strict.geometric.slack = 0.0;
+    const RegistrationResult other = register_near(features, prediction, strict);
+    if (other.geometric.inliers() >= best.geometric.inliers()) best = other;
+  }
+  if (best.degenerate_directions > 0 && prediction.is_informative()) {
+    const RegistrationResult alone =
+        register_near(features, {prediction.T_world_sensor}, config_.registration);
+    const bool agrees_better = alone.geometric.inliers() > kClearlyMore * best.geometric.inliers();
+    if (alone.degenerate_directions == 0 && agrees_better) best = alone;
+  }
+  return best;
+}
+
+RegistrationResult Odometry::register_near(const FeatureCloud& features,
+                                           const PosePrediction& prediction,
+                                           const RegistrationConfig& config) const {
+  return register_frame(features, {*maps_, keyframes_.nearest(prediction.T_world_sensor)},
+                        prediction, config, noise_);
 }
 
 OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
   OdometryEstimate estimate;
-  stamp_ = known_at_ = features.stamp;
+  motion_.place(features.stamp, Isometry::Identity());
   const auto count = features.planes.size() + features.edges.size();
   if (count < static_cast<std::size_t>(config_.min_inliers)) {
     estimate.status = Status::kLost;
@@ -125,71 +146,37 @@ void Odometry::begin_maps(double voxel, const FeatureCloud& features) {
 /// the second one localised again. The first frame's stamp stays the origin.
 /// Both are given as measured, for nothing was known of the motion.
 OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud second) {
-  deskew(first, velocity_);
-  deskew(second, velocity_);
-  pose_ = se3::exp(velocity_ * to_seconds(first.points_offset));
-  stamp_ = known_at_ = first.stamp;
+  deskew(first, velocity());
+  deskew(second, velocity());
+  motion_.place(first.stamp, se3::exp(velocity() * to_seconds(first.points_offset)));
   begin_maps(static_cast<double>(maps_->voxel_size()), first);
   return track(second);
 }
 
 std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {
   constexpr double kSureTurnRate = 0.5;  // [rad/s]
-  const bool is_sure = maps_ && !lost_ && velocity_.tail<3>().norm() < kSureTurnRate;
+  const bool is_sure = maps_ && !lost_ && velocity().tail<3>().norm() < kSureTurnRate;
   if (!is_sure) return std::nullopt;
-  return Transform<World, Sensor>(predict(stamp));
+  return Transform<World, Sensor>(motion_.predict(stamp).T_world_sensor);
 }
 
-Odometry::Isometry Odometry::predict(Timestamp stamp) const {
-  return pose_ * se3::exp(velocity_ * to_seconds(stamp - stamp_));
-}
-
-bool Odometry::trustworthy(const FeatureCloud& features, const RegistrationResult& result,
-                           const Isometry& prediction, double elapsed) const {
-  const GeometricEquations& geometric = result.geometric;
-  const int inliers = geometric.edges.inliers + geometric.planes.inliers;
+bool Odometry::trustworthy(const FeatureCloud& features, const RegistrationResult& result) const {
+  const int inliers = result.geometric.inliers();
   const auto offered = static_cast<double>(features.edges.size() + features.planes.size());
   if (inliers + result.intensity_inliers < config_.min_inliers) return false;
   if (inliers < config_.min_inlier_share * offered) return false;
   if (!result.T_world_sensor.matrix().allFinite()) return false;
-  return plausible(result.T_world_sensor, prediction, std::max(elapsed, 1e-3));
-}
-
-bool Odometry::plausible(const Isometry& pose, const Isometry& prediction, double seconds) const {
-  // What nothing on wheels or legs can do is people who were taken for the world.
-  const double unknown_for = std::max(seconds, seconds + to_seconds(stamp_ - known_at_));
-  const double deviation = (pose.translation() - prediction.translation()).norm();
-  const double limit =
-      kMeasurementError + 0.5 * config_.max_acceleration * unknown_for * unknown_for;
-  if (velocity_known_ && deviation > limit) return false;
-  const Isometry motion = pose_.inverse() * pose;
-  return motion.translation().norm() <= config_.max_speed * seconds &&
-         se3::angle(motion) <= config_.max_turn_rate * M_PI / 180.0 * seconds;
-}
-
-void Odometry::accept(const FeatureCloud& features, const Isometry& pose, double elapsed) {
-  const Vector6d motion = se3::log(pose_.inverse() * pose);
-  velocity_known_ = !lost_ && elapsed > 0.0;
-  velocity_ = velocity_known_ ? Vector6d(motion / elapsed) : Vector6d(Vector6d::Zero());
-  pose_ = pose;
-  known_at_ = features.stamp;
-  lost_ = false;
-  update_maps(features);
-}
-
-void Odometry::coast(const Isometry& pose) {
-  pose_ = pose;
-  velocity_ *= kCoasting;
-  lost_ = true;
+  return motion_.allows(features.stamp, result.T_world_sensor);
 }
 
 void Odometry::update_maps(const FeatureCloud& features) {
-  maps_->insert(features, pose_, config_.registration.geometric.association);
-  keyframes_.update(features.intensity, pose_);
+  const Isometry& pose = motion_.pose();
+  maps_->insert(features, pose, config_.registration.geometric.association);
+  keyframes_.update(features.intensity, pose);
   // Trimming costs a pass over the maps: only when the sensor has moved on.
-  if ((pose_.translation() - trimmed_at_.translation()).norm() > 0.1 * map_radius_) {
-    maps_->remove_farther_than(pose_.translation().cast<float>(), static_cast<float>(map_radius_));
-    trimmed_at_ = pose_;
+  if ((pose.translation() - trimmed_at_.translation()).norm() > 0.1 * map_radius_) {
+    maps_->remove_farther_than(pose.translation().cast<float>(), static_cast<float>(map_radius_));
+    trimmed_at_ = pose;
   }
 }
 

@@ -45,19 +45,28 @@ Step solve(const NormalEquations& equations, double max_sigma) {
   return step;
 }
 
+/// With a prediction that tells how sure it is.
+Step solve(NormalEquations equations, const NormalEquations& prior, double max_sigma) {
+  Step step = solve(equations, max_sigma);
+  equations += prior;
+  step.tangent = -equations.information.ldlt().solve(equations.gradient);
+  return step;
+}
+
 /// The iterations of one frame.
 class GaussNewton {
  public:
   GaussNewton(const FeatureCloud& features, const RegistrationTarget& target,
-              const Eigen::Isometry3d& prediction, const RegistrationConfig& config,
+              const PosePrediction& prediction, const RegistrationConfig& config,
               const DepthNoise& noise)
       : features_(features),
         target_(target),
+        prediction_(prediction),
         config_(config),
         noise_(noise),
         states_(target.keyframes.size()),
         scale_(median_range(features)) {
-    result_.T_world_sensor = prediction;
+    result_.T_world_sensor = prediction.T_world_sensor;
   }
 
   RegistrationResult run() {
@@ -108,7 +117,7 @@ class GaussNewton {
         std::max(config_.converged_rotation, kSettledShare * slack_ / std::max(scale_, 1.0));
     for (int i = 0; i < max_iterations && !result_.converged; ++i) {
       const NormalEquations equations = linearize(level);
-      const Step step = solve(equations, std::hypot(config_.degenerate_sigma, slack_));
+      const Step step = next_step(equations);
       result_.information = equations.information;
       result_.degenerate_directions = step.degenerate_directions;
       result_.T_world_sensor = result_.T_world_sensor * se3::exp(step.tangent);
@@ -117,6 +126,12 @@ class GaussNewton {
                           step.tangent.tail<3>().norm() < settled_rotation;
     }
     result_.T_world_sensor = se3::normalized(result_.T_world_sensor);
+  }
+
+  Step next_step(const NormalEquations& equations) const {
+    const double max_sigma = std::hypot(config_.degenerate_sigma, slack_);
+    if (!prediction_.is_informative()) return solve(equations, max_sigma);
+    return solve(equations, prediction_.equations(result_.T_world_sensor), max_sigma);
   }
 
   NormalEquations linearize(int level) {
@@ -157,6 +172,7 @@ class GaussNewton {
 
   const FeatureCloud& features_;
   const RegistrationTarget& target_;
+  const PosePrediction& prediction_;
   const RegistrationConfig& config_;
   DepthNoise noise_;
   std::vector<PhotometricState> states_;
@@ -188,7 +204,7 @@ void RegistrationConfig::visit(ConfigVisitor& v) {
 }
 
 RegistrationResult register_frame(const FeatureCloud& features, const RegistrationTarget& target,
-                                  const Eigen::Isometry3d& prediction,
+                                  const PosePrediction& prediction,
                                   const RegistrationConfig& config, const DepthNoise& noise) {
   return GaussNewton(features, target, prediction, config, noise).run();
 }

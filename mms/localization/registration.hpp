@@ -6,6 +6,7 @@
 #include "mms/core/feature_cloud.hpp"
 #include "mms/localization/geometric_term.hpp"
 #include "mms/localization/photometric_term.hpp"
+#include "mms/localization/pose_prediction.hpp"
 
 namespace mms {
 
@@ -29,20 +30,21 @@ struct RegistrationTarget {
 
 struct RegistrationResult {
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
-  Matrix6d information = Matrix6d::Zero();
-  GeometricEquations geometric;  ///< of the last iteration
+  Matrix6d information = Matrix6d::Zero();  ///< of the data alone
+  GeometricEquations geometric;             ///< of the last iteration
   int intensity_inliers = 0;
   int iterations = 0;
-  int degenerate_directions = 0;
+  int degenerate_directions = 0;  ///< about which the data alone says too little
   bool converged = false;
 };
 
 /// Robust Gauss-Newton on SE(3) for eq. (5), squared: edge and plane residuals and, for images, the
 /// photometric residuals of the reference keyframes in the same normal equations, from the coarsest
-/// level of the intensity pyramid to the finest. Directions the data says too little about keep
-/// their prediction (Zhang et al., ICRA 2016).
+/// level of the intensity pyramid to the finest. The prediction is one more measurement, as sure as
+/// it says; where it does not say, directions about which the data says too little keep it (Zhang
+/// et al., ICRA 2016).
 RegistrationResult register_frame(const FeatureCloud& features, const RegistrationTarget& target,
-                                  const Eigen::Isometry3d& prediction,
+                                  const PosePrediction& prediction,
                                   const RegistrationConfig& config, const DepthNoise& noise);
 
 }  // namespace mms

@@ -116,7 +116,7 @@ class AgainstCeres : public ::testing::TestWithParam<Case> {
   }
 
   Eigen::Isometry3d registered(const Eigen::Isometry3d& prediction) const {
-    return register_frame(frame_, {maps_, {}}, prediction, config_, DepthNoise{}).T_world_sensor;
+    return register_frame(frame_, {maps_, {}}, {prediction}, config_, DepthNoise{}).T_world_sensor;
   }
 
   Matches matches_at(const Eigen::Isometry3d& T) const {

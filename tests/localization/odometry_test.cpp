@@ -122,7 +122,7 @@ TEST(Odometry, LostFramesDoNotChangeTheMaps) {
 
 TEST(Odometry, AJumpIsNotBelieved) {
   OdometryConfig config;
-  config.max_speed = 1.0;
+  config.motion.max_speed = 1.0;
   Odometry odometry(config, {});
   odometry.estimate(features_at(0));
   odometry.estimate(features_at(50));
@@ -140,9 +140,10 @@ TEST(Odometry, AJerkIsNotBelievedOnceTheVelocityIsKnown) {
     return features;
   };
   for (const auto& [acceleration, status] :
-       {std::pair{20.0, Status::kLost}, {1000.0, Status::kTracking}}) {
+       {std::pair{10.0, Status::kLost}, {1000.0, Status::kTracking}}) {
     OdometryConfig config;
-    config.max_acceleration = acceleration;
+    config.motion.max_acceleration = acceleration;
+    config.motion.acceleration = 0.1 * acceleration;
     Odometry odometry(config, {});
     odometry.estimate(features_at(0));
     odometry.estimate(features_at(50));

@@ -77,7 +77,7 @@ TEST_P(RegisteredBy, RecoverAKnownMotionInACorner) {
     const FeatureCloud frame = corner_of(exact_features(room, truth, 31), room, truth);
     ASSERT_GT(frame.planes.size(), 300U);
     const auto result =
-        register_frame(frame, {maps, {}}, kOrigin, config_with(GetParam()), DepthNoise{});
+        register_frame(frame, {maps, {}}, {kOrigin}, config_with(GetParam()), DepthNoise{});
     EXPECT_TRUE(result.converged);
     EXPECT_EQ(result.degenerate_directions, 0);
     EXPECT_LT(position_error(result.T_world_sensor, truth), 1e-3);
@@ -101,7 +101,7 @@ TEST_P(RegisteredBy, NoiseAndOutliersDoLittle) {
     testing::add_outliers(frame, 0.3, 0.5, random);
     const LocalMaps maps = map_of(map_features, GetParam());
     const auto result =
-        register_frame(frame, {maps, {}}, kOrigin, config_with(GetParam()), DepthNoise{});
+        register_frame(frame, {maps, {}}, {kOrigin}, config_with(GetParam()), DepthNoise{});
     EXPECT_LT(position_error(result.T_world_sensor, truth), 0.003) << seed;
     EXPECT_LT(angle_error_deg(result.T_world_sensor, truth), 0.1) << seed;
   }
@@ -118,7 +118,7 @@ TEST_P(RegisteredBy, OnePlaneLeavesThreeDirectionsToThePrediction) {
   const LocalMaps maps = map_of(floor(kOrigin, 60), GetParam());
   const Eigen::Isometry3d truth = motion(0.0, 0.03, 0.0, 0.02, 0.0, -0.015);
   const Eigen::Isometry3d prediction = motion(0.02, 0.0, -0.03, 0.0, 0.01, 0.0);
-  const auto result = register_frame(floor(truth, 31), {maps, {}}, prediction,
+  const auto result = register_frame(floor(truth, 31), {maps, {}}, {prediction},
                                      config_with(GetParam()), DepthNoise{});
   EXPECT_EQ(result.degenerate_directions, 3);
   const Eigen::Isometry3d& T = result.T_world_sensor;
@@ -141,7 +141,7 @@ TEST_P(RegisteredBy, ACorridorLeavesItsLengthToThePrediction) {
   const LocalMaps maps = map_of(corridor(kOrigin, 60), GetParam());
   const Eigen::Isometry3d truth = motion(0.04, -0.03, 0.05, 0.01, 0.02, -0.02);
   const Eigen::Isometry3d prediction = motion(0.0, 0.0, -0.06, 0.0, 0.0, 0.0);
-  const auto result = register_frame(corridor(truth, 31), {maps, {}}, prediction,
+  const auto result = register_frame(corridor(truth, 31), {maps, {}}, {prediction},
                                      config_with(GetParam()), DepthNoise{});
   EXPECT_EQ(result.degenerate_directions, 1);
   const Eigen::Vector3d off = result.T_world_sensor.translation() - truth.translation();
@@ -150,10 +150,54 @@ TEST_P(RegisteredBy, ACorridorLeavesItsLengthToThePrediction) {
   EXPECT_LT(angle_error_deg(result.T_world_sensor, truth), 0.02);
 }
 
+/// Outliers say something, all of it wrong, about the direction in which nothing else does.
+TEST_P(RegisteredBy, APredictionThatIsSureHoldsWhatOutliersWouldTakeAlong) {
+  const BoxRoom room;
+  const auto corridor = [&](const Eigen::Isometry3d& T, int density) {
+    return faces_along(exact_features(room, T, density, 0.45), T, {0, 1});
+  };
+  const auto someone = [](const Eigen::Isometry3d& T, double z) {
+    FeatureCloud features;
+    for (int i = 0; i < 100; ++i) {
+      PlaneFeature& f = features.planes.emplace_back();
+      const Eigen::Vector3d p(0.02 * (i % 10), 0.02 * static_cast<double>(i / 10), z);
+      f.point = (T.inverse() * p).cast<float>();
+      f.normal = (T.linear().transpose() * -Eigen::Vector3d::UnitZ()).cast<float>();
+      f.sigma = 0.001F;
+    }
+    return features;
+  };
+  const auto together = [](FeatureCloud a, const FeatureCloud& b) {
+    a.planes.insert(a.planes.end(), b.planes.begin(), b.planes.end());
+    return a;
+  };
+  const LocalMaps maps = map_of(together(corridor(kOrigin, 60), someone(kOrigin, 2.0)), GetParam());
+  const Eigen::Isometry3d truth = motion(0.01, -0.01, 0.03, 0.0, 0.0, 0.0);
+  const FeatureCloud frame = together(corridor(truth, 31), someone(truth, 2.06));
+  const auto error_with = [&](const PosePrediction& prediction) {
+    const auto result =
+        register_frame(frame, {maps, {}}, prediction, config_with(GetParam()), DepthNoise{});
+    return position_error(result.T_world_sensor, truth);
+  };
+  const Eigen::Isometry3d near = motion(0.01, -0.01, 0.031, 0.0, 0.0, 0.0);
+  EXPECT_GT(error_with({near}), 0.03);
+  EXPECT_LT(error_with({near, 1e-4, 1e-4}), 0.01);
+}
+
+TEST_P(RegisteredBy, DataThatSayMoreThanThePredictionDecide) {
+  const BoxRoom room;
+  const LocalMaps maps = map_of(exact_features(room, kOrigin, 60), GetParam());
+  const Eigen::Isometry3d truth = motion(0.05, -0.03, 0.04, 0.02, -0.03, 0.01);
+  const auto result = register_frame(exact_features(room, truth, 31), {maps, {}},
+                                     {kOrigin, 0.01, 0.01}, config_with(GetParam()), DepthNoise{});
+  EXPECT_LT(position_error(result.T_world_sensor, truth), 2e-3);
+  EXPECT_LT(angle_error_deg(result.T_world_sensor, truth), 0.05);
+}
+
 TEST(Registration, WithoutFeaturesThePredictionStays) {
   const LocalMaps maps = map_of(exact_features(BoxRoom{}, kOrigin), Association::kSurface);
   const Eigen::Isometry3d prediction = motion(1.0, 2.0, 3.0, 0.1, 0.2, 0.3);
-  const auto result = register_frame({}, {maps, {}}, prediction, {}, DepthNoise{});
+  const auto result = register_frame({}, {maps, {}}, {prediction}, {}, DepthNoise{});
   EXPECT_EQ(result.degenerate_directions, 6);
   EXPECT_LT(position_error(result.T_world_sensor, prediction), 1e-12);
   EXPECT_EQ(result.geometric.planes.inliers, 0);
@@ -162,7 +206,7 @@ TEST(Registration, WithoutFeaturesThePredictionStays) {
 TEST(Registration, AgainstEmptyMapsThePredictionStays) {
   const LocalMaps maps(0.2, 1000);
   const auto result =
-      register_frame(exact_features(BoxRoom{}, kOrigin), {maps, {}}, kOrigin, {}, DepthNoise{});
+      register_frame(exact_features(BoxRoom{}, kOrigin), {maps, {}}, {kOrigin}, {}, DepthNoise{});
   EXPECT_EQ(result.degenerate_directions, 6);
   EXPECT_TRUE(result.T_world_sensor.isApprox(kOrigin));
 }
@@ -171,7 +215,7 @@ TEST(Registration, InformationGrowsWithTheFeatures) {
   const BoxRoom room;
   const LocalMaps maps = map_of(exact_features(room, kOrigin, 60), Association::kSurface);
   const auto information = [&](int density) {
-    return register_frame(exact_features(room, kOrigin, density), {maps, {}}, kOrigin, {},
+    return register_frame(exact_features(room, kOrigin, density), {maps, {}}, {kOrigin}, {},
                           DepthNoise{})
         .information;
   };

@@ -1,0 +1,126 @@
+#include "mms/localization/motion_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/localization/box_room.hpp"
+
+namespace mms {
+namespace {
+
+using testing::motion;
+using testing::position_error;
+
+Timestamp at(double seconds) {
+  return Timestamp::from_seconds(seconds);
+}
+
+/// Constant velocity of translation and rotation in the sensor's frame.
+Eigen::Isometry3d steady(double seconds) {
+  Vector6d velocity;
+  velocity << 0.5, -0.2, 1.0, 0.1, 0.4, -0.3;
+  return se3::exp(velocity * seconds);
+}
+
+TEST(MotionModel, GoesOnAsItWent) {
+  MotionModel model{MotionConfig{}};
+  model.place(at(1.0), steady(0.0));
+  model.measure(at(1.1), steady(0.1));
+  EXPECT_TRUE(model.predict(at(1.35)).T_world_sensor.isApprox(steady(0.35), 1e-9));
+  EXPECT_TRUE(model.predict(at(0.9)).T_world_sensor.isApprox(steady(-0.1), 1e-9));
+}
+
+TEST(MotionModel, SaysNothingOfItsErrorBeforeTheVelocityIsKnown) {
+  MotionModel model{MotionConfig{}};
+  model.place(at(0.0), steady(0.0));
+  EXPECT_FALSE(model.predict(at(0.1)).is_informative());
+  model.measure(at(0.1), steady(0.1));
+  EXPECT_TRUE(model.predict(at(0.2)).is_informative());
+}
+
+/// From rest with an acceleration of one standard deviation: where it is and where it was expected
+/// are one standard deviation apart, but for that of the measurements.
+TEST(MotionModel, TheErrorIsThatOfTheAcceleration) {
+  MotionConfig config;
+  config.acceleration = 2.0;
+  MotionModel model(config);
+  const auto accelerated = [](double t) { return motion(0.5 * 2.0 * t * t, 0, 0, 0, 0, 0); };
+  model.place(at(0.2), accelerated(0.2));
+  model.measure(at(0.5), accelerated(0.5));
+  const PosePrediction expected = model.predict(at(0.9));
+  EXPECT_NEAR(position_error(expected.T_world_sensor, accelerated(0.9)),
+              expected.translation_sigma - 0.003, 1e-9);
+}
+
+TEST(MotionModel, AVelocityIsKnownAgainAfterFramesWithoutAPose) {
+  MotionModel model{MotionConfig{}};
+  model.place(at(0.0), steady(0.0));
+  model.measure(at(0.1), steady(0.1));
+  const double sure = model.predict(at(0.2)).translation_sigma;
+  for (double t = 0.2; t < 0.55; t += 0.1) model.miss(at(t));
+  EXPECT_GT(model.predict(at(0.6)).translation_sigma, 5.0 * sure);
+  model.measure(at(0.6), steady(0.6));
+  EXPECT_TRUE(model.predict(at(0.7)).T_world_sensor.isApprox(steady(0.7), 1e-9));
+  EXPECT_GT(model.predict(at(0.7)).translation_sigma, 2.0 * sure);
+  EXPECT_LT(model.predict(at(0.7)).translation_sigma, 5.0 * sure);
+}
+
+TEST(MotionModel, WithoutMeasurementsItComesToRest) {
+  MotionModel model{MotionConfig{}};
+  model.place(at(0.0), motion(0, 0, 0, 0, 0, 0));
+  model.measure(at(0.1), motion(0.1, 0, 0, 0, 0, 0));
+  for (int i = 2; i <= 30; ++i) model.miss(at(0.1 * i));
+  EXPECT_NEAR(model.pose().translation().x(), 0.3, 1e-6);  // 0.1 (1 + 1 + 1/2 + 1/4 + ...)
+  EXPECT_LT(model.velocity().norm(), 1e-6);
+}
+
+TEST(MotionModel, BelievesWhatItsLimitsAllow) {
+  MotionConfig config;
+  config.max_acceleration = 10.0;
+  MotionModel model(config);
+  model.place(at(0.0), steady(0.0));
+  model.measure(at(0.1), steady(0.1));
+  const auto off_by = [](double metres) { return motion(metres, 0, 0, 0, 0, 0) * steady(0.2); };
+  EXPECT_TRUE(model.allows(at(0.2), off_by(0.10)));  // 0.01 + 10/2 * 0.1 * 0.2 = 0.11
+  EXPECT_FALSE(model.allows(at(0.2), off_by(0.12)));
+  model.miss(at(0.2));
+  EXPECT_TRUE(model.allows(at(0.3), off_by(0.30)));  // the limit is 0.31
+}
+
+TEST(MotionModel, BeforeTheVelocityIsKnownSpeedIsTheLimit) {
+  MotionConfig config;
+  config.max_speed = 2.0;
+  config.max_turn_rate = 90.0;
+  MotionModel model(config);
+  model.place(at(0.0), motion(0, 0, 0, 0, 0, 0));
+  EXPECT_TRUE(model.allows(at(0.1), motion(0.19, 0, 0, 0, 0, 0)));
+  EXPECT_FALSE(model.allows(at(0.1), motion(0.21, 0, 0, 0, 0, 0)));
+  EXPECT_TRUE(model.allows(at(0.1), motion(0, 0, 0, 0, 0.15, 0)));
+  EXPECT_FALSE(model.allows(at(0.1), motion(0, 0, 0, 0, 0.17, 0)));
+}
+
+TEST(MotionModel, WithoutAccelerationsNothingIsExpected) {
+  MotionConfig config;
+  config.acceleration = 0.0;
+  config.turn_acceleration = 0.0;
+  MotionModel model(config);
+  model.place(at(0.0), steady(0.0));
+  model.measure(at(0.1), steady(0.1));
+  EXPECT_FALSE(model.predict(at(0.2)).is_informative());
+}
+
+TEST(PosePrediction, ItsGradientIsThatOfItsCost) {
+  const PosePrediction prediction{motion(1.0, 2.0, 3.0, 0.3, -0.2, 0.1), 0.02, 0.05};
+  const Eigen::Isometry3d pose =
+      prediction.T_world_sensor * motion(0.01, -0.02, 0.005, 0.004, 0.002, -0.003);
+  const NormalEquations equations = prediction.equations(pose);
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d step = 1e-6 * Vector6d::Unit(i);
+    const double difference = prediction.equations(pose * se3::exp(step)).cost -
+                              prediction.equations(pose * se3::exp(-step)).cost;
+    const double derivative = 0.25 * difference / 1e-6;  // of half the cost
+    EXPECT_NEAR(derivative, equations.gradient(i), 0.01 * equations.gradient.norm()) << i;
+  }
+}
+
+}  // namespace
+}  // namespace mms
