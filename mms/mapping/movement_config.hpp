@@ -10,7 +10,7 @@ struct MovementConfig {
   double interval = 0.5;   ///< [s]
   double margin = 0.15;    ///< [m]
   double radius = 0.08;    ///< [m]
-  double max_share = 0.4;  ///< of the static points
+  double max_share = 0.6;  ///< of the static points
 
   void visit(ConfigVisitor& v) {
     v.boolean({"enabled", "", "take what stands where space was free for dynamic, mask or not"},
