@@ -155,9 +155,12 @@ OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud seco
 
 std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {
   constexpr double kSureTurnRate = 0.5;  // [rad/s]
-  const bool is_sure = maps_ && !lost_ && velocity().tail<3>().norm() < kSureTurnRate;
-  if (!is_sure) return std::nullopt;
-  return Transform<World, Sensor>(motion_.predict(stamp).T_world_sensor);
+  constexpr double kSureSigma = 0.05;    // [m]
+  if (!maps_ || velocity().tail<3>().norm() >= kSureTurnRate) return std::nullopt;
+  const PosePrediction prediction = motion_.predict(stamp);
+  const bool is_lost = lost_ && !(prediction.translation_sigma < kSureSigma);
+  if (is_lost) return std::nullopt;
+  return Transform<World, Sensor>(prediction.T_world_sensor);
 }
 
 bool Odometry::trustworthy(const FeatureCloud& features, const RegistrationResult& result) const {

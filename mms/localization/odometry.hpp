@@ -35,7 +35,8 @@ class Odometry {
   const Vector6d& velocity() const { return motion_.velocity(); }
 
   /// Where the next frame is expected, as far as the motion goes on; nothing before the first one,
-  /// while lost, and in fast turns, where the motion of the last frame tells little of the next.
+  /// while lost for longer than that can be told, and in fast turns, where the motion of the last
+  /// frame tells little of the next.
   std::optional<Transform<World, Sensor>> expected(Timestamp stamp) const;
 
  private:

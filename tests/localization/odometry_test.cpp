@@ -107,6 +107,18 @@ TEST(Odometry, LosesTheWayAndFindsItAgain) {
   EXPECT_GT(step(12), 0.0);
 }
 
+TEST(Odometry, ALostFrameIsStillExpectedForAMoment) {
+  Odometry odometry({}, {});
+  for (int ms = 0; ms <= 500; ms += 50) odometry.estimate(features_at(ms));
+  odometry.estimate(nothing_at(550));
+  const Timestamp next(600 * kMillisecond);
+  const auto expected = odometry.expected(next);
+  ASSERT_TRUE(expected);
+  EXPECT_LT(position_error(expected->isometry(), truth_at(next)), 0.02);
+  for (int ms = 600; ms <= 1500; ms += 50) odometry.estimate(nothing_at(ms));
+  EXPECT_FALSE(odometry.expected(Timestamp(1550 * kMillisecond)));
+}
+
 TEST(Odometry, LostFramesDoNotChangeTheMaps) {
   Odometry blinded({}, {});
   Odometry fooled({}, {});
