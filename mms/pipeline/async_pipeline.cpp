@@ -42,6 +42,11 @@ struct Perceived {
   Perception perception;
 };
 
+struct Localized {
+  Input input;
+  FrameResult result;
+};
+
 /// Whether a frame that comes to the segmentation has been there for a while.
 bool had_to_wait(const Input& input) {
   return input.due && Clock::now() - *input.due > kPrompt;
@@ -84,7 +89,8 @@ class Line {
         options_(options),
         inputs_(capacity(options)),
         segmented_(capacity(options)),
-        perceived_(capacity(options)) {}
+        perceived_(capacity(options)),
+        localized_(capacity(options)) {}
 
   void read_all(const AsyncPipeline::Source& source, std::atomic<std::size_t>& dropped) {
     Pace pace;
@@ -121,9 +127,17 @@ class Line {
     perceived_.close();
   }
 
-  void localize_all(const AsyncPipeline::Sink& sink) {
+  void localize_all() {
     while (std::optional<Perceived> item = perceived_.pop()) {
       FrameResult result = system_.localize(std::move(item->perception));
+      if (!localized_.push({std::move(item->input), std::move(result)})) break;
+    }
+    localized_.close();
+  }
+
+  void map_all(const AsyncPipeline::Sink& sink) {
+    while (std::optional<Localized> item = localized_.pop()) {
+      FrameResult result = system_.map(std::move(item->result));
       sink(finished(std::move(item->input), std::move(result)));
     }
   }
@@ -138,6 +152,7 @@ class Line {
       inputs_.close();
       segmented_.close();
       perceived_.close();
+      localized_.close();
     }
   }
 
@@ -153,6 +168,7 @@ class Line {
   BoundedQueue<Input> inputs_;
   BoundedQueue<Segmented> segmented_;
   BoundedQueue<Perceived> perceived_;
+  BoundedQueue<Localized> localized_;
   FirstError error_;
 };
 
@@ -180,10 +196,12 @@ void AsyncPipeline::run_threaded(SlamSystem& system, const Source& source, const
   std::thread reader([&] { line.guarded([&] { line.read_all(source, dropped_); }); });
   std::thread segmenter([&] { line.guarded([&] { line.segment_all(without_masks_); }); });
   std::thread perceiver([&] { line.guarded([&] { line.perceive_all(); }); });
-  line.guarded([&] { line.localize_all(sink); });
+  std::thread localizer([&] { line.guarded([&] { line.localize_all(); }); });
+  line.guarded([&] { line.map_all(sink); });
   reader.join();
   segmenter.join();
   perceiver.join();
+  localizer.join();
   line.rethrow();
 }
 

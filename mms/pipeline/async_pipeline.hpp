@@ -28,10 +28,11 @@ struct Processed {
   std::optional<double> latency_ms;  ///< in real time: since the sensor gave the frame
 };
 
-/// Runs a SlamSystem over a stream: reading, segmentation, fusion with features, and localisation
-/// of successive frames overlap in threads joined by bounded queues. The steps and their order are
-/// those of `SlamSystem::process`, so that without `realtime` the results are the same bits for any
-/// number of threads.
+/// Runs a SlamSystem over a stream: reading, segmentation, fusion with features, localisation, and
+/// mapping of successive frames overlap in threads joined by bounded queues, so that a keyframe's
+/// mapping does not keep the next pose waiting. The steps and their order are those of
+/// `SlamSystem::process`, so that without `realtime` the results are the same bits for any number
+/// of threads.
 class AsyncPipeline {
  public:
   using Source = std::function<std::optional<Frame>()>;
@@ -40,7 +41,7 @@ class AsyncPipeline {
   explicit AsyncPipeline(const AsyncOptions& options) : options_(options) {}
 
   /// Processes all frames of `source` and hands them to `sink`, which may keep them, in order and
-  /// in the calling thread.
+  /// in the calling thread, in which the maps are made: they are as of that frame.
   /// @throws what source, system or sink throw, after the threads have ended.
   void run(SlamSystem& system, const Source& source, const Sink& sink);
 

@@ -47,7 +47,7 @@ SlamSystem::SlamSystem(const SystemConfig& given, std::unique_ptr<Segmenter> seg
       dynamic_map_(given.dynamic_map) {}
 
 FrameResult SlamSystem::process(const Frame& frame) {
-  return localize(perceive(frame, segment(frame)));
+  return map(localize(perceive(frame, segment(frame))));
 }
 
 TimedSegmentation SlamSystem::segment(const Frame& frame) {
@@ -70,36 +70,42 @@ Perception SlamSystem::perceive(const Frame& frame, const TimedSegmentation& mas
   return p;
 }
 
-void SlamSystem::leave_out_movement(Perception& perception) const {
-  const auto expected = odometry_.expected(perception.labeled.stamp);
+void SlamSystem::leave_out_movement(LabeledCloud& cloud, FeatureCloud& features) const {
+  const auto expected = odometry_.expected(cloud.stamp);
   if (!expected) return;
-  LabeledCloud& cloud = perception.labeled;
   const Image<std::uint8_t> moved = movement_.relabel(cloud, *expected);
-  if (!moved.empty()) exclude(moved, cloud.camera, perception.features);
-  if (scan_movement_.relabel(cloud, *expected)) exclude_dynamic(cloud.labels, perception.features);
+  if (!moved.empty()) exclude(moved, cloud.camera, features);
+  if (scan_movement_.relabel(cloud, *expected)) exclude_dynamic(cloud.labels, features);
 }
 
 FrameResult SlamSystem::localize(Perception perception) {
   FrameResult result;
   result.stage_ms = perception.stage_ms;
-  result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
-    deskew(perception.labeled, odometry_.velocity());
-    leave_out_movement(perception);
-    return odometry_.estimate(std::move(perception.features));  // III-C.2, III-C.3, eqs. (3)-(5)
-  });
   result.cloud = std::move(perception.labeled);
+  result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
+    deskew(result.cloud, odometry_.velocity());
+    leave_out_movement(result.cloud, perception.features);
+    OdometryEstimate estimate =
+        odometry_.estimate(std::move(perception.features));  // III-C.2, III-C.3, eqs. (3)-(5)
+    result.keyframe = keyframes_.is_keyframe(estimate);      // III-C.4
+    if (result.keyframe) {
+      movement_.remember(result.cloud, estimate.T_world_sensor);
+      scan_movement_.remember(result.cloud, estimate.T_world_sensor);
+    }
+    return estimate;
+  });
   result.dynamic_share = dynamic_share(result.cloud);
-  result.keyframe = timed(result.stage_ms, Stage::kMapping, [&] {
-    const bool keyframe = keyframes_.is_keyframe(result.odometry);  // III-C.4
-    if (keyframe) {
-      movement_.remember(result.cloud, result.odometry.T_world_sensor);
-      scan_movement_.remember(result.cloud, result.odometry.T_world_sensor);
+  return result;
+}
+
+FrameResult SlamSystem::map(FrameResult result) {
+  result.objects = timed(result.stage_ms, Stage::kMapping, [&] {
+    if (result.keyframe) {
       static_map_.integrate(result.cloud, result.odometry.T_world_sensor);  // III-D
       occupancy_map_.integrate(result.cloud, result.odometry.T_world_sensor);
     }
     dynamic_map_.update(result.cloud, result.odometry);
-    result.objects = dynamic_map_.objects();
-    return keyframe;
+    return dynamic_map_.objects();
   });
   return result;
 }

@@ -46,14 +46,15 @@ class SlamSystem {
   /// The parts of `process`, for a pipeline that overlaps them between frames.
   TimedSegmentation segment(const Frame& frame);
   Perception perceive(const Frame& frame, const TimedSegmentation& masks);
-  FrameResult localize(Perception perception);
+  FrameResult localize(Perception perception);  ///< all of the result but the objects
+  FrameResult map(FrameResult localized);
 
   const StaticMap& static_map() const { return static_map_; }
   const OccupancyMap& occupancy_map() const { return occupancy_map_; }
   const DynamicMap& dynamic_map() const { return dynamic_map_; }
 
  private:
-  void leave_out_movement(Perception& perception) const;
+  void leave_out_movement(LabeledCloud& cloud, FeatureCloud& features) const;
 
   std::unique_ptr<Segmenter> segmenter_;
   SemanticFusion fusion_;
