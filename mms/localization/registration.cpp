@@ -11,6 +11,9 @@ namespace {
 /// Share of a voxel the pose may move before features are associated anew.
 constexpr double kReassociationShift = 0.1;
 
+/// Errors of neighbouring pixels go together: so many residuals of an image say as much as one.
+constexpr double kResidualsPerMeasurement = 10.0;
+
 constexpr double kSlackDecay = 0.5;
 constexpr double kSettledShare = 0.1;  ///< step over slack at which the slack is tightened
 
@@ -45,11 +48,13 @@ Step solve(const NormalEquations& equations, double max_sigma) {
   return step;
 }
 
-/// With a prediction that tells how sure it is.
-Step solve(NormalEquations equations, const NormalEquations& prior, double max_sigma) {
+/// With a prediction that tells how sure it is and weighs as much as `weight` residuals.
+Step solve(const NormalEquations& equations, const NormalEquations& prior, double weight,
+           double max_sigma) {
   Step step = solve(equations, max_sigma);
-  equations += prior;
-  step.tangent = -equations.information.ldlt().solve(equations.gradient);
+  const Matrix6d information = equations.information + weight * prior.information;
+  const Vector6d gradient = equations.gradient + weight * prior.gradient;
+  step.tangent = -information.ldlt().solve(gradient);
   return step;
 }
 
@@ -131,7 +136,8 @@ class GaussNewton {
   Step next_step(const NormalEquations& equations) const {
     const double max_sigma = std::hypot(config_.degenerate_sigma, slack_);
     if (!prediction_.is_informative()) return solve(equations, max_sigma);
-    return solve(equations, prediction_.equations(result_.T_world_sensor), max_sigma);
+    const double weight = features_.intensity.empty() ? 1.0 : kResidualsPerMeasurement;
+    return solve(equations, prediction_.equations(result_.T_world_sensor), weight, max_sigma);
   }
 
   NormalEquations linearize(int level) {

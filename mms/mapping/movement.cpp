@@ -114,21 +114,46 @@ std::vector<std::pair<int, int>> take_thing(const Nodes& nodes, std::pair<int, i
   return thing;
 }
 
+/// Calls `visit` with the cluster of every node of one that a node adjoins, in the image and in
+/// depth.
+template <class Visit>
+void for_each_adjoining(const Nodes& nodes, std::pair<int, int> node, const DepthNoise& noise,
+                        const Visit& visit) {
+  const auto [cx, cy] = node;
+  const float z = nodes.depth(cx, cy);
+  const float gap = kGap + 2.0F * noise.sigma(z);
+  for (int y = std::max(0, cy - kNextTo); y <= std::min(cy + kNextTo, nodes.height - 1); ++y) {
+    for (int x = std::max(0, cx - kNextTo); x <= std::min(cx + kNextTo, nodes.width - 1); ++x) {
+      const int cluster = nodes.cloud.cluster[nodes.pixel(x, y)];
+      if (cluster >= 0 && std::abs(nodes.depth(x, y) - z) <= gap) visit(cluster);
+    }
+  }
+}
+
+/// Nodes in free space next to a cluster: what a mask left out may be too thin for a disc.
+std::vector<std::pair<int, int>> find_rims(const Nodes& nodes, const Image<Place>& places,
+                                           const DepthNoise& noise) {
+  std::vector<std::pair<int, int>> rims;
+  if (nodes.cloud.clusters.empty()) return rims;
+  for (int y = 0; y < nodes.height; ++y) {
+    for (int x = 0; x < nodes.width; ++x) {
+      if (places(x, y) != Place::kFree) continue;
+      int adjoining = 0;
+      for_each_adjoining(nodes, {x, y}, noise, [&](int) { ++adjoining; });
+      if (adjoining > 0) rims.emplace_back(x, y);
+    }
+  }
+  return rims;
+}
+
 /// The cluster that most of the thing hangs together with, of which it is what the mask left out;
 /// -1 where there is none.
 int adjoining_cluster(const Nodes& nodes, const std::vector<std::pair<int, int>>& thing,
                       const DepthNoise& noise) {
   std::vector<int> next_to(nodes.cloud.clusters.size(), 0);
-  for (const auto& [cx, cy] : thing) {
-    const float z = nodes.depth(cx, cy);
-    const float gap = kGap + 2.0F * noise.sigma(z);
-    for (int y = std::max(0, cy - kNextTo); y <= std::min(cy + kNextTo, nodes.height - 1); ++y) {
-      for (int x = std::max(0, cx - kNextTo); x <= std::min(cx + kNextTo, nodes.width - 1); ++x) {
-        const int cluster = nodes.cloud.cluster[nodes.pixel(x, y)];
-        if (cluster < 0 || !(std::abs(nodes.depth(x, y) - z) <= gap)) continue;
-        ++next_to[static_cast<std::size_t>(cluster)];
-      }
-    }
+  for (const auto& node : thing) {
+    for_each_adjoining(nodes, node, noise,
+                       [&](int cluster) { ++next_to[static_cast<std::size_t>(cluster)]; });
   }
   const auto most = std::max_element(next_to.begin(), next_to.end());
   if (most == next_to.end() || *most < kFewestNext) return -1;
@@ -175,14 +200,17 @@ Image<std::uint8_t> Movement::relabel(LabeledCloud& cloud,
   }
   if (cloud.cluster.empty()) cloud.cluster.assign(cloud.points.size(), -1);
   Image<std::uint8_t> moved;
-  for (const auto& core : find_cores(nodes, places, config_.radius)) {
-    if (places(core.first, core.second) != Place::kFree) continue;
-    const auto thing = take_thing(nodes, core, noise_, places);
-    if (thing.empty()) continue;
-    if (moved.empty()) moved = Image<std::uint8_t>(cloud.width, cloud.height);
+  const auto take = [&](std::pair<int, int> seed, bool is_thin) {
+    if (places(seed.first, seed.second) != Place::kFree) return;
+    const auto thing = take_thing(nodes, seed, noise_, places);
+    if (thing.empty()) return;
     const int cluster = adjoining_cluster(nodes, thing, noise_);
+    if (is_thin && cluster < 0) return;
+    if (moved.empty()) moved = Image<std::uint8_t>(cloud.width, cloud.height);
     make_dynamic(thing, cluster < 0 ? add_unknown_cluster(cloud) : cluster, cloud, moved);
-  }
+  };
+  for (const auto& core : find_cores(nodes, places, config_.radius)) take(core, false);
+  for (const auto& rim : find_rims(nodes, places, noise_)) take(rim, true);
   return moved;
 }
 

@@ -92,6 +92,38 @@ TEST(Movement, ThatAMaskLeftOutBelongsToTheObject) {
             static_cast<std::ptrdiff_t>(kThing));
 }
 
+/// All of `wall_with_thing`'s thing but the 4 pixels at its right, too few for a disc.
+void name_all_but_a_strip(LabeledCloud& cloud) {
+  name_rows(cloud, 30, 90);
+  for (int y = 30; y < 90; ++y) {
+    for (int x = 96; x < 100; ++x) {
+      const auto i = static_cast<std::size_t>(160 * y + x);
+      cloud.labels[i] = PointLabel::kStatic;
+      cloud.cluster[i] = -1;
+    }
+  }
+  cloud.clusters[0].points = 36 * 60;
+}
+
+TEST(Movement, TooThinForADiscBelongsToTheObjectBeside) {
+  LabeledCloud cloud = wall_with_thing(0.5, 60);
+  name_all_but_a_strip(cloud);
+  EXPECT_FALSE(after_a_view_of_the_wall().relabel(cloud, kHere).empty());
+  EXPECT_EQ(dynamic_points(cloud), kThing);
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  EXPECT_EQ(cloud.clusters[0].points, static_cast<int>(kThing));
+}
+
+TEST(Movement, AStripThatOnlyTheImageJoinsToAnObjectStays) {
+  LabeledCloud cloud = wall_with_thing(0.5, 60);
+  name_all_but_a_strip(cloud);
+  for (int y = 30; y < 90; ++y) {
+    for (int x = 96; x < 100; ++x) cloud.points[static_cast<std::size_t>(160 * y + x)] *= 0.8F;
+  }
+  after_a_view_of_the_wall().relabel(cloud, kHere);
+  EXPECT_EQ(dynamic_points(cloud), std::size_t{36 * 60});
+}
+
 TEST(Movement, BesideAnObjectInTheImageButNotInSpaceIsAnotherThing) {
   LabeledCloud cloud = wall_with_thing(0.5, 60);
   name_rows(cloud, 30, 60);
