@@ -28,6 +28,7 @@ struct QuantizeArguments {
   std::size_t images = 300;
   int long_side = 0;
   std::size_t judged = 8;
+  bool bytes = false;
   bool sensitivity = false;
 };
 
@@ -108,8 +109,10 @@ void quantize(const QuantizeArguments& arguments) {
   const std::vector<PreparedImage> judged = some_of(pictures, arguments.judged);
   if (arguments.sensitivity) print_sensitivities(model, arguments, quantization, judged);
   const double error = engine::output_error(model, where, quantization, judged);
+  if (arguments.bytes) model.weights = engine::weights_in_bytes(model, quantization);
   engine::pack_quantization(quantization, model.weights);
-  write_safetensors(arguments.output, pack_model(std::move(model)), TensorType::kFloat16);
+  const TensorType type = arguments.bytes ? TensorType::kInt8 : TensorType::kFloat16;
+  write_safetensors(arguments.output, pack_model(std::move(model)), type);
   fmt::print("{}: calibrated on {} pictures, the outputs change by {:.1f} %\n",
              arguments.output.string(), pictures.size(), 100.0 * error);
 }
@@ -130,7 +133,7 @@ void add_quantize_command(CLI::App& app) {
       ->delimiter(',');
   command
       ->add_option("-o,--output", arguments->output,
-                   "weights file to write: the same float16 weights with their ranges")
+                   "weights file to write: the same weights in float16, with the ranges for int8")
       ->required();
   command->add_option("--images", arguments->images, "pictures to look at")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100000}))
@@ -143,6 +146,8 @@ void add_quantize_command(CLI::App& app) {
       ->add_option("--float-layers", arguments->float_layers,
                    "convolutions to leave in float32, with commas")
       ->delimiter(',');
+  command->add_flag("--bytes", arguments->bytes,
+                    "write the weights in bytes as well: half the file, the same results in int8");
   command->add_flag("--sensitivity", arguments->sensitivity,
                     "say what each convolution alone costs in accuracy");
   command->callback([arguments] { quantize(*arguments); });

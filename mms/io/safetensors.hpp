@@ -11,9 +11,10 @@
 namespace mms {
 
 /// How the numbers of a weights file are stored; 16 bits halve the file and keep 11 binary digits.
-enum class TensorType { kFloat32, kFloat16 };
+/// kInt8 is kFloat16 with one byte for each number of a tensor of whole numbers from -127 to 127.
+enum class TensorType { kFloat32, kFloat16, kInt8 };
 
-/// Reads a safetensors file. Tensors of F32, F16, BF16, F64, I64 and I32 become floats.
+/// Reads a safetensors file. Tensors of F32, F16, BF16, F64, I64, I32 and I8 become floats.
 /// @throws FileError when the file cannot be read; DataError naming the tensor for anything that
 ///         safetensors forbids (names that are there twice, data that is missing, left over, shared
 ///         by two tensors or of another size than shape and type say), for other types, and for

@@ -19,8 +19,8 @@ struct ElementFormat {
 };
 
 // In the order of ElementType.
-constexpr std::array<ElementFormat, 6> kFormats = {
-    {{"F32", 4}, {"F16", 2}, {"BF16", 2}, {"F64", 8}, {"I64", 8}, {"I32", 4}}};
+constexpr std::array<ElementFormat, 7> kFormats = {
+    {{"F32", 4}, {"F16", 2}, {"BF16", 2}, {"F64", 8}, {"I64", 8}, {"I32", 4}, {"I8", 1}}};
 
 const ElementFormat& format_of(ElementType type) {
   return kFormats[static_cast<std::size_t>(type)];

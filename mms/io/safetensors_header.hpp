@@ -21,7 +21,7 @@ inline constexpr std::string_view kSafetensorsMetadata = "__metadata__";
 inline constexpr std::uint64_t kMaxSafetensorsHeader = 100'000'000;
 
 /// How one number is stored; little-endian all of them.
-enum class ElementType { kF32, kF16, kBf16, kF64, kI64, kI32 };
+enum class ElementType { kF32, kF16, kBf16, kF64, kI64, kI32, kI8 };
 
 std::uint64_t bytes_of(ElementType type);
 

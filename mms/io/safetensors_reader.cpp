@@ -38,9 +38,11 @@ double number_at(const std::uint8_t* bytes, ElementType type) {
     case ElementType::kI64:
       return static_cast<double>(static_cast<std::int64_t>(little_endian<std::uint64_t>(bytes)));
     case ElementType::kI32:
+      return static_cast<std::int32_t>(little_endian<std::uint32_t>(bytes));
+    case ElementType::kI8:
       break;
   }
-  return static_cast<std::int32_t>(little_endian<std::uint32_t>(bytes));
+  return static_cast<std::int8_t>(*bytes);
 }
 
 WeightTensor decode(const StoredTensor& stored, std::span<const std::uint8_t> data,

@@ -13,16 +13,31 @@
 namespace mms {
 namespace {
 
-std::size_t step_of(TensorType type) {
-  return type == TensorType::kFloat32 ? sizeof(float) : sizeof(std::uint16_t);
+/// How a tensor type is written.
+struct Format {
+  const char* name;
+  std::size_t bytes;  ///< of a number
+};
+
+Format format_of(TensorType type) {
+  if (type == TensorType::kInt8) return {"I8", 1};
+  return type == TensorType::kFloat16 ? Format{"F16", 2} : Format{"F32", 4};
+}
+
+bool holds_bytes(const WeightTensor& tensor) {
+  return std::all_of(tensor.values.begin(), tensor.values.end(), [](float value) {
+    return value == std::round(value) && std::abs(value) <= std::numeric_limits<std::int8_t>::max();
+  });
 }
 
 /// float32 for a tensor with values that float16 cannot hold.
 TensorType type_of(const WeightTensor& tensor, TensorType wanted) {
+  if (wanted == TensorType::kFloat32) return wanted;
+  if (wanted == TensorType::kInt8 && holds_bytes(tensor)) return wanted;
   const bool fits = std::all_of(tensor.values.begin(), tensor.values.end(), [](float value) {
     return !std::isfinite(value) || half_from_float(value).has_value();
   });
-  return fits ? wanted : TensorType::kFloat32;
+  return fits ? TensorType::kFloat16 : TensorType::kFloat32;
 }
 
 template <class Unsigned>
@@ -54,11 +69,10 @@ std::string describe(const Weights& weights, TensorType type, const std::string&
   for (const auto& [name, tensor] : weights.tensors) {
     check_tensor(name, tensor, where);
     const std::size_t begin = end;
-    const TensorType own = type_of(tensor, type);
-    end += tensor.values.size() * step_of(own);
-    header[name] = {{"dtype", own == TensorType::kFloat32 ? "F32" : "F16"},
-                    {"shape", tensor.shape},
-                    {"data_offsets", {begin, end}}};
+    const Format format = format_of(type_of(tensor, type));
+    end += tensor.values.size() * format.bytes;
+    header[name] = {
+        {"dtype", format.name}, {"shape", tensor.shape}, {"data_offsets", {begin, end}}};
   }
   try {
     std::string text = header.dump();
@@ -71,7 +85,9 @@ std::string describe(const Weights& weights, TensorType type, const std::string&
 
 void append_value(float value, TensorType type, const std::string& name, std::size_t index,
                   const std::string& where, std::vector<std::uint8_t>& bytes) {
-  if (type == TensorType::kFloat32) {
+  if (type == TensorType::kInt8) {
+    bytes.push_back(static_cast<std::uint8_t>(static_cast<std::int8_t>(value)));
+  } else if (type == TensorType::kFloat32) {
     if (!std::isfinite(value)) {
       fail_value(where, name, index, value, std::numeric_limits<float>::max());
     }

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "mms/segmentation/layer_shapes.hpp"
 #include "mms/segmentation/network_config.hpp"
 
 namespace mms {
+
+/// What the names of the tensors of the one backbone begin with, and of the one that a recursive
+/// pyramid looks with again.
+inline constexpr std::string_view kFirstBackbone = "backbone.";
+inline constexpr std::string_view kSecondBackbone = "neck.rfp_modules.0.";
 
 /// How many residual blocks the four stages of a ResNet have, and of which kind.
 struct ResnetLayout {

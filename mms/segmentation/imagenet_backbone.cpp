@@ -1,21 +1,19 @@
 #include "mms/segmentation/imagenet_backbone.hpp"
 
 #include <array>
-#include <cmath>
-#include <numeric>
-#include <span>
 #include <string_view>
 
 #include "mms/core/error.hpp"
 #include "mms/segmentation/backbone_shapes.hpp"
 #include "mms/segmentation/checkpoint_names.hpp"
+#include "mms/segmentation/weight_growth.hpp"
 
 namespace mms {
 namespace {
 
 constexpr std::string_view kMean = ".running_mean";
 constexpr std::array<std::string_view, 4> kNormParts = {".weight", ".bias", kMean, ".running_var"};
-constexpr double kVarianceFloor = 1e-5;  // of batch norm, and of standardised weights
+constexpr double kVarianceFloor = 1e-5;  // of batch norm
 
 /// The convolution before a batch norm: bn2 -> conv2, downsample.1 -> downsample.0.
 std::string conv_before(std::string norm) {
@@ -29,39 +27,10 @@ WeightTensor constant(std::int64_t channels, double value) {
           std::vector<float>(static_cast<std::size_t>(channels), static_cast<float>(value))};
 }
 
-std::span<const float> channel(const WeightTensor& weight, std::size_t index) {
-  const std::size_t count = weight.values.size() / static_cast<std::size_t>(weight.shape[0]);
-  return {weight.values.data() + index * count, count};
-}
-
-/// (out, 1, 1, 1): the mean over each output channel.
-WeightTensor channel_means(const WeightTensor& weight) {
-  WeightTensor means{{weight.shape[0], 1, 1, 1}, {}};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(weight.shape[0]); ++i) {
-    const std::span<const float> values = channel(weight, i);
-    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-    means.values.push_back(static_cast<float>(sum / static_cast<double>(values.size())));
-  }
-  return means;
-}
-
-/// (out, 1, 1, 1): what the standardised weight is divided by, from the unbiased variance.
-WeightTensor channel_deviations(const WeightTensor& weight, const WeightTensor& means) {
-  WeightTensor deviations{means.shape, {}};
-  for (std::size_t i = 0; i < means.values.size(); ++i) {
-    const std::span<const float> values = channel(weight, i);
-    double squares = 0.0;
-    for (const float value : values) squares += std::pow(double{value} - means.values[i], 2);
-    const double variance = squares / static_cast<double>(values.size() - 1);
-    deviations.values.push_back(static_cast<float>(std::sqrt(variance + kVarianceFloor)));
-  }
-  return deviations;
-}
-
 /// Takes over one convolution with its batch norm after the other.
 class BackboneTransfer {
  public:
-  BackboneTransfer(const Weights& given, const BackboneConfig& config) : config_(config) {
+  BackboneTransfer(const Weights& given, const BackboneConfig& config) {
     LayerShapes layers;
     add_backbone(config, "", 0, layers);
     wanted_ = layers.shapes();
@@ -118,14 +87,7 @@ class BackboneTransfer {
     return true;
   }
 
-  void take_conv(const std::string& conv) {
-    const WeightTensor& weight = *find(conv + ".weight");
-    taken(conv + ".weight") = weight;
-    if (config_.sac == SacMode::kNone) return;
-    const WeightTensor means = channel_means(weight);
-    taken(conv + ".weight_gamma") = channel_deviations(weight, means);
-    taken(conv + ".weight_beta") = means;
-  }
+  void take_conv(const std::string& conv) { taken(conv + ".weight") = *find(conv + ".weight"); }
 
   void leave_out(const std::string& conv, const std::string& norm) {
     result_.left_out.push_back(conv + ".weight");
@@ -136,7 +98,6 @@ class BackboneTransfer {
 
   WeightTensor& taken(const std::string& name) { return result_.weights.tensors[name]; }
 
-  const BackboneConfig& config_;
   TensorShapes wanted_;
   std::map<std::string, const WeightTensor*> given_;
   ImagenetBackbone result_;
@@ -153,15 +114,14 @@ ImagenetBackbone imagenet_backbone(const Weights& torchvision, const NetworkConf
                         " for this network: neither conv1.weight (64, 3, 7, 7) nor any other",
                     "torchvision's names are wanted");
   }
-  std::vector<std::string> prefixes = {"backbone."};
-  if (config.neck.recursive) prefixes.push_back("neck.rfp_modules.0.");
   ImagenetBackbone result;
-  for (const std::string& prefix : prefixes) {
-    for (const auto& [name, tensor] : plain.weights.tensors) {
-      result.weights.tensors[prefix + name] = tensor;
-    }
-    for (const std::string& name : plain.left_out) result.left_out.push_back(prefix + name);
+  for (const auto& [name, tensor] : plain.weights.tensors) {
+    result.weights.tensors[std::string(kFirstBackbone) + name] = tensor;
   }
+  for (const std::string& name : plain.left_out) {
+    result.left_out.push_back(std::string(kFirstBackbone) + name);
+  }
+  result.weights = grown_to(config, std::move(result.weights));
   return result;
 }
 

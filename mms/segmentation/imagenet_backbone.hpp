@@ -11,7 +11,7 @@ namespace mms {
 /// What a network's backbones take over from a classifier.
 struct ImagenetBackbone {
   Weights weights;                    ///< by the network's names, complete layers only
-  std::vector<std::string> left_out;  ///< the network's convolutions and batch norms without any
+  std::vector<std::string> left_out;  ///< convolutions and batch norms of `backbone.` without any
 };
 
 /// Initial weights from a ResNet that torchvision trained on ImageNet; both backbones get them when

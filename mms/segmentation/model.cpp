@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "mms/core/error.hpp"
+#include "mms/segmentation/weight_bytes.hpp"
 
 namespace mms {
 namespace {
@@ -141,7 +142,7 @@ SegmentationModel unpack_model(Weights weights, const std::string& where) {
                                " classes, but its network has " +
                                std::to_string(model.network.classes));
   }
-  model.weights = std::move(weights);
+  model.weights = from_bytes(std::move(weights), where);
   return model;
 }
 

@@ -19,8 +19,8 @@ struct SegmentationModel {
 /// and class names ("classes") go into the metadata.
 Weights pack_model(SegmentationModel model);
 
-/// Reads what `pack_model` wrote. @throws DataError at `where` when the metadata are missing or
-/// make no network.
+/// Reads what `pack_model` wrote; weights in bytes become floats. @throws DataError at `where` when
+/// the metadata are missing or make no network.
 SegmentationModel unpack_model(Weights weights, const std::string& where);
 
 }  // namespace mms

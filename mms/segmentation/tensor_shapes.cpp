@@ -21,7 +21,7 @@ void add_neck(const NetworkConfig& config, LayerShapes& layers) {
     layers.biased_conv("neck.fpn_convs." + number + ".conv", channels, channels, 3);
   }
   if (!config.neck.recursive) return;
-  add_backbone(config.backbone, "neck.rfp_modules.0.", channels, layers);
+  add_backbone(config.backbone, std::string(kSecondBackbone), channels, layers);
   constexpr std::array<std::int64_t, 4> kSides = {1, 3, 3, 1};
   for (std::size_t i = 0; i < kSides.size(); ++i) {
     const std::string name = "neck.rfp_aspp.aspp." + std::to_string(i);
@@ -79,7 +79,7 @@ void add_head(const NetworkConfig& network, LayerShapes& layers) {
 
 TensorShapes expected_tensors(const NetworkConfig& config) {
   LayerShapes layers;
-  add_backbone(config.backbone, "backbone.", 0, layers);
+  add_backbone(config.backbone, std::string(kFirstBackbone), 0, layers);
   add_neck(config, layers);
   add_head(config, layers);
   return layers.shapes();

@@ -68,7 +68,8 @@ void TrainingConfig::visit(ConfigVisitor& v) {
   v.group({"network", "", "architecture"}, network);
   v.text({"initial_backbone", "", "ImageNet weights with torchvision's names; none: random"},
          initial_backbone);
-  v.text({"initial_weights", "", "weights file to go on from; none: from the start"},
+  v.text({"initial_weights", "",
+          "weights file to go on from, also of a network without SAC or RFP; none: from the start"},
          initial_weights);
   v.list({"data", "", "sets of images to learn from"}, data);
   v.list({"validation", "", "sets that AP is measured on"}, validation);

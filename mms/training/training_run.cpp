@@ -13,6 +13,8 @@
 #include "mms/segmentation/imagenet_backbone.hpp"
 #include "mms/segmentation/model.hpp"
 #include "mms/segmentation/network/inference.hpp"
+#include "mms/segmentation/weight_bytes.hpp"
+#include "mms/segmentation/weight_growth.hpp"
 #include "mms/training/batch_loader.hpp"
 #include "mms/training/schedule.hpp"
 
@@ -104,7 +106,9 @@ void TrainingRun::initialise() {
                         path);
   }
   if (!config_.initial_weights.empty()) {
-    trainer_.initialise(read_safetensors(config_.initial_weights), config_.initial_weights);
+    const std::string& path = config_.initial_weights;
+    const Weights given = from_bytes(read_safetensors(path), path);
+    trainer_.initialise(grown_to(config_.network, given), path);
   }
 }
 

@@ -8,6 +8,8 @@
 #include "mms/core/error.hpp"
 #include "mms/segmentation/engine/calibration.hpp"
 #include "mms/segmentation/engine/magnitude_histogram.hpp"
+#include "mms/segmentation/engine/network_graph.hpp"
+#include "mms/segmentation/weight_bytes.hpp"
 #include "tests/engine/engine_test_support.hpp"
 #include "tests/io/temp_folder.hpp"
 
@@ -125,6 +127,43 @@ TEST_P(QuantizedNetwork, IsFloatWhereAllLayersAre) {
     all.insert(layer);
   }
   EXPECT_EQ(output_error(model, "net", calibration.quantization(all), images), 0.0);
+}
+
+/// The weights of a layer as an int8 convolution takes them.
+std::vector<float> bytes_of(const ConvLayer& layer) {
+  Weights weights;
+  weights.tensors["w"] = {{layer.out, layer.inputs_per_output()}, layer.weight};
+  return to_bytes(std::move(weights), {"w"}).tensors.at("w").values;
+}
+
+TEST_P(QuantizedNetwork, TakesTheSameBytesFromWeightsInBytes) {
+  const NetworkConfig config = NetworkConfig::preset(NetworkSize::kNano, GetParam());
+  const SegmentationModel model = random_model(config, 1);
+  const std::string exact_layer = "neck.fpn_convs.0.conv";
+  const Weights bytes = weights_in_bytes(model, {{}, {exact_layer}});
+  EXPECT_FALSE(bytes.tensors.contains(exact_layer + ".weight_scale"));
+  LayerReader layers(model.weights);
+  LayerReader stored(from_bytes(bytes, "net"));
+  const Graph graph = network_graph(config, layers, 96, 96);
+  const Graph again = network_graph(config, stored, 96, 96);
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    const auto* node = std::get_if<Convolution>(&graph.nodes[i].operation);
+    if (node == nullptr) continue;
+    const ConvLayer& layer = *node->layer;
+    const ConvLayer& other = *std::get<Convolution>(again.nodes[i].operation).layer;
+    if (layer.name == exact_layer) {
+      EXPECT_EQ(layer.weight, other.weight);
+    } else if (!layer.name.ends_with(".large")) {  // the sum of two tensors, rounded once more
+      const std::vector<float> wanted = bytes_of(layer);
+      const std::vector<float> found = bytes_of(other);
+      std::size_t different = 0;  // at the middle between two numbers
+      for (std::size_t k = 0; k < wanted.size(); ++k) {
+        different += wanted[k] == found[k] ? 0 : 1;
+        ASSERT_NEAR(wanted[k], found[k], 1.0F) << layer.name;
+      }
+      EXPECT_LT(different, 1 + wanted.size() / 1000) << layer.name;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(AllVariants, QuantizedNetwork,

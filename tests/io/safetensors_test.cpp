@@ -108,6 +108,19 @@ TEST(Safetensors, SixteenBitsHalveAndRound) {
   EXPECT_LT(half.size(), whole.size());
 }
 
+TEST(Safetensors, AByteHoldsWholeNumbers) {
+  Weights weights;
+  weights.tensors["bytes"] = {{3}, {-127.0F, 0.0F, 127.0F}};
+  weights.tensors["halves"] = {{2}, {0.5F, 127.0F}};
+  weights.tensors["large"] = {{1}, {128.0F}};
+  const auto written = encode_safetensors(weights, TensorType::kInt8, "");
+  EXPECT_EQ(parse_safetensors(written, ""), weights);
+  const std::string text(written.begin(), written.end());
+  EXPECT_NE(text.find(R"("bytes":{"dtype":"I8","shape":[3],"data_offsets":[0,3]})"), text.npos);
+  EXPECT_NE(text.find(R"("halves":{"dtype":"F16","shape":[2],"data_offsets":[3,7]})"), text.npos);
+  EXPECT_NE(text.find(R"("large":{"dtype":"F16","shape":[1],"data_offsets":[7,9]})"), text.npos);
+}
+
 TEST(Safetensors, ReadsEveryType) {
   struct Case {
     const char* type;
@@ -119,7 +132,8 @@ TEST(Safetensors, ReadsEveryType) {
                                    {"BF16", std::string("\x49\xC0", 2), -3.140625F},
                                    {"F64", std::string("\0\0\0\0\0\0\xF4\xBF", 8), -1.25F},
                                    {"I64", std::string("\xFE\xFF\xFF\xFF\xFF\xFF\xFF\xFF"), -2.0F},
-                                   {"I32", std::string("\x07\0\0\x80", 4), -2147483641.0F}};
+                                   {"I32", std::string("\x07\0\0\x80", 4), -2147483641.0F},
+                                   {"I8", "\x81", -127.0F}};
   for (const Case& c : cases) {
     const std::string offsets = "[0, " + std::to_string(c.data.size()) + "]";
     EXPECT_EQ(parse(file_with(entry(c.type, "[]", offsets), c.data)).tensors.at("a"),
@@ -209,7 +223,8 @@ TEST(Safetensors, NamesTheEntryThatIsWrong) {
                         const std::string& offsets, const std::string& more = "") {
     return fault_of(file_with(entry(dtype, shape, offsets, more), kEight));
   };
-  expect_in("a.dtype: is 'I8', allowed are F32, F16, BF16, F64, I64, I32", fault("I8", "[]", "[]"));
+  expect_in("a.dtype: is 'U8', allowed are F32, F16, BF16, F64, I64, I32, I8",
+            fault("U8", "[]", "[]"));
   expect_in("a: has no key 'dtype'", fault_of(file_with("{}")));
   expect_in("a.dtype: is a number", fault_of(file_with(R"({"dtype": 1})")));
   expect_in("a: has no key 'shape'", fault_of(file_with(R"({"dtype": "F32"})")));

@@ -48,7 +48,8 @@ void expect_one_error(const Outcome& outcome, int exit_code, const std::string& 
   EXPECT_EQ(outcome.exit_code, exit_code) << outcome.out << outcome.err;
   int errors = 0;
   for (const std::string& line : lines_of(outcome.err)) {
-    const bool aside = line.starts_with("warning: ") || line.starts_with("frame ");
+    const bool progress = line.starts_with("frame ") || line.starts_with("picture ");
+    const bool aside = line.starts_with("warning: ") || progress;
     EXPECT_TRUE(aside || line.starts_with("mms: ")) << line;
     if (!line.starts_with("mms: ")) continue;
     ++errors;

@@ -38,6 +38,24 @@ TEST(Train, GivesWeightsThatSegment) {
   expect_done(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}));  // has ended
 }
 
+/// The shipped weights are a plain network's: one with more parts goes on from them.
+TEST(Train, GoesOnFromAPlainerNetwork) {
+  if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  expect_done(run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "2"}));
+  folder.write("train.yaml", R"(
+network: {variant: solov2+detectors, long_side: 128, short_side: 96}
+initial_weights: )" MMS_SOURCE_DIR R"(/weights/nano.safetensors
+data:
+  - {annotations: data/annotations.json}
+half_precision: false
+schedule: {images: 2, batch: 2}
+)");
+  expect_done(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}));
+  const Outcome outcome = run_mms(folder.path(), {"info", "out/weights.safetensors"});
+  expect_in("variant: solov2+detectors", outcome.out);
+}
+
 TEST(Train, FaultsAreOneLine) {
   if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;

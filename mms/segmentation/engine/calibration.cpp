@@ -5,6 +5,8 @@
 
 #include "mms/core/error.hpp"
 #include "mms/segmentation/engine/network_graph.hpp"
+#include "mms/segmentation/weight_bytes.hpp"
+#include "mms/segmentation/weight_standardisation.hpp"
 
 namespace mms::engine {
 namespace {
@@ -58,10 +60,11 @@ double relative_change(const std::vector<Outputs>& changed, const std::vector<Ou
 }
 
 /// Names of the convolutions in the order in which they run first.
-std::vector<std::string> layer_names(const NetworkConfig& config, LayerReader& layers,
-                                     const PreparedImage& image) {
+std::vector<std::string> layer_names(const SegmentationModel& model) {
+  constexpr int kAnySide = 128;  // names are the same for every size
   std::vector<std::string> names;
-  for (const Node& node : network_graph(config, layers, image.height, image.width).nodes) {
+  LayerReader layers(model.weights);
+  for (const Node& node : network_graph(model.network, layers, kAnySide, kAnySide).nodes) {
     const auto* convolution = std::get_if<Convolution>(&node.operation);
     if (convolution == nullptr) continue;
     const std::string& name = convolution->layer->name;
@@ -98,6 +101,16 @@ Quantization Calibration::quantization(std::set<std::string> float_layers) const
   return quantization;
 }
 
+Weights weights_in_bytes(const SegmentationModel& model, const Quantization& quantization) {
+  std::set<std::string> names;
+  for (const std::string& layer : layer_names(model)) {
+    if (!quantization.float_layers.contains(layer)) names.insert(weight_name(layer));
+  }
+  Weights weights = model.weights;
+  settle_standardisation(weights);
+  return to_bytes(std::move(weights), names);
+}
+
 double output_error(const SegmentationModel& model, const std::string& where,
                     const Quantization& quantization, const std::vector<PreparedImage>& images) {
   NetworkEngine exact(model, where, {});
@@ -112,8 +125,7 @@ std::vector<LayerSensitivity> layer_sensitivities(const SegmentationModel& model
                                                   const std::function<bool(int, int)>& progress) {
   NetworkEngine exact(model, where, {});
   const std::vector<Outputs> original = outputs_of(exact, images);
-  LayerReader reader(model.weights);
-  const std::vector<std::string> names = layer_names(model.network, reader, images.front());
+  const std::vector<std::string> names = layer_names(model);
   std::vector<LayerSensitivity> sensitivities;
   for (const std::string& name : names) {
     Quantization one = quantization;

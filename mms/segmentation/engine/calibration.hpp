@@ -37,6 +37,10 @@ class Calibration {
   std::map<std::string, Seen> values_;
 };
 
+/// The network's weights as int8 convolutions take them, those that compute in bytes rounded to
+/// them (`to_bytes`): a file of them is half as large and computes the same in bytes.
+Weights weights_in_bytes(const SegmentationModel& model, const Quantization& quantization);
+
 /// What it costs to compute one layer in bytes and all others in float32.
 struct LayerSensitivity {
   std::string layer;

@@ -1,27 +1,16 @@
 #include "mms/segmentation/engine/layer_reader.hpp"
 
 #include <cmath>
+#include <string_view>
+
+#include "mms/segmentation/weight_standardisation.hpp"
 
 namespace mms::engine {
 namespace {
 
-constexpr double kNormFloor = 1e-5;      // of batch norm's variance
-constexpr double kVarianceFloor = 1e-5;  // of standardisation's
+constexpr double kNormFloor = 1e-5;  // of batch norm's variance
 constexpr int kLargeDilation = 3;
-
-struct Spread {
-  double mean = 0.0;
-  double deviation = 0.0;
-};
-
-Spread spread_of(const float* values, int count) {
-  double sum = 0.0;
-  for (int i = 0; i < count; ++i) sum += static_cast<double>(values[i]);
-  const double mean = sum / count;
-  double squares = 0.0;
-  for (int i = 0; i < count; ++i) squares += std::pow(static_cast<double>(values[i]) - mean, 2);
-  return {mean, std::sqrt(squares / (count - 1) + kVarianceFloor)};
-}
+constexpr std::string_view kLarge = ".large";
 
 void take_in(ConvLayer& layer, const ChannelAffine& norm) {
   const auto count = static_cast<std::size_t>(layer.inputs_per_output());
@@ -32,6 +21,11 @@ void take_in(ConvLayer& layer, const ChannelAffine& norm) {
 }
 
 }  // namespace
+
+std::string weight_name(const std::string& layer) {
+  if (!layer.ends_with(kLarge)) return layer + ".weight";
+  return layer.substr(0, layer.size() - kLarge.size()) + ".weight_diff";
+}
 
 const std::vector<float>& LayerReader::values(const std::string& name) const {
   return weights_.tensors.at(name).values;
@@ -68,18 +62,8 @@ ConvLayer LayerReader::unbiased(const std::string& name, const ConvShape& shape)
 }
 
 void LayerReader::standardise(ConvLayer& layer) const {
-  const std::vector<float>& gamma = values(layer.name + ".weight_gamma");
-  const std::vector<float>& beta = values(layer.name + ".weight_beta");
-  const int count = layer.inputs_per_output();
-  for (std::size_t o = 0; o < gamma.size(); ++o) {
-    float* row = layer.weight.data() + o * static_cast<std::size_t>(count);
-    const Spread spread = spread_of(row, count);
-    const double scale = static_cast<double>(gamma[o]) / spread.deviation;
-    for (int i = 0; i < count; ++i) {
-      row[i] = static_cast<float>((static_cast<double>(row[i]) - spread.mean) * scale +
-                                  static_cast<double>(beta[o]));
-    }
-  }
+  mms::standardise(layer.weight, values(layer.name + ".weight_gamma"),
+                   values(layer.name + ".weight_beta"));
 }
 
 ConvLayerPtr LayerReader::known(const std::string& key) const {
@@ -108,7 +92,7 @@ ConvLayerPtr LayerReader::switchable_small(const std::string& name, int stride) 
 }
 
 ConvLayerPtr LayerReader::switchable_large(const std::string& name, int stride) {
-  const std::string key = name + ".large";
+  const std::string key = name + std::string(kLarge);
   if (ConvLayerPtr layer = known(key)) return layer;
   ConvLayer layer = *switchable_small(name, stride);
   layer.name = key;

@@ -22,6 +22,10 @@ struct ChannelAffine {
   std::vector<float> shift;
 };
 
+/// The tensor that has what is a layer's own: its weight, or of the dilated convolution of a
+/// switchable one the difference to the other.
+std::string weight_name(const std::string& layer);
+
 /// Makes the convolutions of a trained network from its tensors, each once however often it is
 /// asked for. The tensors are to fit the network (`expected_tensors`).
 class LayerReader {

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "mms/io/files.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/program/program.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;  // NOLINT: helpers of the tests
+
+constexpr const char* kWeights = MMS_SOURCE_DIR "/weights/nano.safetensors";
+
+nlohmann::json found_with(const TempFolder& folder, const std::string& weights) {
+  expect_done(run_mms(folder.path(), {"segment", "data/images", "--weights", weights, "--json-only",
+                                      "-o", weights + ".found"}));
+  return nlohmann::json::parse(read_file(folder.path() / (weights + ".found") / "results.json"));
+}
+
+/// A file of bytes is half as large and finds the same.
+TEST(Quantize, WritesFloatsOrBytes) {
+  const TempFolder folder;
+  expect_done(run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
+  const auto quantize = [&](const char* output, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"quantize", kWeights, "--data",      "data/images",
+                                          "-o",       output,   "--long-side", "192"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_mms(folder.path(), arguments);
+    expect_done(outcome);
+    expect_in("calibrated on 4 pictures", outcome.out);
+    return fs::file_size(folder.path() / output);
+  };
+  const auto floats = quantize("floats", {});
+  const auto bytes = quantize("bytes", {"--bytes", "--float-layers", "backbone.conv1"});
+  EXPECT_LT(bytes, 0.55 * static_cast<double>(floats));
+  const nlohmann::json wanted = found_with(folder, "floats");
+  const nlohmann::json found = found_with(folder, "bytes");
+  EXPECT_FALSE(wanted.empty());
+  EXPECT_NEAR(static_cast<double>(found.size()), static_cast<double>(wanted.size()), 2.0);
+  EXPECT_NEAR(found[0]["score"].get<double>(), wanted[0]["score"].get<double>(), 0.05);
+}
+
+TEST(Quantize, FaultsAreOneLine) {
+  const TempFolder folder;
+  expect_done(run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "1"}));
+  expect_fault(run_mms(folder.path(), {"quantize", kWeights, "--data", "none", "-o", "out"}),
+               "none: ");
+  expect_fault(run_mms(folder.path(), {"quantize", kWeights, "--data", "data/images", "-o", "out",
+                                       "--float-layers", "no.such"}),
+               "has no convolution 'no.such'");
+  EXPECT_FALSE(fs::exists(folder.path() / "out"));
+}
+
+}  // namespace
+}  // namespace mms

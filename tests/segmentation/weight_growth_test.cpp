@@ -1,0 +1,40 @@
+#include "mms/segmentation/weight_growth.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mms {
+namespace {
+
+NetworkConfig nano(NetworkVariant variant) {
+  return NetworkConfig::preset(NetworkSize::kNano, variant);
+}
+
+Weights stem() {
+  Weights weights;
+  weights.tensors["backbone.conv1.weight"] = {{64, 3, 7, 7}, std::vector<float>(9408, 0.25F)};
+  return weights;
+}
+
+TEST(WeightGrowth, APlainNetworkGetsNothing) {
+  EXPECT_EQ(grown_to(nano(NetworkVariant::kSolov2), stem()), stem());
+}
+
+TEST(WeightGrowth, BothBackbonesAreStandardised) {
+  const Weights grown = grown_to(nano(NetworkVariant::kDetectors), stem());
+  EXPECT_EQ(grown.tensors.size(), 6U);
+  for (const char* backbone : {"backbone.", "neck.rfp_modules.0."}) {
+    const std::string conv = backbone + std::string("conv1.weight");
+    EXPECT_EQ(grown.tensors.at(conv), stem().tensors.at("backbone.conv1.weight"));
+    EXPECT_EQ(grown.tensors.at(conv + "_beta").values, std::vector<float>(64, 0.25F));
+  }
+}
+
+TEST(WeightGrowth, WhatIsGivenStays) {
+  Weights given = stem();
+  given.tensors["backbone.conv1.weight_gamma"] = {{64, 1, 1, 1}, std::vector<float>(64, 7.0F)};
+  given.tensors["neck.rfp_modules.0.conv1.weight"] = {{64, 3, 7, 7}, std::vector<float>(9408)};
+  EXPECT_EQ(grown_to(nano(NetworkVariant::kDetectors), given), given);
+}
+
+}  // namespace
+}  // namespace mms
