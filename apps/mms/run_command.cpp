@@ -57,6 +57,9 @@ void add_run_command(CLI::App& app) {
                    "masks/ (or --masks), or nowhere")
       ->check(CLI::IsMember({"network", "masks", "none"}))
       ->default_str("network, or masks with --masks");
+  command->add_option("--weights", options->weights,
+                      "network to use in place of the settings': a safetensors file of ours, or an "
+                      "ONNX model with YOLO-seg's outputs");
   command->add_option("--masks", options->masks, "folder of label images named like the frames");
   command
       ->add_option("--fusion", options->fusion,
@@ -90,6 +93,10 @@ void add_run_command(CLI::App& app) {
     if (command->count("--view") > 0) options->view = view_of(*command, *view, *place, *options);
     if (options->segmenter.empty())
       options->segmenter = options->masks.empty() ? "network" : "masks";
+    if (!options->weights.empty() && options->segmenter != "network") {
+      throw CLI::ValidationError(
+          "--weights", "is for masks of the network, but they come from " + options->segmenter);
+    }
     run(*options);
   });
 }

@@ -18,6 +18,7 @@ struct RunOptions {
   std::filesystem::path output;  ///< empty: results/<time>_<name>
   std::string segmenter;         ///< "network", "masks" or "none"
   std::filesystem::path masks;   ///< empty: the recording's own
+  std::string weights;           ///< of the network; empty: as the config says
   BagTopicNames topics;          ///< of a bag
   std::string fusion;            ///< empty: as the config says
   std::size_t frames = std::numeric_limits<std::size_t>::max();

@@ -33,6 +33,7 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source)
     config.static_map.surface.max_depth = *calibration->max_depth;
   }
   if (!options.config.empty()) load_config(options.config, config);
+  if (!options.weights.empty()) config.segmentation.weights = options.weights;
   if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
   if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;

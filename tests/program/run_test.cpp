@@ -210,6 +210,19 @@ TEST(Run, MasksMayLieElsewhere) {
   EXPECT_GT(json_file(folder.path() / "out/metrics.json")["dynamic_share"], 0.0);
 }
 
+TEST(Run, TakesAnotherNetwork) {
+  const TempFolder folder;
+  const auto with = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> arguments = {"run", "sim:corridor?width=320&frames=2", "-o", "out"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    return run_mms(folder.path(), arguments);
+  };
+  expect_done(with({"--weights", MMS_SOURCE_DIR "/weights/nano.safetensors"}));
+  expect_fault(with({"--weights", "no.safetensors"}), "no.safetensors: ");
+  expect_usage_fault(with({"--weights", "no.safetensors", "--segmenter", "none"}),
+                     "--weights: is for masks of the network, but they come from none");
+}
+
 TEST(Run, InRealTimeEveryFrameIsProcessedOrCounted) {
   const TempFolder folder;
   expect_done(run_mms(folder.path(), {"run", "sim:corridor?width=320&frames=8&hz=40", "--realtime",
