@@ -38,7 +38,12 @@ void multiply(WeightTensor& tensor, const std::string& name, const WeightTensor&
                     "mms quantize writes both");
   }
   for (std::size_t i = 0; i < steps.values.size(); ++i) {
-    for (float& value : channel(tensor, i)) value *= steps.values[i];
+    for (float& value : channel(tensor, i)) {
+      value *= steps.values[i];
+      if (std::isfinite(value)) continue;
+      throw DataError(where, "'" + name + "' is too large for a float with the step " +
+                                 std::to_string(steps.values[i]));
+    }
   }
 }
 

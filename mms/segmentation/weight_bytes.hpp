@@ -14,7 +14,7 @@ Weights to_bytes(Weights weights, const std::set<std::string>& names);
 
 /// Multiplies what `to_bytes` made and drops the steps.
 /// @throws DataError at `where` for steps without a tensor, or of another number than it has
-///         output channels.
+///         output channels, and for products too large for a float.
 Weights from_bytes(Weights weights, const std::string& where);
 
 }  // namespace mms

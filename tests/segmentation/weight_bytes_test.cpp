@@ -41,7 +41,7 @@ TEST(WeightBytes, ComeBackWithinHalfAStep) {
 
 TEST(WeightBytes, FaultsAreNamed) {
   const auto fault = [](const std::string& name, const WeightTensor& steps) {
-    Weights weights = some_weights();
+    Weights weights = to_bytes(some_weights(), {"a.weight"});
     weights.tensors[name] = steps;
     return message_of<DataError>([&] { from_bytes(weights, "file"); });
   };
@@ -49,6 +49,7 @@ TEST(WeightBytes, FaultsAreNamed) {
             fault("c.weight_scale", {{1}, {1.0F}}));
   expect_in("file: 'a.weight_scale' has 3 steps, wanted is one for each output channel",
             fault("a.weight_scale", {{3}, {1.0F, 1.0F, 1.0F}}));
+  expect_in("'a.weight' is too large for a float", fault("a.weight_scale", {{2}, {3e38F, 1.0F}}));
   expect_in("one for each output channel of 'a.weight'", fault("a.weight_scale", {{}, {1.0F}}));
 }
 
