@@ -1,10 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
-#include "mms/core/image.hpp"
 #include "mms/core/labeled_cloud.hpp"
+#include "mms/mapping/cube_pixel.hpp"
 
 namespace mms {
 
@@ -37,7 +36,7 @@ class ScanFreeSpace {
 
   const Span& span_of(const Eigen::Vector3f& point) const;
 
-  std::array<Image<Span>, 6> faces_;
+  CubeImage<Span> faces_;
   float margin_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mms/mapping/scan_sight.hpp"
 #include "mms/mapping/voxel_normals.hpp"
 
 namespace mms {
@@ -46,10 +47,7 @@ MapUpdate StaticMap::integrate(const LabeledCloud& cloud,
   insert(points, T);
   update.points = points.size();
   carved_.clear();
-  if (config_.carving.enabled && cloud.organised()) {
-    const FreeSpace free_space(cloud, config_.carving.margin, config_.surface.noise);
-    update.carved = carve(free_space, T.inverse());
-  }
+  if (config_.carving.enabled) update.carved = carve(cloud, T.inverse());
   update.coarsened = coarsened_ = keep_to_budget();
   return update;
 }
@@ -74,9 +72,20 @@ void StaticMap::insert(const std::vector<SurfacePoint>& points,
   }
 }
 
-std::size_t StaticMap::carve(const FreeSpace& free_space, const Eigen::Isometry3f& T_sensor_world) {
+std::size_t StaticMap::carve(const LabeledCloud& cloud, const Eigen::Isometry3f& T_sensor_world) {
+  const CarvingConfig& carving = config_.carving;
+  if (cloud.organised()) {
+    const FreeSpace free_space(cloud, carving.margin, config_.surface.noise);
+    return carve(free_space, carving.ratio, T_sensor_world);
+  }
+  return carve(ScanSight(cloud, carving.scan_margin), carving.scan_ratio, T_sensor_world);
+}
+
+template <class Space>
+std::size_t StaticMap::carve(const Space& free_space, double looks_per_hit,
+                             const Eigen::Isometry3f& T_sensor_world) {
   const auto keyframe = static_cast<std::uint32_t>(viewpoints_.size());
-  const auto ratio = static_cast<float>(config_.carving.ratio);
+  const auto ratio = static_cast<float>(looks_per_hit);
   const auto side = static_cast<float>(grid_.block_size());
   const float radius = 0.5F * std::sqrt(3.0F) * side;
   const auto gone = [&](Voxel& voxel) {

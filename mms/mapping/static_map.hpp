@@ -43,9 +43,9 @@ struct MapUpdate {
 /// grid to running means of position, colour and normal.
 ///
 /// Beyond the paper: points that a mask missed leave ghosts of people in the map; a voxel is
-/// dropped once keyframes that measure something behind it outnumber those that measured it. Needs
-/// organised clouds; LiDAR scans only add. And the memory is bounded: when the budget is used up,
-/// voxels are merged to twice their size, so that the map stays whole.
+/// dropped once keyframes that measure something behind it outnumber those that measured it
+/// (`FreeSpace` of images, `ScanSight` of LiDAR scans). And the memory is bounded: when the budget
+/// is used up, voxels are merged to twice their size, so that the map stays whole.
 class StaticMap {
  public:
   explicit StaticMap(const StaticMapConfig& config = {});
@@ -74,7 +74,10 @@ class StaticMap {
 
  private:
   void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor);
-  std::size_t carve(const FreeSpace& free_space, const Eigen::Isometry3f& T_sensor_world);
+  std::size_t carve(const LabeledCloud& cloud, const Eigen::Isometry3f& T_sensor_world);
+  template <class Space>
+  std::size_t carve(const Space& free_space, double looks_per_hit,
+                    const Eigen::Isometry3f& T_sensor_world);
   bool keep_to_budget();
   Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
 

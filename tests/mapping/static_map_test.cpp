@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <vector>
+
 #include "tests/mapping/synthetic_cloud.hpp"
+#include "tests/mapping/synthetic_scan.hpp"
 
 namespace mms {
 namespace {
@@ -119,6 +124,29 @@ TEST(StaticMap, CarvingCanBeSwitchedOff) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0})).carved, 0U);
   }
+}
+
+TEST(StaticMap, ScansCarveWhoWentAwayAndNothingElse) {
+  const test::StandingBox person{{3.8, -0.25, -1.0}, {4.2, 0.25, 0.75}};
+  StaticMap map({.min_observations = 1});
+  StaticMap uncarved({.min_observations = 1, .carving = {.enabled = false}});
+  for (int i = 0; i < 12; ++i) {
+    const auto T = pose({0.05 * i, 0.02 * i, 0.0}, 0.01 * i);
+    const auto boxes = i < 2 ? std::vector{person} : std::vector<test::StandingBox>{};
+    const LabeledCloud scan = test::hall_scan(boxes, T);
+    map.integrate(scan, T);
+    uncarved.integrate(scan, T);
+  }
+  const Eigen::AlignedBox3d place(person.low + Eigen::Vector3d(-0.05, -0.05, 0.05),
+                                  person.high.array() + 0.05);
+  const auto left = [&](const StaticMap& m) {
+    const std::vector<Eigen::Vector3f> points = m.cloud().points;
+    return std::count_if(points.begin(), points.end(),
+                         [&](const auto& p) { return place.contains(p.template cast<double>()); });
+  };
+  EXPECT_GT(left(uncarved), 300);
+  EXPECT_LT(left(map), 0.1 * static_cast<double>(left(uncarved)));
+  EXPECT_EQ(static_cast<long>(uncarved.size() - map.size()), left(uncarved) - left(map));
 }
 
 TEST(StaticMap, DoublesTheVoxelSizeInsteadOfForgetting) {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "mms/core/image.hpp"
+
+namespace mms {
+
+/// One image for each side of a cube about a LiDAR: what is looked up by direction, whatever the
+/// sensor's mounting and pattern.
+template <class T>
+using CubeImage = std::array<Image<T>, 6>;
+
+template <class T>
+CubeImage<T> make_cube(int side) {
+  CubeImage<T> cube;
+  cube.fill(Image<T>(side, side));
+  return cube;
+}
+
+/// The pixel of a direction, in a cube of side x side pixels a face of 90 degrees.
+struct CubePixel {
+  std::size_t face = 0;
+  int x = 0;
+  int y = 0;
+
+  CubePixel(const Eigen::Vector3f& direction, int side) {
+    Eigen::Index axis = 0;
+    const float along = direction.cwiseAbs().maxCoeff(&axis);
+    const auto place = [&](float across) {
+      const float pixel = (across / along + 1.0F) * (0.5F * static_cast<float>(side));
+      return std::clamp(static_cast<int>(pixel), 0, side - 1);
+    };
+    face = static_cast<std::size_t>(2 * axis + (direction(axis) < 0.0F ? 1 : 0));
+    x = place(direction((axis + 1) % 3));
+    y = place(direction((axis + 2) % 3));
+  }
+};
+
+}  // namespace mms
