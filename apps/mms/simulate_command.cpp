@@ -13,6 +13,7 @@
 #include "interrupt.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/recording_folder.hpp"
+#include "mms/dataset/simulated_source.hpp"
 #include "mms/dataset/simulation_writer.hpp"
 #include "mms/io/config_assignments.hpp"
 #include "mms/io/config_yaml.hpp"
@@ -35,14 +36,17 @@ struct SimulateOptions {
   bool print = false;
 };
 
-/// A built-in scene, or the file of one.
+/// A built-in scene, one as `mms run` takes it (sim:crowd?seed=3), or the file of one.
 SceneConfig load_scene(const std::string& scene) {
+  if (is_simulated(scene)) return simulated_scene(scene);
   const auto names = scene_names();
   if (std::find(names.begin(), names.end(), scene) != names.end()) return scene_config(scene);
   if (!fs::exists(scene)) {
     const std::vector<std::string> known(names.begin(), names.end());
-    throw DataError(scene, "there is no such scene, nor a YAML file of one",
-                    suggestion(scene, known));
+    const std::string hint = scene.find('?') == std::string::npos
+                                 ? suggestion(scene, known)
+                                 : "with values it is sim:" + scene;
+    throw DataError(scene, "there is no such scene, nor a YAML file of one", hint);
   }
   SceneConfig config;
   load_config(scene, config);
@@ -111,7 +115,8 @@ void add_simulate_command(CLI::App& app) {
       app.add_subcommand("simulate", "Render a warehouse into a recording with exact truth");
   command
       ->add_option("SCENE", options->scene,
-                   "YAML file of a scene (--print shows one), or one of " + listed(scene_names()))
+                   "YAML file of a scene (--print shows one), or one of " + listed(scene_names()) +
+                       ", also as mms run takes them: sim:crowd?seed=3")
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "folder for the recording");
   command->add_option("--seed", options->seed, "of everything that is left to chance");

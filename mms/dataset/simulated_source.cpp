@@ -49,18 +49,22 @@ bool is_simulated(std::string_view address) {
   return address.starts_with(kScheme);
 }
 
-std::unique_ptr<FrameSource> open_simulated(std::string_view text, const SourceOptions& options) {
+SceneConfig simulated_scene(std::string_view text) {
   if (!is_simulated(text)) throw DataError(std::string(text), "is no simulation");
-  if (!options.masks.empty()) {
-    throw DataError(std::string(text), "cannot take masks from " + options.masks.string(),
-                    "a simulation brings its own masks");
-  }
   const Address address = parse(text);
   const auto names = scene_names();
   if (std::find(names.begin(), names.end(), address.scene) == names.end()) fail_unknown(address);
   SceneConfig config = scene_config(address.scene);
   assign(config, address.assignments, address.text);
-  return play_scene(config, options.load_masks, options.map_truth);
+  return config;
+}
+
+std::unique_ptr<FrameSource> open_simulated(std::string_view text, const SourceOptions& options) {
+  if (!options.masks.empty()) {
+    throw DataError(std::string(text), "cannot take masks from " + options.masks.string(),
+                    "a simulation brings its own masks");
+  }
+  return play_scene(simulated_scene(text), options.load_masks, options.map_truth);
 }
 
 }  // namespace mms

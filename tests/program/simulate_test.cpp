@@ -68,10 +68,21 @@ TEST(Simulate, ValuesMayStandBeforeTheScene) {
   expect_in("agvs: 1", outcome.out);
 }
 
+TEST(Simulate, TakesTheAddressesThatRunTakes) {
+  const Outcome outcome =
+      run_mms(TempFolder().path(), {"simulate", "sim:crowd?seed=8&agvs=1", "--print"});
+  expect_done(outcome);
+  expect_in("of 'crowd'", outcome.out);
+  expect_in("seed: 8", outcome.out);
+  expect_in("agvs: 1", outcome.out);
+}
+
 TEST(Simulate, SaysWhatIsWrong) {
   const TempFolder folder;
   expect_usage_fault(simulate(folder, {}), "--output is required");
   expect_fault(run_mms(folder.path(), {"simulate", "crwd", "-o", "x"}), "did you mean 'crowd'?");
+  expect_fault(run_mms(folder.path(), {"simulate", "crowd?seed=3", "-o", "x"}),
+               "with values it is sim:crowd?seed=3");
   expect_fault(simulate(folder, {"-o", "x", "--sensor", "d453"}), "--sensor: sensor cannot be");
   expect_fault(simulate(folder, {"-o", "x", "--seed", "-1"}), "--seed: seed is '-1', allowed is");
   expect_fault(simulate(folder, {"-o", "x", "--set", "spead=1"}), "did you mean 'speed'?");
