@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "mms/core/image.hpp"
 
@@ -21,7 +23,13 @@ CubeImage<T> make_cube(int side) {
   return cube;
 }
 
-/// The pixel of a direction, in a cube of side x side pixels a face of 90 degrees.
+/// Whether a point at `range` [m] has a direction and a place.
+inline bool has_direction(float range) {
+  return range > 0.0F && std::isfinite(range);
+}
+
+/// The pixel of a finite direction, in a cube of side x side pixels a face of 90 degrees; of no
+/// direction at all, any.
 struct CubePixel {
   std::size_t face = 0;
   int x = 0;
@@ -29,7 +37,8 @@ struct CubePixel {
 
   CubePixel(const Eigen::Vector3f& direction, int side) {
     Eigen::Index axis = 0;
-    const float along = direction.cwiseAbs().maxCoeff(&axis);
+    const float longest = direction.cwiseAbs().maxCoeff(&axis);
+    const float along = std::max(longest, std::numeric_limits<float>::min());
     const auto place = [&](float across) {
       const float pixel = (across / along + 1.0F) * (0.5F * static_cast<float>(side));
       return std::clamp(static_cast<int>(pixel), 0, side - 1);

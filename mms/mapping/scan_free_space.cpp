@@ -21,7 +21,7 @@ ScanFreeSpace::ScanFreeSpace(const LabeledCloud& cloud, double margin)
   CubeImage<Span> single = make_cube<Span>(kSide);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const float range = cloud.points[i].norm();
-    if (cloud.labels[i] == PointLabel::kInvalid || !(range > 0.0F)) continue;
+    if (cloud.labels[i] == PointLabel::kInvalid || !has_direction(range)) continue;
     const CubePixel pixel(cloud.points[i], kSide);
     single[pixel.face](pixel.x, pixel.y).extend(range, range);
   }

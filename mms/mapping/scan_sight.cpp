@@ -15,7 +15,7 @@ CubeImage<float> measured_ranges(const LabeledCloud& cloud) {
   CubeImage<float> ranges = make_cube<float>(kSide);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const float range = cloud.points[i].norm();
-    if (cloud.labels[i] == PointLabel::kInvalid || !(range > 0.0F)) continue;
+    if (cloud.labels[i] == PointLabel::kInvalid || !has_direction(range)) continue;
     const CubePixel pixel(cloud.points[i], kSide);
     float& nearest = ranges[pixel.face](pixel.x, pixel.y);
     nearest = nearest > 0.0F ? std::min(nearest, range) : range;

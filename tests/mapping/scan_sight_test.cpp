@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "tests/mapping/synthetic_cloud.hpp"
@@ -98,6 +99,22 @@ TEST(ScanSight, KnowsNothingBeyondItsRingsOrWithoutReturns) {
   }
   EXPECT_FALSE(sees(ScanSight(scan, kMargin), T, ahead));
   EXPECT_FALSE(sees(ScanSight(LabeledCloud{}, kMargin), T, ahead));
+}
+
+TEST(ScanSight, IsNotMisledByPointsThatAreNone) {
+  const auto T = pose({0.0, 0.0, 0.0});
+  LabeledCloud scan = hall_scan({}, T);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  for (const Eigen::Vector3f& none : {Eigen::Vector3f(kNan, 0, 0), Eigen::Vector3f(kInf, 0, 0),
+                                      Eigen::Vector3f(kInf, -kInf, 1), Eigen::Vector3f(0, 0, 0)}) {
+    scan.points.push_back(none);
+    scan.labels.push_back(PointLabel::kStatic);
+  }
+  const ScanSight sight(scan, kMargin);
+  EXPECT_TRUE(sees(sight, T, {3.0, 0.1, 0.1}));
+  EXPECT_TRUE(sees(sight, T, {0.1, 3.0, 0.1}));
+  EXPECT_FALSE(sees(sight, T, {9.0, 0.1, 0.1}));
 }
 
 TEST(ScanSight, MaySeeIntoTheBallsWhoseMiddleIsFree) {
