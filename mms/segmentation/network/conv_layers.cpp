@@ -147,7 +147,9 @@ torch::Tensor SwitchableConvImpl::forward(const torch::Tensor& input) {
   const torch::Tensor small = convolve_at(x, weight, offset_small_, pooled, 1);
   const torch::Tensor large =
       convolve_at(x, weight + difference_, offset_large_, pooled, kLargeDilation);
-  return add_context(torch::lerp(large, small, mix), post_context_);
+  // In mixed precision the mean over pixels stays a float, the convolutions do not.
+  const torch::Tensor share = mix.to(small.scalar_type());
+  return add_context(torch::lerp(large, small, share), post_context_);
 }
 
 HeadUnitImpl::HeadUnitImpl(const ConvShape& shape, HeadNorm norm) {

@@ -14,6 +14,8 @@ class MixedPrecision {
   MixedPrecision(const MixedPrecision&) = delete;
   MixedPrecision& operator=(const MixedPrecision&) = delete;
 
+  bool on() const { return on_; }
+
  private:
   bool on_ = false;
   torch::DeviceType device_;
