@@ -3,13 +3,20 @@
 #include <gtest/gtest.h>
 #include <torch/types.h>
 
+#include <filesystem>
 #include <string>
 
+#include "mms/io/image_io.hpp"
+#include "mms/io/safetensors.hpp"
+#include "mms/segmentation/model.hpp"
 #include "mms/segmentation/network/inference.hpp"
 #include "mms/segmentation/network/solo_network.hpp"
+#include "mms/segmentation/weight_growth.hpp"
 
 namespace mms::network {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Gives all that starts at zero or one values as after a training.
 void randomise(torch::nn::Module& module) {
@@ -47,40 +54,50 @@ double difference(const torch::Tensor& a, const torch::Tensor& b) {
   return ((a - b).abs().max() / b.abs().max()).item<double>();
 }
 
-void expect_equal_maps(const NetworkConfig& config, int height, int width) {
+/// Logits of all masks that a level's kernels make of the mask features: (cells, height * width).
+torch::Tensor mask_logits(const torch::Tensor& kernels, const torch::Tensor& features) {
+  return torch::mm(kernels[0].flatten(1).t(), features[0].flatten(1));
+}
+
+/// Compares what the engine and libtorch make of a picture, the masks' logits among it.
+void expect_equal_maps(const NetworkConfig& config, engine::NetworkEngine& engine,
+                       SoloNetwork& network, PreparedImage image) {
+  const HeadOutput wanted = network(
+      torch::from_blob(image.planes.data(), {1, 3, image.height, image.width}, torch::kFloat));
+  ASSERT_TRUE(wanted.mask_features.isfinite().all().item<bool>());
+  const HeadMaps maps = engine.run(image);
+  const torch::Tensor features =
+      as_tensor(maps.mask_features, image.height / 4, image.width / 4, config.head.kernel_channels);
+  EXPECT_LT(difference(features, wanted.mask_features), 1e-4);
+  const auto grids = config.head.grids();
+  for (std::size_t level = 0; level < grids.size(); ++level) {
+    const int side = grids[level];
+    EXPECT_LT(difference(as_tensor(maps.categories[level], side, side, config.classes),
+                         wanted.categories[level]),
+              1e-4);
+    const torch::Tensor kernels =
+        as_tensor(maps.kernels[level], side, side, config.head.kernel_channels);
+    EXPECT_LT(difference(kernels, wanted.kernels[level]), 1e-4);
+    EXPECT_LT(difference(mask_logits(kernels, features),
+                         mask_logits(wanted.kernels[level], wanted.mask_features)),
+              1e-4);
+  }
+}
+
+void expect_equal_on_noise(const NetworkConfig& config, int height, int width) {
   torch::manual_seed(1);
   SoloNetwork network(config);
   randomise(*network);
   network->eval();
   engine::NetworkEngine engine({config, {"person", "agv"}, to_weights(*network)}, "test", {});
   const torch::NoGradGuard no_grad;
-  for (int i = 0; i < 2; ++i) {
-    PreparedImage image = noise(height, width);
-    const HeadOutput wanted =
-        network(torch::from_blob(image.planes.data(), {1, 3, height, width}, torch::kFloat));
-    ASSERT_TRUE(wanted.mask_features.isfinite().all().item<bool>());
-    const HeadMaps maps = engine.run(image);
-    EXPECT_LT(difference(
-                  as_tensor(maps.mask_features, height / 4, width / 4, config.head.kernel_channels),
-                  wanted.mask_features),
-              1e-4);
-    const auto grids = config.head.grids();
-    for (std::size_t level = 0; level < grids.size(); ++level) {
-      const int side = grids[level];
-      EXPECT_LT(difference(as_tensor(maps.categories[level], side, side, config.classes),
-                           wanted.categories[level]),
-                1e-4);
-      EXPECT_LT(difference(as_tensor(maps.kernels[level], side, side, config.head.kernel_channels),
-                           wanted.kernels[level]),
-                1e-4);
-    }
-  }
+  for (int i = 0; i < 2; ++i) expect_equal_maps(config, engine, network, noise(height, width));
 }
 
 class EngineOfEachVariant : public ::testing::TestWithParam<NetworkVariant> {};
 
 TEST_P(EngineOfEachVariant, ComputesWhatLibtorchDoes) {
-  expect_equal_maps(NetworkConfig::preset(NetworkSize::kNano, GetParam()), 96, 128);
+  expect_equal_on_noise(NetworkConfig::preset(NetworkSize::kNano, GetParam()), 96, 128);
 }
 
 TEST_P(EngineOfEachVariant, WithResNet50AndGroupNormToo) {
@@ -89,7 +106,33 @@ TEST_P(EngineOfEachVariant, WithResNet50AndGroupNormToo) {
   config.neck.channels = 64;
   config.head.tower_channels = 64;
   config.head.grid_density = 0.4;
-  expect_equal_maps(config, 128, 96);
+  expect_equal_on_noise(config, 128, 96);
+}
+
+/// The shipped weights, with what a variant has besides at random but small.
+TEST_P(EngineOfEachVariant, OnTwentyRealPictures) {
+  const fs::path pictures = fs::path(MMS_SOURCE_DIR) / "../shared/data/people/images";
+  if (!fs::exists(pictures)) GTEST_SKIP() << "no shared data in ../shared/data";
+  const fs::path file = fs::path(MMS_SOURCE_DIR) / "weights/nano.safetensors";
+  SegmentationModel shipped = unpack_model(read_safetensors(file), file.string());
+  const NetworkConfig variant = NetworkConfig::preset(NetworkSize::kNano, GetParam());
+  NetworkConfig config = shipped.network;
+  config.backbone.sac = variant.backbone.sac;
+  config.neck.recursive = variant.neck.recursive;
+  torch::manual_seed(1);
+  SoloNetwork network(config);
+  randomise(*network);
+  load_partial_weights(*network, grown_to(config, shipped.weights), file.string());
+  network->eval();
+  engine::NetworkEngine engine({config, shipped.classes, to_weights(*network)}, "test", {});
+  const torch::NoGradGuard no_grad;
+  int left = 20;
+  for (const auto& entry : fs::directory_iterator(pictures)) {
+    if (left-- == 0) break;
+    SCOPED_TRACE(entry.path());
+    expect_equal_maps(config, engine, network, prepare_image(read_color(entry.path()), config));
+  }
+  EXPECT_LE(left, 0) << "fewer than 20 pictures in " << pictures;
 }
 
 INSTANTIATE_TEST_SUITE_P(AllVariants, EngineOfEachVariant,
