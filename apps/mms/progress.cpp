@@ -20,7 +20,7 @@ std::string Progress::line(const RunLog& log) const {
   return fmt::format(
       "frame {}/{}  {:.1f} Hz  ms:{}  dynamic {:.0f} %  objects {}  {}", log.frames().size(),
       total_, static_cast<double>(log.frames().size()) / elapsed.count(), stages,
-      100.0 * frame.dynamic_share, log.objects().back().objects.size(), to_string(frame.status));
+      100.0 * frame.dynamic_share, log.objects_now(), to_string(frame.status));
 }
 
 }  // namespace mms

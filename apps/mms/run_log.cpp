@@ -32,8 +32,8 @@ double LoggedFrame::stages_ms() const {
   return std::accumulate(stage_ms.begin(), stage_ms.end(), read_ms);
 }
 
-RunLog::RunLog(Trajectory truth, bool compare_masks)
-    : truth_(std::move(truth)), compare_masks_(compare_masks) {}
+RunLog::RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects)
+    : truth_(std::move(truth)), smoother_(objects), compare_masks_(compare_masks) {}
 
 void RunLog::add(const Processed& processed) {
   const FrameResult& result = processed.result;
@@ -44,7 +44,8 @@ void RunLog::add(const Processed& processed) {
                      result.odometry.T_world_sensor, result.odometry.status, result.keyframe,
                      result.dynamic_share, processed.read_ms, interval.count(), result.stage_ms,
                      processed.latency_ms});
-  ObjectFrame& seen = objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
+  smoother_.add(processed.frame.stamp, result.objects);
+  ObjectFrame& seen = live_objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
   for (const TrackedObject& object : result.objects) seen.objects.push_back(object.box);
   has_image_ = has_image_ || result.cloud.organised();
   keep_picture(processed);
@@ -77,6 +78,7 @@ void RunLog::finish(std::size_t skipped, const AsyncPipeline& pipeline, const Sl
     metrics_.dynamic_share += frame.dynamic_share / static_cast<double>(frames_.size());
   }
   metrics_.tracks = system.dynamic_map().confirmed();
+  objects_ = smoother_.history();
 }
 
 void RunLog::sum_up_times() {
@@ -117,7 +119,11 @@ void RunLog::sum_up_accuracy() {
 void RunLog::compare_objects(const ObjectHistory& truth) {
   const auto T = align_truth(truth_, trajectory());
   if (!T || truth.empty()) return;
-  metrics_.objects = evaluate_tracking(truth, transformed(objects_, T->inverse()), truth_);
+  const auto compare = [&](const ObjectHistory& objects) {
+    return evaluate_tracking(truth, transformed(objects, T->inverse()), truth_);
+  };
+  metrics_.objects = compare(objects_);
+  metrics_.live_objects = compare(live_objects_);
 }
 
 void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map) {

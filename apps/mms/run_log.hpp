@@ -9,6 +9,7 @@
 #include "mms/core/trajectory.hpp"
 #include "mms/evaluation/metrics.hpp"
 #include "mms/evaluation/report.hpp"
+#include "mms/mapping/object_smoother.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/simulation/truth_cloud.hpp"
@@ -36,7 +37,8 @@ struct LoggedFrame {
 class RunLog {
  public:
   /// @param compare_masks  whether the frames' masks are truth, and not what the run went by
-  RunLog(Trajectory truth, bool compare_masks);
+  /// @param objects        of the system whose frames are added
+  RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects);
 
   void add(const Processed& processed);
 
@@ -54,7 +56,9 @@ class RunLog {
   void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
 
   const std::vector<LoggedFrame>& frames() const { return frames_; }
+  /// As judged later (ObjectSmoother); of the frames until `finish`.
   const ObjectHistory& objects() const { return objects_; }
+  std::size_t objects_now() const { return live_objects_.back().objects.size(); }
   const std::vector<ReportPicture>& pictures() const { return pictures_; }
   const RunMetrics& metrics() const { return metrics_; }
   const Trajectory& truth() const { return truth_; }
@@ -71,7 +75,9 @@ class RunLog {
 
   Trajectory truth_;
   std::vector<LoggedFrame> frames_;
+  ObjectSmoother smoother_;
   ObjectHistory objects_;
+  ObjectHistory live_objects_;  ///< as the dynamic map had them at once
   std::vector<ReportPicture> pictures_;
   std::size_t picture_stride_ = 1;
   bool has_image_ = false;

@@ -102,7 +102,8 @@ void SlamRun::process(const std::filesystem::path& folder) {
   const auto warn = [this](const std::string& message) { progress_.warn(message); };
   source_->on_warning(warn);
   journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, warn);
-  log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network");
+  log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
+                                  config_.dynamic_map);
   const InterruptGuard interrupt;
   if (options_.realtime) warm_up();
   AsyncPipeline pipeline(threads_of(options_, config_));

@@ -73,6 +73,9 @@ std::string to_json(const RunMetrics& metrics) {
   if (metrics.map) object["map"] = json_object(metric_values(*metrics.map));
   if (metrics.masks) object["masks"] = json_object(metric_values(*metrics.masks));
   if (metrics.objects) object["objects"] = json_object(metric_values(*metrics.objects));
+  if (metrics.live_objects) {
+    object["live_objects"] = json_object(metric_values(*metrics.live_objects));
+  }
   return object.dump(2) + "\n";
 }
 

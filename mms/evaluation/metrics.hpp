@@ -54,12 +54,13 @@ struct RunMetrics {
   std::optional<MapError> map;                                 ///< where the true map is known
   std::optional<MaskAgreement> masks;                          ///< where masks to compare are
   std::optional<TrackingError> objects;                        ///< where the true ones are known
+  std::optional<TrackingError> live_objects;                   ///< as known at once; there too
   bool stood_still = true;  ///< by the truth; for a moving sensor drift is left out of tables
 };
 
 /// The JSON object with the contract's keys, indented, ended by a newline; `realtime`,
-/// `trajectory`, `drift`, `map`, `masks` and `objects` only where they are there, every status name
-/// always.
+/// `trajectory`, `drift`, `map`, `masks`, `objects` and `live_objects` only where they are there,
+/// every status name always.
 std::string to_json(const RunMetrics& metrics);
 
 /// Writes `to_json` to a file, at once or not at all. @throws FileError

@@ -150,8 +150,7 @@ std::vector<TrackedObject> DynamicMap::objects() const {
     if (unseen > std::min(config_.max_shown, known)) continue;
     const bool seen = track.last_seen() == last_stamp_;
     objects.push_back({track.box(), seen ? TrackState::kActive : TrackState::kCoasting,
-                       track.position_covariance(), track.velocity_covariance(), track.first_seen(),
-                       track.last_seen()});
+                       track.motion(), track.first_seen(), track.last_seen()});
   }
   return objects;
 }

@@ -22,6 +22,7 @@ struct DynamicMapConfig {
   double max_missed = 1.5;     ///< [s]
   double max_tentative = 1.0;  ///< [s]
   double max_shown = 0.5;      ///< [s]
+  double history_lag = 1.0;    ///< [s]
   ReturnConfig returning;
 
   void visit(ConfigVisitor& v) {
@@ -36,6 +37,9 @@ struct DynamicMapConfig {
              max_tentative, {0.0, 60.0});
     v.number({"max_shown", "s", "longest time an unseen object is given as there"}, max_shown,
              {0.0, 60.0});
+    v.number({"history_lag", "s",
+              "objects' motions are written down as known so much later; 0: as known at once"},
+             history_lag, {0.0, 60.0});
     v.group({"returning", "", "objects that come back after they were lost"}, returning);
   }
 };
@@ -44,8 +48,7 @@ struct DynamicMapConfig {
 struct TrackedObject {
   ObjectBox box;
   TrackState state = TrackState::kActive;
-  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< [m^2]
-  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  ///< [m^2/s^2]
+  MotionFilter motion;  ///< of the box's middle, with its covariance
   Timestamp first_seen;
   Timestamp last_seen;
 };

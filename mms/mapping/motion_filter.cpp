@@ -1,5 +1,6 @@
 #include "mms/mapping/motion_filter.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kHeightNoise = 0.01;  // spectral density of the height's drift [m^2/s]
-constexpr double kLikely = 5.0;        // standard deviations
-constexpr double kOffsetMemory = 1.0;  // time constant with which an offset changes [s]
+constexpr double kHeightNoise = 0.01;   // spectral density of the height's drift [m^2/s]
+constexpr double kLikely = 5.0;         // standard deviations
+constexpr double kOffsetMemory = 1.0;   // time constant with which an offset changes [s]
+constexpr double kKnownExactly = 1e-9;  // variance of what has none [m^2], [m^2/s^2]
 
 }  // namespace
 
@@ -25,11 +27,16 @@ MotionFilter::MotionFilter(const Vector3d& position, const Vector3d& up, double 
   covariance_.block<3, 3>(3, 3) = velocity_sigma * velocity_sigma * horizontal_;
 }
 
-void MotionFilter::predict(double seconds, double noise) {
-  const double kept = std::exp(-seconds / kOffsetMemory);
+MotionFilter::Covariance MotionFilter::transition(double seconds) const {
   Covariance transition = Covariance::Identity();
   transition.block<3, 3>(0, 3) = seconds * Matrix3d::Identity();
-  transition.bottomRightCorner<3, 3>() *= kept;
+  transition.bottomRightCorner<3, 3>() *= std::exp(-seconds / kOffsetMemory);
+  return transition;
+}
+
+void MotionFilter::predict(double seconds, double noise) {
+  const Covariance step = transition(seconds);
+  const double kept = step(8, 8);
   const Matrix3d acceleration = noise * seconds * horizontal_;
   const Matrix3d drift = kHeightNoise * seconds * (Matrix3d::Identity() - horizontal_);
   Covariance added = Covariance::Zero();
@@ -37,8 +44,29 @@ void MotionFilter::predict(double seconds, double noise) {
       acceleration * (seconds / 2.0), acceleration * (seconds / 2.0), acceleration;
   const double forgotten = (1.0 - kept * kept) * offset_sigma_ * offset_sigma_;
   added.bottomRightCorner<3, 3>().diagonal().setConstant(forgotten);
-  state_ = transition * state_;
-  covariance_ = transition * covariance_ * transition.transpose() + added;
+  state_ = step * state_;
+  covariance_ = step * covariance_ * step.transpose() + added;
+  corrections_.setZero();
+}
+
+void MotionFilter::smooth(const MotionFilter& later, double seconds, double noise) {
+  MotionFilter expected = *this;
+  expected.predict(seconds, noise);
+  // Of an offset that came or went in between, what was later tells nothing.
+  const bool same_offset = offset_sigma_ > 0.0 && later.offset_sigma_ > 0.0;
+  const Eigen::Index told = same_offset ? 9 : 6;
+  Eigen::MatrixXd innovation = expected.covariance_.topLeftCorner(told, told);
+  innovation.diagonal().array() += kKnownExactly;
+  const Eigen::MatrixXd joint = (transition(seconds) * covariance_).topRows(told);
+  const Eigen::MatrixXd gain = innovation.ldlt().solve(joint).transpose();
+  state_ += gain * (later.state_ - later.corrections_ - expected.state_).head(told);
+  const Covariance change = later.covariance_ - expected.covariance_;
+  covariance_ += gain * change.topLeftCorner(told, told) * gain.transpose();
+}
+
+void MotionFilter::shift(const Vector3d& by) {
+  state_.head<3>() += by;
+  corrections_.head<3>() += by;
 }
 
 void MotionFilter::set_up(const Vector3d& up) {
@@ -83,7 +111,10 @@ void MotionFilter::update(const Vector3d& position, const PositionError& error) 
 
 void MotionFilter::limit_speed(double speed) {
   const double now = velocity().norm();
-  if (now > speed) state_.segment<3>(3) *= speed / now;
+  if (now <= speed) return;
+  const Vector3d excess = (1.0 - speed / now) * velocity();
+  state_.segment<3>(3) -= excess;
+  corrections_.segment<3>(3) -= excess;
 }
 
 }  // namespace mms

@@ -34,8 +34,14 @@ class MotionFilter {
   /// is unlikely (Huber's weights).
   void update(const Eigen::Vector3d& position, const PositionError& error);
 
+  /// Takes in what was learned later (a step of the smoother of Rauch, Tung and Striebel; 8.6).
+  /// @param later    this filter after that time and an update, and after its own `smooth` if any
+  /// @param seconds  until then, positive
+  /// @param noise    that of `predict`
+  void smooth(const MotionFilter& later, double seconds, double noise);
+
   /// Moves the point without a motion: it was taken for another.
-  void shift(const Eigen::Vector3d& by) { state_.head<3>() += by; }
+  void shift(const Eigen::Vector3d& by);
 
   /// Shortens the velocity to a length [m/s].
   void limit_speed(double speed);
@@ -50,13 +56,15 @@ class MotionFilter {
   using State = Eigen::Matrix<double, 9, 1>;
   using Covariance = Eigen::Matrix<double, 9, 9>;
 
+  Covariance transition(double seconds) const;
   void begin_offset(double sigma);
   void end_offset();
 
   Eigen::Matrix3d horizontal_;  ///< projection
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
-  double offset_sigma_ = 0.0;  ///< 0 while the measurements have none
+  State corrections_ = State::Zero();  ///< since the last prediction, by no measurement
+  double offset_sigma_ = 0.0;          ///< 0 while the measurements have none
 };
 
 }  // namespace mms

@@ -102,7 +102,7 @@ void Track::update(const ObjectMeasurement& object, bool shared) {
   const BoxFit seen = fit(object);
   motion_.update(seen.center, error_of(object, shared || !seen.anchored));
   motion_.limit_speed(config_.max_speed);
-  judge_motion();
+  moving_ = config_.is_moving(motion_.velocity().norm(), moving_);
   if (!shared) learn_shape(object);
   last_position_ = motion_.position();
 }
@@ -175,11 +175,6 @@ void Track::learn_heading(const ObjectMeasurement& object) {
   const double gain = has_heading_ ? kHeadingGain : 1.0;
   heading_ += gain * turn(heading_, seen, 2.0 * std::numbers::pi);
   has_heading_ = true;
-}
-
-void Track::judge_motion() {
-  const double speed = motion_.velocity().norm();
-  moving_ = speed > (moving_ ? config_.stopped_speed : config_.moving_speed);
 }
 
 ObjectClass Track::object_class() const {

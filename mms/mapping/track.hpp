@@ -54,7 +54,7 @@ class Track {
   Timestamp last_told() const { return last_told_; }  ///< seen with a mask of its own, or to move
   Eigen::Vector3d position() const { return motion_.position(); }
   Eigen::Matrix3d position_covariance() const { return motion_.position_covariance(); }
-  Eigen::Matrix3d velocity_covariance() const { return motion_.velocity_covariance(); }
+  const MotionFilter& motion() const { return motion_; }
   const Eigen::Vector3d& size() const { return size_; }
   const Appearance& appearance() const { return appearance_; }
   double score() const { return score_; }  ///< mean over the last observations, in [0, 1]
@@ -72,7 +72,6 @@ class Track {
   void learn_shape(const ObjectMeasurement& object);
   void learn_size(const BoxFit& fit);
   void learn_heading(const ObjectMeasurement& object);
-  void judge_motion();
 
   TrackConfig config_;
   GroundFrame ground_;

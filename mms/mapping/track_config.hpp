@@ -46,6 +46,11 @@ struct TrackConfig {
                                                       {1.2, 0.8, 1.2, 30.0, 1, 0.5},
                                                       {0.5, 0.5, 1.0, 30.0, 1, 0.0}}};
 
+  /// Whether an object of that speed [m/s] moves, which did so before or not.
+  bool is_moving(double speed, bool before) const {
+    return speed > (before ? stopped_speed : moving_speed);
+  }
+
   void visit(ConfigVisitor& v) {
     v.number({"acceleration_noise", "m^2/s^3", "how quickly objects change their velocity"},
              acceleration_noise, {1e-4, 100.0});

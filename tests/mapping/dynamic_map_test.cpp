@@ -51,7 +51,7 @@ TEST(DynamicMap, MeasuresTheVelocityOfASteadyBoxFromAMovingCamera) {
   EXPECT_TRUE(object.box.moving);
   EXPECT_NEAR(object.box.velocity.x(), 1.1, 0.1);
   EXPECT_NEAR(object.box.velocity.z(), -0.1, 0.15);
-  EXPECT_LT(object.velocity_covariance.trace(), 0.3);
+  EXPECT_LT(object.motion.velocity_covariance().trace(), 0.3);
   // It faces where it goes.
   EXPECT_GT(object.box.T_world_box.linear().col(0).x(), 0.9);
   EXPECT_NEAR(object.box.T_world_box.linear().col(2).y(), -1.0, 1e-9);

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "mms/core/random_stream.hpp"
 
@@ -144,6 +148,124 @@ TEST(MotionFilter, LimitsTheSpeedButNotTheDirection) {
   filter.limit_speed(2.5);
   EXPECT_NEAR(filter.velocity().norm(), 2.5, 1e-9);
   EXPECT_NEAR(filter.velocity().y() / filter.velocity().x(), 4.0 / 3.0, 1e-6);
+}
+
+/// A walk over the floor with white accelerations, seen with errors, and what filters make of it.
+struct Walk {
+  static constexpr double kStep = 0.1;   // [s]
+  static constexpr double kNoise = 0.3;  // of the acceleration [m^2/s^3]
+  static constexpr double kSigma = 0.05;
+  std::vector<Eigen::Vector3d> seen;
+  std::vector<MotionFilter> filters;  // after each of the measurements
+
+  explicit Walk(int steps) {
+    RandomStream random(3);
+    Eigen::Vector3d velocity(1, 0.5, 0);
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    MotionFilter filter(position, kUp, 0.2, 1.0);
+    for (int i = 0; i < steps; ++i) {
+      if (i > 0) filter.predict(kStep, kNoise);
+      const auto error = [&] { return 2.0 * static_cast<double>(random.uniform()) - 1.0; };
+      seen.push_back(position + kSigma * Eigen::Vector3d(error(), error(), error()));
+      filter.update(seen.back(), {kSigma});
+      filters.push_back(filter);
+      velocity += Eigen::Vector3d(0.2 * error(), 0.2 * error(), 0.0);
+      position += kStep * velocity;
+    }
+  }
+
+  void smooth() {
+    for (std::size_t i = filters.size() - 1; i-- > 0;) {
+      filters[i].smooth(filters[i + 1], kStep, kNoise);
+    }
+  }
+
+  /// x and its speed at all steps, by least squares over everything at once.
+  Eigen::VectorXd batch() const {
+    const auto n = static_cast<Eigen::Index>(seen.size());
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * n);
+    information(0, 0) += 1.0 / (0.2 * 0.2);
+    information(1, 1) += 1.0;
+    Eigen::Matrix2d noise;
+    noise << kStep * kStep * kStep / 3.0, kStep * kStep / 2.0, kStep * kStep / 2.0, kStep;
+    Eigen::Matrix<double, 2, 4> motion;
+    motion << -1.0, -kStep, 1.0, 0.0, 0.0, -1.0, 0.0, 1.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      information(2 * i, 2 * i) += 1.0 / (kSigma * kSigma);
+      right(2 * i) += seen[static_cast<std::size_t>(i)].x() / (kSigma * kSigma);
+      if (i == 0) continue;
+      information.block<4, 4>(2 * i - 2, 2 * i - 2) +=
+          motion.transpose() * (kNoise * noise).inverse() * motion;
+    }
+    return information.ldlt().solve(right);
+  }
+};
+
+TEST(MotionFilter, SmoothedItIsTheLeastSquaresSolutionOfAllMeasurements) {
+  Walk walk(40);
+  const Eigen::VectorXd expected = walk.batch();
+  walk.smooth();
+  for (std::size_t i = 0; i < walk.filters.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    EXPECT_NEAR(walk.filters[i].position().x(), expected(row), 1e-5) << "step " << i;
+    EXPECT_NEAR(walk.filters[i].velocity().x(), expected(row + 1), 1e-4) << "step " << i;
+  }
+}
+
+TEST(MotionFilter, SmoothingMakesItSurer) {
+  Walk walk(40);
+  const std::vector<MotionFilter> before = walk.filters;
+  walk.smooth();
+  for (std::size_t i = 0; i + 1 < before.size(); ++i) {
+    const double now = walk.filters[i].velocity_covariance().trace();
+    EXPECT_GT(now, 0.0);
+    EXPECT_LT(now, before[i].velocity_covariance().trace());
+  }
+}
+
+TEST(MotionFilter, WhatWasOnlyExpectedTeachesNothing) {
+  MotionFilter filter = Walk(20).filters.back();
+  const MotionFilter before = filter;
+  MotionFilter later = filter;
+  later.predict(0.2, 0.3);
+  filter.smooth(later, 0.2, 0.3);
+  EXPECT_TRUE(filter.position().isApprox(before.position(), 1e-9));
+  EXPECT_TRUE(filter.velocity().isApprox(before.velocity(), 1e-9));
+  EXPECT_TRUE(filter.velocity_covariance().isApprox(before.velocity_covariance(), 1e-6));
+}
+
+TEST(MotionFilter, AShiftIsNoMotionToTheSmootherEither) {
+  Walk straight(40);
+  Walk shifted = straight;
+  const Eigen::Vector3d shift(0.5, 0.0, 0.0);
+  MotionFilter last = straight.filters.back();
+  last.predict(Walk::kStep, Walk::kNoise);
+  MotionFilter moved = last;
+  moved.shift(shift);
+  straight.filters.push_back(last);
+  shifted.filters.push_back(moved);
+  straight.smooth();
+  shifted.smooth();
+  const std::size_t k = straight.filters.size() - 2;
+  EXPECT_TRUE(shifted.filters[k].velocity().isApprox(straight.filters[k].velocity(), 1e-9));
+  EXPECT_TRUE(shifted.filters[k].position().isApprox(straight.filters[k].position(), 1e-9));
+}
+
+TEST(MotionFilter, AnOffsetThatEndedIsNoNewsOfTheMotion) {
+  // Half a view of a thing that stands, then all of it.
+  std::vector<MotionFilter> filters;
+  MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.2, 0.7);
+  for (int i = 0; i < 40; ++i) {
+    if (i > 0) filter.predict(0.1, 0.2);
+    const bool is_cut = i < 20;
+    filter.update(Eigen::Vector3d(is_cut ? -0.2 : 0.0, 0, 0), {0.03, is_cut ? 0.2 : 0.0});
+    filters.push_back(filter);
+  }
+  const double before = filters[10].position().norm();
+  for (std::size_t i = filters.size() - 1; i-- > 0;) filters[i].smooth(filters[i + 1], 0.1, 0.2);
+  for (const MotionFilter& smoothed : filters) EXPECT_LT(smoothed.velocity().norm(), 0.15);
+  EXPECT_LT(filters[10].position().norm(), 0.8 * before);
 }
 
 }  // namespace
