@@ -22,5 +22,6 @@ if(TARGET mms_program)
   if(TARGET mms_torch_program)
     install(TARGETS mms_torch_program)
   endif()
-  install(FILES weights/nano.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/mms/weights)
+  install(FILES weights/nano.safetensors weights/small.safetensors
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/mms/weights)
 endif()
