@@ -17,10 +17,10 @@ std::string Progress::line(const RunLog& log) const {
   for (std::size_t i = 0; i < kStageCount; ++i) {
     stages += fmt::format(" {} {:.1f}", to_string(static_cast<Stage>(i)), frame.stage_ms[i]);
   }
-  return fmt::format(
-      "frame {}/{}  {:.1f} Hz  ms:{}  dynamic {:.0f} %  objects {}  {}", log.frames().size(),
-      total_, static_cast<double>(log.frames().size()) / elapsed.count(), stages,
-      100.0 * frame.dynamic_share, log.objects_now(), to_string(frame.status));
+  return fmt::format("frame {}/{}  {:.1f} Hz  ms:{}  dynamic {:.0f} %  objects {}  {}",
+                     log.frames().size(), total_,
+                     static_cast<double>(log.frames().size()) / elapsed.count(), stages,
+                     100.0 * frame.dynamic_share, log.objects_now(), to_string(frame.status));
 }
 
 }  // namespace mms
