@@ -56,7 +56,7 @@ class RunLog {
   void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
 
   const std::vector<LoggedFrame>& frames() const { return frames_; }
-  /// As judged later (ObjectSmoother); of the frames until `finish`.
+  /// As judged later (ObjectSmoother); empty until `finish`.
   const ObjectHistory& objects() const { return objects_; }
   std::size_t objects_now() const { return live_objects_.back().objects.size(); }
   const std::vector<ReportPicture>& pictures() const { return pictures_; }
