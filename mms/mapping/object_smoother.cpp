@@ -1,5 +1,6 @@
 #include "mms/mapping/object_smoother.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace mms {
@@ -13,7 +14,7 @@ void ObjectSmoother::add(Timestamp stamp, const std::vector<TrackedObject>& obje
 
 ObjectHistory ObjectSmoother::history() const {
   ObjectSmoother all = *this;
-  all.settle(0.0);
+  all.settle(std::numeric_limits<double>::lowest());
   return std::move(all.settled_);
 }
 
@@ -28,7 +29,7 @@ std::deque<ObjectSmoother::Frame> ObjectSmoother::smoothed() const {
   for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame) {
     for (TrackedObject& object : frame->objects) {
       const auto later = later_of.find(object.box.id);
-      if (later != later_of.end()) {
+      if (later != later_of.end() && later->second.stamp > frame->stamp) {
         object.motion.smooth(*later->second.motion, to_seconds(later->second.stamp - frame->stamp),
                              config_.track.acceleration_noise);
       }

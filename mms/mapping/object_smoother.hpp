@@ -18,7 +18,8 @@ class ObjectSmoother {
  public:
   explicit ObjectSmoother(const DynamicMapConfig& config) : config_(config) {}
 
-  /// Adds a frame's objects; frames come in the order of their stamps.
+  /// Adds a frame's objects; frames come in the order of their stamps. One that is not later than
+  /// the last is kept, but tells nothing of those before it.
   void add(Timestamp stamp, const std::vector<TrackedObject>& objects);
 
   /// All frames so far.

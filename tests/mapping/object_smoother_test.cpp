@@ -157,5 +157,19 @@ TEST(ObjectSmoother, FramesWithoutObjectsStay) {
   EXPECT_EQ(history[55].objects.size(), 1U);
 }
 
+TEST(ObjectSmoother, AFrameOutOfOrderTellsNothing) {
+  const DynamicMapConfig config;
+  const auto seen = stopping_object(3, 10, config);
+  ObjectSmoother smoother(config);
+  smoother.add(stamp_of(5), {seen[5]});
+  smoother.add(stamp_of(5), {seen[5]});
+  smoother.add(stamp_of(2), {seen[9]});
+  const ObjectHistory history = smoother.history();
+  ASSERT_EQ(history.size(), 3U);
+  EXPECT_EQ(history[0].objects[0].center(), seen[5].box.center());
+  EXPECT_EQ(history[1].objects[0].velocity, seen[5].box.velocity);
+  EXPECT_EQ(history[2].objects[0].velocity, seen[9].box.velocity);
+}
+
 }  // namespace
 }  // namespace mms
