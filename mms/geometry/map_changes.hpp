@@ -15,7 +15,7 @@ namespace mms {
 /// degree.
 struct VoxelChange {
   std::uint16_t cell = 0;                ///< place in its block: x + 8 y + 64 z, below 512
-  std::uint16_t hits = 0;                ///< keyframes that measured it
+  std::uint16_t hits = 0;                ///< looks that measured it
   std::array<std::uint8_t, 3> offset{};  ///< mean's place in the voxel [side / 256]
   std::array<std::int8_t, 3> normal{};   ///< unit normal times 127; zero if unknown
   Rgb color{};
@@ -26,7 +26,7 @@ struct VoxelChange {
 /// What changed in a cube of 8^3 voxels.
 struct BlockChange {
   VoxelKey key;             ///< in units of the block's side
-  std::uint16_t views = 0;  ///< keyframes that measured in it
+  std::uint16_t views = 0;  ///< looks that measured in it
   std::vector<VoxelChange> voxels;
 
   bool operator==(const BlockChange&) const = default;
@@ -50,8 +50,8 @@ inline constexpr std::size_t kViewsPerObservation = 5;
 
 /// Whether a voxel map shows a voxel: `needed` keyframes measured it, or too few looked at its
 /// block to tell.
-/// @param hits   keyframes that measured the voxel
-/// @param views  keyframes that measured in its block
+/// @param hits   looks that measured the voxel
+/// @param views  looks that measured in its block
 constexpr bool is_voxel_shown(std::size_t hits, std::size_t views, std::size_t needed) {
   return hits >= needed || views <= kViewsPerObservation * needed;
 }

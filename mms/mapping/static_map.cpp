@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "mms/mapping/scan_sight.hpp"
 #include "mms/mapping/voxel_normals.hpp"
@@ -15,16 +16,9 @@ void increment(std::uint16_t& counter) {
   if (counter < std::numeric_limits<std::uint16_t>::max()) ++counter;
 }
 
-void count_view(std::uint32_t keyframe, VoxelBlock& block) {
-  if (block.last_keyframe != keyframe) increment(block.views);
-  block.last_keyframe = keyframe;
-}
-
 /// Adds a point to the voxel's means.
-void add(const SurfacePoint& surface, const Eigen::Isometry3f& T_world_sensor,
-         std::uint32_t keyframe, Voxel& voxel) {
-  if (voxel.last_keyframe != keyframe) increment(voxel.hits);
-  voxel.last_keyframe = keyframe;
+void average_in(const SurfacePoint& surface, const Eigen::Isometry3f& T_world_sensor,
+                Voxel& voxel) {
   voxel.weight += surface.weight;
   const float share = surface.weight / voxel.weight;
   const Eigen::Vector3f color(surface.color.r, surface.color.g, surface.color.b);
@@ -37,37 +31,56 @@ void add(const SurfacePoint& surface, const Eigen::Isometry3f& T_world_sensor,
 
 StaticMap::StaticMap(const StaticMapConfig& config) : config_(config), grid_(config.voxel_size) {}
 
-MapUpdate StaticMap::integrate(const LabeledCloud& cloud,
-                               const Transform<World, Sensor>& T_world_sensor) {
-  MapUpdate update;
-  if (!T_world_sensor.is_finite()) return update;
+std::size_t StaticMap::add(const LabeledCloud& cloud,
+                           const Transform<World, Sensor>& T_world_sensor) {
+  if (!T_world_sensor.is_finite()) return 0;
   const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
   viewpoints_.emplace_back(T.translation());
   const std::vector<SurfacePoint> points = surface_points(cloud, config_.surface);
   insert(points, T);
-  update.points = points.size();
+  return points.size();
+}
+
+MapUpdate StaticMap::integrate(const LabeledCloud& cloud,
+                               const Transform<World, Sensor>& T_world_sensor) {
+  MapUpdate update;
+  if (!T_world_sensor.is_finite()) return update;
+  update.points = add(cloud, T_world_sensor);
   carved_.clear();
-  if (config_.carving.enabled) update.carved = carve(cloud, T.inverse());
+  if (config_.carving.enabled) {
+    update.carved = carve(cloud, T_world_sensor.isometry().cast<float>().inverse());
+  }
   update.coarsened = coarsened_ = keep_to_budget();
+  ++keyframes_;
+  previous_keyframe_ = std::exchange(last_keyframe_, last_frame());
   return update;
 }
 
 void StaticMap::insert(const std::vector<SurfacePoint>& points,
                        const Eigen::Isometry3f& T_world_sensor) {
-  const auto keyframe = static_cast<std::uint32_t>(viewpoints_.size());
+  // From farther off a surface falls now into one block, now into the next: no views to count.
+  const float sharp = std::min(
+      1.0F, noise_weight(static_cast<float>(0.5 * grid_.block_size()), config_.surface.noise));
+  const auto is_first_look = [&](std::uint32_t& frame) {
+    return std::exchange(frame, last_frame()) <= last_keyframe_;
+  };
   // A large map lies in main memory: half the time went into waiting for one voxel after the other.
   constexpr std::size_t kBatch = 32;
   std::array<VoxelGrid::Place, kBatch> places;
   for (std::size_t begin = 0; begin < points.size(); begin += kBatch) {
-    const std::size_t count = std::min(kBatch, points.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t size = std::min(kBatch, points.size() - begin);
+    for (std::size_t i = 0; i < size; ++i) {
       places[i] = grid_.place(Eigen::Vector3f(T_world_sensor * points[begin + i].point));
       __builtin_prefetch(&places[i].voxel());
       __builtin_prefetch(&places[i].voxel().cell);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      count_view(keyframe, *places[i].block);
-      add(points[begin + i], T_world_sensor, keyframe, places[i].voxel());
+    for (std::size_t i = 0; i < size; ++i) {
+      const SurfacePoint& point = points[begin + i];
+      VoxelBlock& block = *places[i].block;
+      Voxel& voxel = places[i].voxel();
+      if (is_first_look(block.last_frame) && point.weight >= sharp) increment(block.views);
+      if (is_first_look(voxel.last_frame)) increment(voxel.hits);
+      average_in(point, T_world_sensor, voxel);
     }
   }
 }
@@ -84,12 +97,11 @@ std::size_t StaticMap::carve(const LabeledCloud& cloud, const Eigen::Isometry3f&
 template <class Space>
 std::size_t StaticMap::carve(const Space& free_space, double looks_per_hit,
                              const Eigen::Isometry3f& T_sensor_world) {
-  const auto keyframe = static_cast<std::uint32_t>(viewpoints_.size());
   const auto ratio = static_cast<float>(looks_per_hit);
   const auto side = static_cast<float>(grid_.block_size());
   const float radius = 0.5F * std::sqrt(3.0F) * side;
   const auto gone = [&](Voxel& voxel) {
-    if (voxel.last_keyframe == keyframe) return false;
+    if (voxel.last_frame == last_frame()) return false;
     if (!free_space.sees_through(T_sensor_world * voxel.position)) return false;
     increment(voxel.seen_through);
     return voxel.seen_through > ratio * voxel.hits;
@@ -121,7 +133,7 @@ bool StaticMap::keep_to_budget() {
 
 Eigen::Vector3f StaticMap::normal_of(const VoxelBlock& block, const Voxel& voxel) const {
   if (has_normal(voxel)) return voxel.normal.normalized();
-  return neighbourhood_normal(grid_, block, voxel, viewpoints_[voxel.last_keyframe - 1]);
+  return neighbourhood_normal(grid_, block, voxel, viewpoints_[voxel.last_frame - 1]);
 }
 
 MapCloud StaticMap::cloud() const {

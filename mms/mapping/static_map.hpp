@@ -25,7 +25,8 @@ struct StaticMapConfig {
     v.number({"voxel_size", "m", "side of a voxel, doubled whenever the memory is used up"},
              voxel_size, {0.001, 10.0});
     v.number({"memory", "MB", "budget of the map"}, memory, {1.0, 1e6});
-    v.integer({"min_observations", "", "keyframes that have to see a voxel before it is shown"},
+    v.integer({"min_observations", "",
+               "looks, from keyframe to keyframe, that have to see a voxel before it is shown"},
               min_observations, {1.0, 1000.0});
     v.group({"surface", "", "points that are fit for the map"}, surface);
     v.group({"carving", "", "removal of what is seen to be gone"}, carving);
@@ -39,22 +40,30 @@ struct MapUpdate {
   bool coarsened = false;  ///< the voxel size grew to keep to the memory budget
 };
 
-/// The dense coloured static map (III-D): static points of the keyframes, down-sampled by a voxel
-/// grid to running means of position, colour and normal.
+/// The dense coloured static map (III-D): static points, down-sampled by a voxel grid to running
+/// means of position, colour and normal. A keyframe and the frames since the one before it are one
+/// look: whatever they measured of a voxel is one observation.
 ///
-/// Beyond the paper: points that a mask missed leave ghosts of people in the map; a voxel is
-/// dropped once keyframes that measure something behind it outnumber those that measured it
+/// Beyond the paper: frames between keyframes add to the map, since depth images have holes that
+/// come and go. Points that a mask missed leave ghosts of people in the map; a voxel is dropped
+/// once keyframes that measure something behind it outnumber those that measured it
 /// (`FreeSpace` of images, `ScanSight` of LiDAR scans). And the memory is bounded: when the budget
 /// is used up, voxels are merged to twice their size, so that the map stays whole.
 class StaticMap {
  public:
   explicit StaticMap(const StaticMapConfig& config = {});
 
-  /// Adds a keyframe's static points. A pose that is not finite changes nothing.
+  /// Adds a keyframe's static points and removes what it sees through. A pose that is not finite
+  /// changes nothing.
   /// @throws DataError when an organised cloud's `camera` makes no camera.
   MapUpdate integrate(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
 
-  /// The voxels that `is_voxel_shown` for `min_observations` keyframes (or for all, while there are
+  /// Adds the static points of a frame between two keyframes, to the coming one's look. A pose that
+  /// is not finite changes nothing.
+  /// @return  points that went in
+  std::size_t add(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
+
+  /// The voxels that `is_voxel_shown` for `min_observations` looks (or for all, while there are
   /// fewer), in the order in which they came into the map.
   MapCloud cloud() const;
 
@@ -70,7 +79,7 @@ class StaticMap {
   std::size_t size() const { return grid_.size(); }  ///< voxels, those with few observations too
   std::size_t memory_bytes() const { return grid_.memory_bytes(); }
   double voxel_size() const { return grid_.voxel_size(); }  ///< current one [m]
-  std::size_t keyframes() const { return viewpoints_.size(); }
+  std::size_t keyframes() const { return keyframes_; }
 
  private:
   void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor);
@@ -79,13 +88,17 @@ class StaticMap {
   std::size_t carve(const Space& free_space, double looks_per_hit,
                     const Eigen::Isometry3f& T_sensor_world);
   bool keep_to_budget();
+  std::uint32_t last_frame() const { return static_cast<std::uint32_t>(viewpoints_.size()); }
   Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
 
   StaticMapConfig config_;
   VoxelGrid grid_;
-  std::vector<Eigen::Vector3f> viewpoints_;  // of the keyframes; keyframe n is at n - 1
-  std::vector<VoxelKey> carved_;             // by the last keyframe
-  bool coarsened_ = false;                   // by the last keyframe
+  std::vector<Eigen::Vector3f> viewpoints_;  // of all frames; frame n is at n - 1
+  std::size_t keyframes_ = 0;
+  std::uint32_t last_keyframe_ = 0;      // its frame
+  std::uint32_t previous_keyframe_ = 0;  // the frame of the one before
+  std::vector<VoxelKey> carved_;         // by the last keyframe
+  bool coarsened_ = false;               // by the last keyframe
 };
 
 }  // namespace mms

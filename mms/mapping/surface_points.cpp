@@ -123,7 +123,6 @@ std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const Surf
   const Grid grid(cloud, config);
   const Image<std::uint8_t> rim =
       near_dynamic(cloud.dynamic_pixels, static_cast<int>(std::lround(config.rim * cloud.width)));
-  const auto least = static_cast<float>(config.noise.base);
   std::vector<SurfacePoint> result;
   result.reserve(cloud.points.size() / static_cast<std::size_t>(step * step));
   for (int y = 0; y < cloud.height; y += step) {
@@ -136,9 +135,8 @@ std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const Surf
       if (!rim.empty() && rim[i] != 0) continue;
       const float tolerance = grid.tolerance(z);
       if (!grid.inside_surface(x, y, tolerance)) continue;
-      const float ratio = least / config.noise.sigma(z);
-      result.push_back(
-          {cloud.points[i], grid.normal(x, y, tolerance), ratio * ratio, color_of(cloud, i)});
+      const float weight = noise_weight(config.noise.sigma(z), config.noise);
+      result.push_back({cloud.points[i], grid.normal(x, y, tolerance), weight, color_of(cloud, i)});
     }
   }
   return result;

@@ -36,6 +36,12 @@ struct SurfacePoint {
   Rgb color{128, 128, 128};
 };
 
+/// Weight of a point whose depth has that noise [m].
+inline float noise_weight(float sigma, const DepthNoise& noise) {
+  const float ratio = static_cast<float>(noise.base) / sigma;
+  return ratio * ratio;
+}
+
 /// The static points of `cloud` that lie within range and, where the cloud is organised, not on a
 /// depth discontinuity, where a pixel averages two surfaces and hangs in the air between them, nor
 /// on the rim about what is dynamic, where masks end short of feet and colours run over.

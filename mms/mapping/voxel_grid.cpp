@@ -14,7 +14,7 @@ void merge(const Voxel& from, Voxel& into) {
   into.color += share * (from.color - into.color);
   into.hits = std::max(into.hits, from.hits);
   into.seen_through = first ? from.seen_through : std::min(into.seen_through, from.seen_through);
-  into.last_keyframe = std::max(into.last_keyframe, from.last_keyframe);
+  into.last_frame = std::max(into.last_frame, from.last_frame);
 }
 
 }  // namespace

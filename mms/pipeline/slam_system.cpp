@@ -5,6 +5,7 @@
 
 #include "mms/localization/feature_exclusion.hpp"
 #include "mms/localization/motion_compensation.hpp"
+#include "mms/mapping/unseen_objects.hpp"
 
 namespace mms {
 namespace {
@@ -100,12 +101,17 @@ FrameResult SlamSystem::localize(Perception perception) {
 
 FrameResult SlamSystem::map(FrameResult result) {
   result.objects = timed(result.stage_ms, Stage::kMapping, [&] {
+    const Transform<World, Sensor>& T_world_sensor = result.odometry.T_world_sensor;
+    dynamic_map_.update(result.cloud, result.odometry);  // III-D
+    std::vector<TrackedObject> objects = dynamic_map_.objects();
+    leave_out_unseen(objects, T_world_sensor, result.cloud);
     if (result.keyframe) {
-      static_map_.integrate(result.cloud, result.odometry.T_world_sensor);  // III-D
-      occupancy_map_.integrate(result.cloud, result.odometry.T_world_sensor);
+      static_map_.integrate(result.cloud, T_world_sensor);
+      occupancy_map_.integrate(result.cloud, T_world_sensor);
+    } else if (result.odometry.status != Status::kLost) {
+      static_map_.add(result.cloud, T_world_sensor);
     }
-    dynamic_map_.update(result.cloud, result.odometry);
-    return dynamic_map_.objects();
+    return objects;
   });
   return result;
 }

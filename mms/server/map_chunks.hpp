@@ -39,7 +39,7 @@ class MapChunks {
   static constexpr int kSide = 1 << kSideBits;  ///< voxels
   static constexpr int kLevels = 4;             ///< 0 to 3, the coarsest
 
-  /// @param min_observations  keyframes that have to see a voxel before it is shown
+  /// @param min_observations  looks that have to see a voxel before it is shown
   explicit MapChunks(int min_observations) : min_observations_(min_observations) {}
 
   /// Repeats a keyframe's changes. Voxels with no place in a block are passed over.

@@ -59,10 +59,12 @@ void expect_same_surface(const StaticMap& map, const StaticMap& replayed) {
 }
 
 /// After every keyframe, the changes so far make a map that shows the same.
-void expect_changes_suffice(const StaticMapConfig& config, int keyframes) {
+/// @param between  frames before each keyframe
+void expect_changes_suffice(const StaticMapConfig& config, int keyframes, int between = 0) {
   StaticMap map(config);
   StaticMap replayed(config);
   for (int i = 0; i < keyframes; ++i) {
+    for (int k = 0; k < between; ++k) map.add(keyframe_cloud(i + k), keyframe_pose(i));
     map.integrate(keyframe_cloud(i), keyframe_pose(i));
     replayed.apply(map.changes());
     SCOPED_TRACE("keyframe " + std::to_string(i));
@@ -74,6 +76,11 @@ void expect_changes_suffice(const StaticMapConfig& config, int keyframes) {
 
 TEST(StaticMapChanges, MakeAMapThatShowsTheSameVoxels) {
   expect_changes_suffice({}, 12);
+}
+
+TEST(StaticMapChanges, TellOfTheFramesBeforeAKeyframeToo) {
+  expect_changes_suffice({}, 8, 2);
+  expect_changes_suffice({.min_observations = 3}, 8, 3);
 }
 
 TEST(StaticMapChanges, SufficeForAnyNumberOfNeededObservations) {

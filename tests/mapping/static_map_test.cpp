@@ -72,6 +72,67 @@ TEST(StaticMap, ShowsWhatWasSeenOnceOnlyWhereNobodyLookedAgain) {
   EXPECT_LT(map.cloud().size(), map.size());
 }
 
+/// A wall at 3 m of which every other pixel's column is measured.
+LabeledCloud striped_wall(int first_column) {
+  return organised_cloud([=](int x, int, const Eigen::Vector3f&) {
+    return (x / 4) % 2 == first_column ? 3.0F : 0.0F;
+  });
+}
+
+TEST(StaticMap, FramesBetweenKeyframesFillTheirHoles) {
+  StaticMap map;
+  map.integrate(striped_wall(0), pose({0, 0, 0}));
+  const std::size_t before = map.cloud().size();
+  EXPECT_GT(map.add(striped_wall(1), pose({0, 0, 0})), 1000U);
+  EXPECT_GT(map.cloud().size(), before + before / 2);
+  EXPECT_EQ(map.keyframes(), 1U);
+  for (const Eigen::Vector3f& normal : map.cloud().normals) EXPECT_LT(normal.z(), 0.1F);
+}
+
+TEST(StaticMap, FramesUpToAKeyframeCountAsOneLook) {
+  StaticMap map({.voxel_size = 0.5});
+  const LabeledCloud cloud = plane_cloud(kForward, 2.1, pose({0, 0, 0}));
+  for (int look = 0; look < 3; ++look) {
+    for (int i = 0; i < 4; ++i) map.add(cloud, pose({0, 0, 0}));
+    map.integrate(cloud, pose({0, 0, 0}));
+  }
+  for (const int observations : map.cloud().observations) EXPECT_EQ(observations, 3);
+}
+
+TEST(StaticMap, AKeyframeSeesThroughWhatTheFrameBeforeMeasured) {
+  StaticMap map({.min_observations = 1});
+  map.add(wall_with_ghost(1.5F), pose({0, 0, 0}));
+  EXPECT_GT(map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0})).carved, 1000U);
+  EXPECT_LT(points_before_the_wall(map), 100U);
+}
+
+TEST(StaticMap, AFrameWithoutAPoseAddsNothing) {
+  StaticMap map;
+  const Transform<World, Sensor> nowhere(Eigen::Isometry3d(Eigen::Translation3d(NAN, 0.0, 0.0)));
+  EXPECT_EQ(map.add(wall_with_ghost(1.5F), nowhere), 0U);
+  EXPECT_EQ(map.size(), 0U);
+}
+
+/// Share of a wall's voxels that is shown, of which some were seen once and others again and again.
+double share_shown(const DepthNoise& noise) {
+  StaticMapConfig config;
+  config.carving.enabled = false;
+  config.surface.noise = noise;
+  StaticMap map(config);
+  for (int i = 0; i < 30; ++i) {
+    const double depth = i == 0 ? 4.01 : 4.05;
+    map.integrate(plane_cloud(kForward, depth, pose({0, 0, 0})), pose({0, 0, 0}));
+  }
+  return static_cast<double>(map.cloud().size()) / static_cast<double>(map.size());
+}
+
+TEST(StaticMap, AsksNoSecondLookWhereNoiseScattersASurface) {
+  const DepthNoise sharp{.base = 0.001, .quadratic = 0.0};
+  const DepthNoise fuzzy{.base = 0.001, .quadratic = 0.02};
+  EXPECT_LT(share_shown(sharp), 0.9);
+  EXPECT_EQ(share_shown(fuzzy), 1.0);
+}
+
 TEST(StaticMap, CarvesAGhostButNotTheWall) {
   StaticMap map({.min_observations = 1});
   map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0}));

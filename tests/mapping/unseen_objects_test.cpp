@@ -1,0 +1,71 @@
+#include "mms/mapping/unseen_objects.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/mapping/synthetic_cloud.hpp"
+
+namespace mms {
+namespace {
+
+using test::organised_cloud;
+using test::pose;
+
+/// A person 0.5 m wide and deep and 1.7 m high, 2 m before the camera, which is 1 m over the floor.
+TrackedObject person_at(const Eigen::Vector3d& middle, TrackState state) {
+  TrackedObject person{{}, state, MotionFilter(middle, {0.0, -1.0, 0.0}, 0.1, 0.1), {}, {}};
+  person.box.size = {0.5, 0.5, 1.7};
+  person.box.T_world_box.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // z up, against the camera's y
+  person.box.T_world_box.translation() = middle;
+  return person;
+}
+
+const Eigen::Vector3d kBefore(0.0, 0.15, 2.0);
+
+/// A wall at 3 m, a floor 1 m below the camera, and a body before the wall.
+LabeledCloud room() {
+  return organised_cloud([](int x, int y, const Eigen::Vector3f& ray) {
+    const bool is_body = x >= 70 && x < 90 && y >= 20 && ray.y() * 2.0F < 1.0F;
+    const float depth = is_body ? 2.0F : 3.0F;
+    return ray.y() * depth > 1.0F ? 1.0F / ray.y() : depth;
+  });
+}
+
+std::size_t dynamic_points(const LabeledCloud& cloud) {
+  return static_cast<std::size_t>(
+      std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kDynamic));
+}
+
+TEST(UnseenObjects, LeaveTheStaticPointsWhereTheyAreExpected) {
+  LabeledCloud cloud = room();
+  const std::size_t count =
+      leave_out_unseen({person_at(kBefore, TrackState::kCoasting)}, pose({0, 0, 0}), cloud);
+  EXPECT_EQ(count, dynamic_points(cloud));
+  EXPECT_GT(count, 1000U);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Eigen::Vector3f& point = cloud.points[i];
+    const bool is_floor = point.y() > 0.99F;
+    const bool is_body = !is_floor && point.z() < 2.5F && std::abs(point.x()) < 0.35F;
+    EXPECT_EQ(cloud.labels[i] == PointLabel::kDynamic, is_body) << point.transpose();
+  }
+}
+
+TEST(UnseenObjects, AreExpectedInTheWorldNotBeforeTheCamera) {
+  LabeledCloud cloud = room();
+  const auto elsewhere = pose({3.0, 0.0, 0.0});
+  EXPECT_EQ(leave_out_unseen({person_at(kBefore, TrackState::kCoasting)}, elsewhere, cloud), 0U);
+  const TrackedObject there =
+      person_at(kBefore + Eigen::Vector3d(3.0, 0.0, 0.0), TrackState::kCoasting);
+  EXPECT_GT(leave_out_unseen({there}, elsewhere, cloud), 1000U);
+}
+
+TEST(UnseenObjects, AreNotThoseThatMasksShow) {
+  LabeledCloud cloud = room();
+  EXPECT_EQ(leave_out_unseen({person_at(kBefore, TrackState::kActive)}, pose({0, 0, 0}), cloud),
+            0U);
+  EXPECT_EQ(dynamic_points(cloud), 0U);
+}
+
+}  // namespace
+}  // namespace mms
