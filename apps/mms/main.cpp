@@ -14,8 +14,10 @@
 #include "simulate_command.hpp"
 #include "torch_backend.hpp"
 #include "view_command.hpp"
+#include "waiting_threads.hpp"
 
 int main(int argc, char** argv) {
+  mms::let_waiting_threads_sleep(argv);
   CLI::App app(
       "MMS-SLAM: localises a camera or LiDAR among moving people and vehicles and maps "
       "what stands still",

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <map>
+#include <optional>
+#include <string>
 
 #include "tests/io/temp_folder.hpp"
 #include "tests/program/program.hpp"
@@ -46,6 +49,41 @@ const std::map<Words, Words> kCommands = {
     {{"config", "check"}, {"FILE"}},
     {{"doctor"}, {"--help"}},
 };
+
+/// Sets a variable of the environment, or unsets it where there is no value, and puts it back.
+class ScopedVariable {
+ public:
+  ScopedVariable(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    set(value);
+  }
+  ~ScopedVariable() { set(before_ ? before_->c_str() : nullptr); }
+  ScopedVariable(const ScopedVariable&) = delete;
+  ScopedVariable& operator=(const ScopedVariable&) = delete;
+
+ private:
+  void set(const char* value) const {
+    value == nullptr ? ::unsetenv(name_) : ::setenv(name_, value, 1);
+  }
+
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+/// What OpenMP says of itself as the program starts, the last time.
+std::string last_wait_policy(const Outcome& outcome) {
+  const std::size_t at = outcome.err.rfind("OMP_WAIT_POLICY = ");
+  return at == std::string::npos ? "" : outcome.err.substr(at, outcome.err.find('\n', at) - at);
+}
+
+TEST(CommandLine, ThreadsThatWaitSleepUnlessTheUserSaysElse) {
+  const TempFolder folder;
+  const ScopedVariable display("OMP_DISPLAY_ENV", "true");
+  const ScopedVariable none("OMP_WAIT_POLICY", nullptr);
+  EXPECT_EQ(last_wait_policy(run_mms(folder.path(), {"--version"})), "OMP_WAIT_POLICY = 'PASSIVE'");
+  const ScopedVariable active("OMP_WAIT_POLICY", "active");
+  EXPECT_EQ(last_wait_policy(run_mms(folder.path(), {"--version"})), "OMP_WAIT_POLICY = 'ACTIVE'");
+}
 
 TEST(CommandLine, HelpNamesEveryFlag) {
   const TempFolder folder;
