@@ -25,6 +25,9 @@ class LiveView {
   /// @param map  what the frame did to the map; null where nothing
   void show(Processed processed, std::shared_ptr<const MapChanges> map);
 
+  /// Shows what was done to the map after the last frame.
+  void show_map(const MapChanges& map) { scene_->add_map(std::make_shared<const MapChanges>(map)); }
+
   /// All frames are in, and the run's files are in `folder`.
   void end(const std::filesystem::path& folder, const RunLog& log);
 

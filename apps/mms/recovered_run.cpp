@@ -22,10 +22,13 @@ RecoveredRun recover_run(const std::filesystem::path& journal) {
   run.header = reader.header();
   StaticMap map = empty_map(run.header);
   while (const std::optional<JournalFrame> frame = reader.next()) {
+    if (frame->map) map.apply(*frame->map);
+    const bool is_told_again =
+        !run.trajectory.empty() && run.trajectory.back().stamp == frame->stamp;
+    if (is_told_again) continue;
     const StampedPose pose{frame->stamp, frame->T_world_sensor};
     run.trajectory.push_back(pose);
     if (frame->keyframe) run.keyframes.push_back(pose);
-    if (frame->map) map.apply(*frame->map);
     run.written = frame->written;
     run.organised = frame->organised;
   }

@@ -37,17 +37,31 @@ RunJournal::RunJournal(const std::filesystem::path& folder, const std::string& d
 }
 
 RunJournal::~RunJournal() {
-  any_ ? finish() : remove();
+  last_ ? finish() : remove();
 }
 
 void RunJournal::add(const Processed& processed, std::optional<MapChanges> map) {
-  any_ = true;
-  if (!writer_) return;
   const FrameResult& result = processed.result;
-  auto frame = std::make_unique<JournalFrame>();
-  *frame = {processed.frame.stamp,  wall_clock(),    result.odometry.T_world_sensor,
-            result.odometry.status, result.keyframe, result.cloud.organised(),
-            std::move(map)};
+  last_ = {processed.frame.stamp,
+           wall_clock(),
+           result.odometry.T_world_sensor,
+           result.odometry.status,
+           result.keyframe,
+           result.cloud.organised(),
+           std::nullopt};
+  push(std::move(map));
+}
+
+void RunJournal::end(MapChanges map) {
+  if (!last_) return;
+  last_->written = wall_clock();
+  push(std::move(map));
+}
+
+void RunJournal::push(std::optional<MapChanges> map) {
+  if (!writer_) return;
+  auto frame = std::make_unique<JournalFrame>(*last_);
+  frame->map = std::move(map);
   queue_.push(std::move(frame));
 }
 

@@ -35,10 +35,14 @@ class RunJournal {
   /// Takes a frame down. @param map  what it did to the static map; nothing where it is no keyframe
   void add(const Processed& processed, std::optional<MapChanges> map);
 
+  /// Takes down what the frames since the last keyframe did to the map: the run is at its end.
+  void end(MapChanges map);
+
   /// Ends the journal and removes it: what it holds is in the run's files.
   void remove();
 
  private:
+  void push(std::optional<MapChanges> map);
   void write_frames(WarningHandler warn);
   void finish();
 
@@ -46,7 +50,7 @@ class RunJournal {
   std::unique_ptr<JournalWriter> writer_;  // null where the journal could not be begun
   BoundedQueue<std::unique_ptr<const JournalFrame>> queue_;
   std::thread thread_;
-  bool any_ = false;
+  std::optional<JournalFrame> last_;  // without what it did to the map
 };
 
 }  // namespace mms

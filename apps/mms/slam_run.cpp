@@ -109,6 +109,7 @@ void SlamRun::process(const std::filesystem::path& folder) {
   AsyncPipeline pipeline(threads_of(options_, config_));
   pipeline.run(system_, limited(*source_, options_),
                [&](Processed&& processed) { finish_frame(std::move(processed)); });
+  end_map();
   progress_.finish();
   interrupted_ = InterruptGuard::requested();
   if (interrupted_) progress_.warn("interrupted, writing what is done so far");
@@ -131,6 +132,13 @@ void SlamRun::finish_frame(Processed processed) {
   log_->add(processed);
   progress_.show(*log_);
   if (view_) view_->show(std::move(processed), std::move(shown));
+}
+
+void SlamRun::end_map() {
+  std::optional<MapChanges> map = system_.end();
+  if (!map) return;
+  if (view_) view_->show_map(*map);
+  journal_->end(std::move(*map));
 }
 
 /// Truth that cannot be read costs the comparison, not the run.

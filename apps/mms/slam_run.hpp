@@ -41,6 +41,7 @@ class SlamRun {
   void process(const std::filesystem::path& folder);
   void compare_with_truth();
   void finish_frame(Processed processed);
+  void end_map();
 
   RunOptions options_;
   std::unique_ptr<FrameSource> source_;

@@ -32,9 +32,9 @@ struct BlockChange {
   bool operator==(const BlockChange&) const = default;
 };
 
-/// What one keyframe did to a voxel map: enough to repeat it without the keyframe's points.
+/// What one look did to a voxel map: enough to repeat it without the points.
 struct MapChanges {
-  Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();  ///< of the keyframe, world frame [m]
+  Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();  ///< of its last frame, world frame [m]
   double voxel_size = 0.0;                              ///< side of a voxel [m]
   bool whole = false;               ///< the blocks are the whole map and replace what there was
   std::vector<BlockChange> blocks;  ///< in the order in which they came into the map

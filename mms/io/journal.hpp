@@ -21,7 +21,8 @@ struct JournalHeader {
   int min_observations = 1;  ///< keyframes that have to see a voxel before it is shown
 };
 
-/// A frame of a run, as the journal keeps it.
+/// A frame of a run, as the journal keeps it. At the end of a run the last one is there a second
+/// time if it was no keyframe, with what the frames since the last keyframe did to the map.
 struct JournalFrame {
   Timestamp stamp;
   Timestamp written;  ///< wall clock when the frame was done, since 1970
@@ -29,7 +30,7 @@ struct JournalFrame {
   Status status = Status::kInitialized;
   bool keyframe = false;
   bool organised = false;         ///< of a depth camera (y down), else a LiDAR (z up)
-  std::optional<MapChanges> map;  ///< what it did to the static map; keyframes only
+  std::optional<MapChanges> map;  ///< what was done to the static map since the last one
 };
 
 /// The bytes of a journal (docs/journal.md): a header, then a record a frame.

@@ -50,10 +50,22 @@ MapUpdate StaticMap::integrate(const LabeledCloud& cloud,
   if (config_.carving.enabled) {
     update.carved = carve(cloud, T_world_sensor.isometry().cast<float>().inverse());
   }
-  update.coarsened = coarsened_ = keep_to_budget();
-  ++keyframes_;
-  previous_keyframe_ = std::exchange(last_keyframe_, last_frame());
+  count_look();
+  update.coarsened = coarsened_;
   return update;
+}
+
+bool StaticMap::end_look() {
+  if (last_look_ == last_frame()) return false;
+  carved_.clear();
+  count_look();
+  return true;
+}
+
+void StaticMap::count_look() {
+  coarsened_ = keep_to_budget();
+  ++looks_;
+  previous_look_ = std::exchange(last_look_, last_frame());
 }
 
 void StaticMap::insert(const std::vector<SurfacePoint>& points,
@@ -62,7 +74,7 @@ void StaticMap::insert(const std::vector<SurfacePoint>& points,
   const float sharp = std::min(
       1.0F, noise_weight(static_cast<float>(0.5 * grid_.block_size()), config_.surface.noise));
   const auto is_first_look = [&](std::uint32_t& frame) {
-    return std::exchange(frame, last_frame()) <= last_keyframe_;
+    return std::exchange(frame, last_frame()) <= last_look_;
   };
   // A large map lies in main memory: half the time went into waiting for one voxel after the other.
   constexpr std::size_t kBatch = 32;
@@ -137,8 +149,7 @@ Eigen::Vector3f StaticMap::normal_of(const VoxelBlock& block, const Voxel& voxel
 }
 
 MapCloud StaticMap::cloud() const {
-  const std::size_t needed =
-      std::min(static_cast<std::size_t>(config_.min_observations), keyframes());
+  const std::size_t needed = std::min(static_cast<std::size_t>(config_.min_observations), looks());
   MapCloud cloud;
   for (const VoxelBlock& block : grid_.blocks()) {
     for (const Voxel& voxel : block.voxels) {

@@ -63,15 +63,19 @@ class StaticMap {
   /// @return  points that went in
   std::size_t add(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
 
+  /// Ends the look of the frames since the last keyframe, when no other comes, so that `changes`
+  /// tells what they added. @return  false where there are none
+  bool end_look();
+
   /// The voxels that `is_voxel_shown` for `min_observations` looks (or for all, while there are
   /// fewer), in the order in which they came into the map.
   MapCloud cloud() const;
 
-  /// What the last keyframe did, so that `apply` of all keyframes' changes, in order, makes a map
-  /// that shows the same voxels; their means and counts are those of when the count last doubled.
+  /// What the last look did, so that `apply` of all looks' changes, in order, makes a map that
+  /// shows the same voxels; their means and counts are those of when the count last doubled.
   MapChanges changes() const;
 
-  /// Repeats what a keyframe did to another map of the same settings. Such a map is for `cloud`
+  /// Repeats what a look did to another map of the same settings. Such a map is for `cloud`
   /// alone: it knows no weights, so keyframes cannot be integrated into it.
   /// @throws DataError when a voxel has no place in a block.
   void apply(const MapChanges& changes);
@@ -79,7 +83,7 @@ class StaticMap {
   std::size_t size() const { return grid_.size(); }  ///< voxels, those with few observations too
   std::size_t memory_bytes() const { return grid_.memory_bytes(); }
   double voxel_size() const { return grid_.voxel_size(); }  ///< current one [m]
-  std::size_t keyframes() const { return keyframes_; }
+  std::size_t looks() const { return looks_; }              ///< that were ended
 
  private:
   void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor);
@@ -87,6 +91,7 @@ class StaticMap {
   template <class Space>
   std::size_t carve(const Space& free_space, double looks_per_hit,
                     const Eigen::Isometry3f& T_sensor_world);
+  void count_look();
   bool keep_to_budget();
   std::uint32_t last_frame() const { return static_cast<std::uint32_t>(viewpoints_.size()); }
   Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
@@ -94,11 +99,11 @@ class StaticMap {
   StaticMapConfig config_;
   VoxelGrid grid_;
   std::vector<Eigen::Vector3f> viewpoints_;  // of all frames; frame n is at n - 1
-  std::size_t keyframes_ = 0;
-  std::uint32_t last_keyframe_ = 0;      // its frame
-  std::uint32_t previous_keyframe_ = 0;  // the frame of the one before
-  std::vector<VoxelKey> carved_;         // by the last keyframe
-  bool coarsened_ = false;               // by the last keyframe
+  std::size_t looks_ = 0;
+  std::uint32_t last_look_ = 0;      // the frame that ended it
+  std::uint32_t previous_look_ = 0;  // the frame that ended the one before
+  std::vector<VoxelKey> carved_;     // by the last look
+  bool coarsened_ = false;           // by the last look
 };
 
 }  // namespace mms

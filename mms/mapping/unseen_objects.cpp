@@ -3,15 +3,14 @@
 namespace mms {
 namespace {
 
-constexpr double kMargin = 0.1;  // by which a box that is only expected may be off [m]
-constexpr float kSole = 0.06F;   // height of what is taken for floor [m]
+constexpr float kSole = 0.06F;  // height of what is taken for floor [m]
 
-/// The box of an object, grown on all sides but the lowest, for points in the sensor frame.
+/// The box of an object above the floor it stands on, for points in the sensor frame.
 class ExpectedBox {
  public:
   ExpectedBox(const ObjectBox& box, const Transform<World, Sensor>& T_world_sensor)
       : T_box_sensor_((box.T_world_box.inverse() * T_world_sensor.isometry()).cast<float>()),
-        half_((0.5 * box.size.array() + kMargin).cast<float>()),
+        half_((0.5 * box.size.array()).cast<float>()),
         lowest_(kSole - static_cast<float>(0.5 * box.size.z())) {}
 
   bool contains(const Eigen::Vector3f& point) const {

@@ -116,4 +116,9 @@ FrameResult SlamSystem::map(FrameResult result) {
   return result;
 }
 
+std::optional<MapChanges> SlamSystem::end() {
+  if (!static_map_.end_look()) return std::nullopt;
+  return static_map_.changes();
+}
+
 }  // namespace mms

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "mms/core/frame.hpp"
 #include "mms/fusion/semantic_fusion.hpp"
@@ -48,6 +49,10 @@ class SlamSystem {
   Perception perceive(const Frame& frame, const TimedSegmentation& masks);
   FrameResult localize(Perception perception);  ///< all of the result but the objects
   FrameResult map(FrameResult localized);
+
+  /// Ends the static map's last look, once all frames are in.
+  /// @return  what the frames since the last keyframe did to it; nothing where there are none
+  std::optional<MapChanges> end();
 
   const StaticMap& static_map() const { return static_map_; }
   const OccupancyMap& occupancy_map() const { return occupancy_map_; }
