@@ -18,6 +18,11 @@ enum class ObjectClass : std::uint8_t {
 inline constexpr int kObjectClassCount = 2;                       ///< that masks may have
 inline constexpr int kTrackedClassCount = kObjectClassCount + 1;  ///< that objects may have
 
+/// Whether what has one class in one view may have the other in another.
+constexpr bool may_be_one(ObjectClass a, ObjectClass b) {
+  return a == b || a == ObjectClass::kUnknown || b == ObjectClass::kUnknown;
+}
+
 constexpr std::string_view to_string(ObjectClass object_class) {
   constexpr std::string_view kNames[kTrackedClassCount] = {"person", "agv", "unknown"};
   return kNames[static_cast<int>(object_class)];

@@ -6,9 +6,10 @@
 
 namespace mms {
 
-/// What tells one person from another: the mean colours of shoes and shins, thighs, trunk, and
-/// head. Heights are those over the floor, so that a body that is partly hidden is compared by what
-/// is seen of it.
+/// What tells one person from another: histograms of the colours of shoes and shins, thighs, trunk,
+/// and head. Heights are those over the floor, so that a body that is partly hidden is compared by
+/// what is seen of it. Histograms bear what a mean does not: points of what is behind are a few in
+/// cells of their own.
 class Appearance {
  public:
   /// Takes in a point.
@@ -20,14 +21,17 @@ class Appearance {
   /// @param gain  share of the new, in (0, 1]
   void learn(const Appearance& seen, float gain);
 
-  /// Mean distance of the colours of the bands that both have, in [0, 1] of the way from black to
-  /// white; nothing where they have none in common.
+  /// Root mean square of the Hellinger distances of the histograms of the bands that both have: 0
+  /// for the same colours, 1 for none in common; nothing where they have no band in common.
   std::optional<double> difference(const Appearance& other) const;
 
  private:
+  static constexpr int kShades = 4;  // cells of brightness
+  static constexpr int kHues = 8;    // cells of the share of red, and of that of green
+  using Histogram = Eigen::Array<float, kShades * kHues * kHues, 1>;
   struct Band {
-    Eigen::Vector3f color = Eigen::Vector3f::Zero();
-    float points = 0.0F;
+    Histogram counts = Histogram::Zero();
+    float points = 0.0F;  // sum of the counts
   };
   std::array<Band, 4> bands_;
 };

@@ -20,10 +20,6 @@ double gate_of(const Track& track, const AssociationConfig& config) {
                     std::max(config.gate_radius, config.max_gate));
 }
 
-bool may_be_one(ObjectClass a, ObjectClass b) {
-  return a == b || a == ObjectClass::kUnknown || b == ObjectClass::kUnknown;
-}
-
 double cost_of(const Track& track, const ObjectMeasurement& object,
                const AssociationConfig& config) {
   const double distance = (track.fit(object).center - track.position()).norm();

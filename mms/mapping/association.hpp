@@ -11,9 +11,9 @@ struct AssociationConfig {
   double gate_radius = 0.8;    ///< [m]
   double max_gate = 2.0;       ///< [m]
   double class_penalty = 0.4;  ///< in gate radii
-  double color_penalty = 5.0;  ///< in gate radii
-  double max_color_difference = 0.2;
-  double returning_color_difference = 0.05;
+  double color_penalty = 1.0;  ///< in gate radii
+  double max_color_difference = 0.7;
+  double returning_color_difference = 0.5;
 
   void visit(ConfigVisitor& v) {
     v.number({"gate_radius", "m", "farthest an object may be from where its track expects it"},
@@ -21,9 +21,10 @@ struct AssociationConfig {
     v.number({"max_gate", "m", "the same for one that was long unseen"}, max_gate, {0.01, 100.0});
     v.number({"class_penalty", "", "cost of another class, in gate radii"}, class_penalty,
              {0.0, 10.0});
-    v.number({"color_penalty", "", "cost of the opposite colour, in gate radii"}, color_penalty,
+    v.number({"color_penalty", "", "cost of no colour in common, in gate radii"}, color_penalty,
              {0.0, 10.0});
-    v.number({"max_color_difference", "", "largest one of an object, from black (0) to white (1)"},
+    v.number({"max_color_difference", "",
+              "largest one of an object, from the same (0) to none in common (1)"},
              max_color_difference, {0.0, 1.0});
     v.number({"returning_color_difference", "", "the same of one that is out of gate_radius"},
              returning_color_difference, {0.0, 1.0});

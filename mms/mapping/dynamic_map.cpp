@@ -22,6 +22,7 @@ Eigen::Vector3d nominal_up(const LabeledCloud& cloud) {
 void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odometry) {
   if (cloud.stamp <= last_stamp_ || !odometry.T_world_sensor.is_finite()) return;
   last_stamp_ = cloud.stamp;
+  let_go();
   watch_ground(cloud, odometry.T_world_sensor);
   for (Track& track : tracks_) {
     track.set_ground(*ground_);
@@ -33,7 +34,6 @@ void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odome
   extend(objects, track_of);
   begin_new(objects, track_of);
   confirm_seen();
-  let_go();
 }
 
 void DynamicMap::let_go() {

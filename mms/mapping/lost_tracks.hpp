@@ -9,21 +9,25 @@
 namespace mms {
 
 struct ReturnConfig {
-  double max_away = 60.0;              ///< [s]
-  double max_color_difference = 0.04;  ///< from black (0) to white (1)
-  double speed = 1.5;                  ///< [m/s]
+  double max_away = 60.0;   ///< [s]
+  double spread = 0.25;     ///< [m/s]
+  double strangers = 0.02;  ///< [1/m^2]
+  double min_probability = 0.67;
 
   void visit(ConfigVisitor& v) {
     v.number({"max_away", "s", "longest time after which an object is known again"}, max_away,
              {0.0, 3600.0});
-    v.number({"max_color_difference", "", "largest one of an object that is known again"},
-             max_color_difference, {0.0, 1.0});
-    v.number({"speed", "m/s", "at which it may have gone on unseen"}, speed, {0.0, 100.0});
+    v.number({"spread", "m/s", "at which its place becomes uncertain"}, spread, {0.0, 100.0});
+    v.number({"strangers", "1/m^2", "objects never seen before, over the floor"}, strangers,
+             {1e-9, 100.0});
+    v.number({"min_probability", "", "that it is the one it is taken for"}, min_probability,
+             {0.5, 1.0});
   }
 };
 
-/// Objects that went out of view. A new one that looks like one of them, and like no other, and
-/// could have come from where that was seen last, is that one.
+/// Objects that went out of view. A new one is one of them, by Bayes' rule, if its looks and its
+/// place say so: who looks a little different is known again where he was seen a moment ago, who
+/// was away for long only in the same dress.
 class LostTracks {
  public:
   explicit LostTracks(const ReturnConfig& config) : config_(config) {}
@@ -41,7 +45,7 @@ class LostTracks {
   std::optional<Track> take(const Track& track);
 
  private:
-  bool could_be(const Track& lost, const Track& track) const;
+  double likelihood(const Track& lost, const Track& track) const;
 
   ReturnConfig config_;
   std::vector<Track> lost_;

@@ -8,6 +8,7 @@ namespace {
 const Eigen::Vector3f kRed(200, 30, 30);
 const Eigen::Vector3f kBlue(30, 30, 200);
 const Eigen::Vector3f kGrey(90, 90, 90);
+const Eigen::Vector3f kWhite(250, 250, 250);
 
 /// A body of 1.8 m, a point every 2 cm.
 Appearance dressed(const Eigen::Vector3f& trousers, const Eigen::Vector3f& shirt,
@@ -20,16 +21,16 @@ Appearance dressed(const Eigen::Vector3f& trousers, const Eigen::Vector3f& shirt
 }
 
 TEST(Appearance, TheSameDressIsNoDifference) {
-  EXPECT_NEAR(dressed(kGrey, kRed).difference(dressed(kGrey, kRed)).value(), 0.0, 1e-6);
+  EXPECT_NEAR(dressed(kGrey, kRed).difference(dressed(kGrey, kRed)).value(), 0.0, 1e-3);
 }
 
 TEST(Appearance, TheSameColoursInOtherPlacesDiffer) {
-  EXPECT_GT(dressed(kRed, kBlue).difference(dressed(kBlue, kRed)).value(), 0.3);
+  EXPECT_GT(dressed(kRed, kBlue).difference(dressed(kBlue, kRed)).value(), 0.9);
 }
 
 TEST(Appearance, IsComparedByWhatBothShow) {
   const Appearance behind_a_shelf = dressed(kBlue, kRed, 0.95);
-  EXPECT_NEAR(behind_a_shelf.difference(dressed(kGrey, kRed)).value(), 0.0, 1e-6);
+  EXPECT_NEAR(behind_a_shelf.difference(dressed(kGrey, kRed)).value(), 0.0, 1e-3);
 }
 
 TEST(Appearance, ShadeDiffersLessThanHue) {
@@ -37,6 +38,14 @@ TEST(Appearance, ShadeDiffersLessThanHue) {
   const double shade = seen.difference(dressed(kGrey, 0.7F * kRed)).value();
   const Eigen::Vector3f orange(200, 90, 30);
   EXPECT_LT(shade, seen.difference(dressed(kGrey, orange)).value());
+}
+
+TEST(Appearance, AFewPointsOfWhatIsBehindDifferLessThanAnotherDress) {
+  const Appearance seen = dressed(kGrey, kRed);
+  Appearance frayed = dressed(kGrey, kRed);
+  for (double height = 0.0; height < 1.8; height += 0.2) frayed.add(height, kWhite);
+  EXPECT_LT(seen.difference(frayed).value(), 0.3);
+  EXPECT_GT(seen.difference(dressed(kGrey, kBlue)).value(), 0.6);
 }
 
 TEST(Appearance, NothingInCommonIsNoAnswer) {
@@ -49,9 +58,9 @@ TEST(Appearance, NothingInCommonIsNoAnswer) {
 TEST(Appearance, LearnsSlowlyWhatItKnowsAndAtOnceWhatItDoesNot) {
   Appearance known = dressed(kGrey, kRed, 0.95);
   known.learn(dressed(kGrey, kBlue), 0.1F);
-  EXPECT_LT(known.difference(dressed(kGrey, kRed)).value(), 0.06);
+  EXPECT_LT(known.difference(dressed(kGrey, kRed)).value(), 0.2);
   for (int i = 0; i < 60; ++i) known.learn(dressed(kGrey, kBlue), 0.1F);
-  EXPECT_LT(known.difference(dressed(kGrey, kBlue)).value(), 0.01);
+  EXPECT_LT(known.difference(dressed(kGrey, kBlue)).value(), 0.03);
 }
 
 }  // namespace
