@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <vector>
 
 #include "mms/mapping/dynamic_map.hpp"
@@ -17,7 +18,13 @@ struct Person {
   double x;
   double y;
   Rgb shirt;
+  std::optional<Rgb> vest{};  // over the shirt, but not over its collar
 };
+
+Rgb color_at(const Person& person, double height) {
+  if (height < 0.9) return {90, 90, 90};
+  return height < 1.4 ? person.vest.value_or(person.shirt) : person.shirt;
+}
 
 /// A scan in which the persons stand on the floor, in grey trousers; z is up.
 LabeledCloud scan_of(const std::vector<Person>& persons, double seconds) {
@@ -32,7 +39,7 @@ LabeledCloud scan_of(const std::vector<Person>& persons, double seconds) {
       cloud.points.push_back(Eigen::Vector3d(person.x + 0.2 * std::cos(angle),
                                              person.y + 0.2 * std::sin(angle), height)
                                  .cast<float>());
-      cloud.colors.push_back(height < 0.9 ? Rgb{90, 90, 90} : person.shirt);
+      cloud.colors.push_back(color_at(person, height));
       cloud.cluster.push_back(static_cast<std::int16_t>(cluster.instance));
     }
     cloud.clusters.push_back(cluster);
@@ -95,6 +102,21 @@ TEST(LostTracks, WhoIsDressedOtherwiseIsSomebodyElse) {
   ASSERT_EQ(ids(map).size(), 1U);
   EXPECT_NE(ids(map)[0], 1);
   EXPECT_EQ(map.confirmed(), 2);
+}
+
+/// Whether the one who went keeps his id when somebody comes after so many seconds.
+bool is_known_again(double seconds, const Person& who) {
+  DynamicMap map;
+  show(map, 0.0, {{3.0, -2.0, kRed}});
+  show(map, 1.0, {});
+  show(map, 1.0 + seconds, {who});
+  return ids(map) == std::vector<int>{1};
+}
+
+TEST(LostTracks, TheLongerAndFartherTheMoreAlikeOneHasToBe) {
+  EXPECT_TRUE(is_known_again(2.0, {3.0, -2.0, kRed, kBlue}));
+  EXPECT_FALSE(is_known_again(30.0, {3.0, 3.0, kRed, kBlue}));
+  EXPECT_TRUE(is_known_again(30.0, {3.0, 3.0, kRed}));
 }
 
 TEST(LostTracks, WhoCannotHaveComeSoFarIsSomebodyElse) {
