@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mms/io/files.hpp"
@@ -20,6 +22,25 @@ nlohmann::json found_with(const TempFolder& folder, const std::string& weights) 
   return nlohmann::json::parse(read_file(folder.path() / (weights + ".found") / "results.json"));
 }
 
+/// Each of the clear objects is among the others, in its picture, of its class, with its score.
+/// (Of those at the least score that is told, chance decides which are.)
+void expect_among(const nlohmann::json& objects, const nlohmann::json& others) {
+  std::size_t clear = 0;
+  for (const nlohmann::json& object : objects) {
+    if (object["score"] < 0.25) continue;
+    ++clear;
+    EXPECT_TRUE(std::any_of(others.begin(), others.end(),
+                            [&](const nlohmann::json& other) {
+                              return other["image_id"] == object["image_id"] &&
+                                     other["category_id"] == object["category_id"] &&
+                                     std::abs(other["score"].get<double>() -
+                                              object["score"].get<double>()) < 0.03;
+                            }))
+        << object["image_id"] << ", " << object["score"];
+  }
+  EXPECT_GE(clear, 4U);
+}
+
 /// A file of bytes is half as large and finds the same.
 TEST(Quantize, WritesFloatsOrBytes) {
   const TempFolder folder;
@@ -38,9 +59,8 @@ TEST(Quantize, WritesFloatsOrBytes) {
   EXPECT_LT(bytes, 0.55 * static_cast<double>(floats));
   const nlohmann::json wanted = found_with(folder, "floats");
   const nlohmann::json found = found_with(folder, "bytes");
-  EXPECT_FALSE(wanted.empty());
-  EXPECT_NEAR(static_cast<double>(found.size()), static_cast<double>(wanted.size()), 2.0);
-  EXPECT_NEAR(found[0]["score"].get<double>(), wanted[0]["score"].get<double>(), 0.05);
+  expect_among(wanted, found);
+  expect_among(found, wanted);
 }
 
 TEST(Quantize, FaultsAreOneLine) {
