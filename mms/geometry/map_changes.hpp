@@ -43,13 +43,13 @@ struct MapChanges {
   bool operator==(const MapChanges&) const = default;
 };
 
-/// How many times as many keyframes as are needed have to look at a block before what fewer saw is
+/// How many times as many looks as are needed a block has to have before what fewer saw is
 /// taken for a stray point. Far away the points of a surface fall now into one voxel, now into the
 /// next, and what people hide is seen seldom.
 inline constexpr std::size_t kViewsPerObservation = 5;
 
-/// Whether a voxel map shows a voxel: `needed` keyframes measured it, or too few looked at its
-/// block to tell.
+/// Whether a voxel map shows a voxel: `needed` looks measured it, or too few looked at its block to
+/// tell.
 /// @param hits   looks that measured the voxel
 /// @param views  looks that measured in its block
 constexpr bool is_voxel_shown(std::size_t hits, std::size_t views, std::size_t needed) {
