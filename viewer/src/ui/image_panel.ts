@@ -30,6 +30,7 @@ export class ImagePanel {
 
   private clear(): void {
     this.image = this.overlay = null;
+    delete this.canvas.dataset.frame;
     this.draw();
   }
 
@@ -44,13 +45,14 @@ export class ImagePanel {
   private async decodeWaiting(): Promise<void> {
     this.busy = true;
     while (this.waiting) {
-      const { image, mask } = this.waiting;
+      const { frame, image, mask } = this.waiting;
       this.waiting = null;
       const decoded = await Promise.all([decode(image, 'image/jpeg'), decode(mask, 'image/png')]);
       this.image?.close();
       this.image = decoded[0];
       this.overlay = decoded[1] && tintMask(decoded[1], this.run.hello?.classes.map(classColor) ?? []);
       this.draw();
+      this.canvas.dataset.frame = String(frame);
     }
     this.busy = false;
   }

@@ -34,6 +34,7 @@ after(async () => {
 const scene = () => page.locator('#scene');
 const pixels = () => countPixels(page, scene());
 const frame = async () => Number(/frame (\d+)/.exec(await page.textContent('.frames'))?.[1] ?? -1);
+const image = () => countPixels(page, page.locator('#image'));
 const pill = () => page.textContent('#connection');
 
 async function pause() {
@@ -46,6 +47,13 @@ async function pause() {
 async function scrub(share) {
   const box = await page.locator('#scrub').boundingBox();
   await page.mouse.click(box.x + 8 + share * (box.width - 16), box.y + box.height / 2);
+}
+
+/** Waits for a frame and for its picture, which trails it until it is decoded. */
+function arrive(what, accept) {
+  const pictured = async () => Number((await page.locator('#image').getAttribute('data-frame')) ?? -1);
+  const shown = async () => ({ number: await frame(), picture: await pictured() });
+  return eventually(what, shown, ({ number, picture }) => number === picture && accept(number)).then(({ number }) => number);
 }
 
 async function show(layer, wanted) {
@@ -82,12 +90,12 @@ test('the page loads and is connected', async () => {
 test('the slider moves the pose, the image and the charts', async () => {
   const { index, last } = busiestFrame();
   await scrub(0.1);
-  const early = await eventually('an early frame', frame, (number) => number < 0.3 * last);
-  const imageBefore = await eventually('an image', () => countPixels(page, page.locator('#image')), ({ lit }) => lit > 1000);
+  const early = await arrive('an early frame', (number) => number < 0.3 * last);
+  const imageBefore = (await image()).sum;
   const sceneBefore = (await pixels()).sum;
   await scrub(index / last);
-  await eventually('the busiest frame', frame, (number) => Math.abs(number - index) <= 1 && number !== early);
-  await eventually('another image', () => countPixels(page, page.locator('#image')), ({ sum }) => sum !== imageBefore.sum);
+  await arrive('the busiest frame', (number) => Math.abs(number - index) <= 1 && number !== early);
+  assert.notEqual((await image()).sum, imageBefore, 'another image');
   await eventually('another view', pixels, ({ sum }) => sum !== sceneBefore);
   assert.ok((await page.locator('.chart canvas').count()) >= 3, 'charts are drawn');
 });
@@ -103,9 +111,9 @@ test('points and boxes are drawn, and every layer goes and comes by its switch',
   await eventually('the map again', pixels, ({ lit }) => lit > 0.5 * full.lit);
   for (const layer of ['scan', 'trails', 'labels', 'trajectory', 'truth', 'camera', 'grid', 'boxes']) await show(layer, true);
   await eventually('boxes again', pixels, ({ red, green }) => red > 0.3 * boxes.red && green > 0.3 * boxes.green);
-  const masked = await countPixels(page, page.locator('#image'));
+  const masked = await image();
   await page.keyboard.press('k');
-  await eventually('the image without masks', () => countPixels(page, page.locator('#image')), ({ sum }) => sum !== masked.sum);
+  await eventually('the image without masks', image, ({ sum }) => sum !== masked.sum);
   await page.keyboard.press('k');
 });
 
@@ -172,7 +180,7 @@ test('it fits a phone', async () => {
   const { index, last } = busiestFrame();
   await scrub(index / last);
   await eventually('the map', pixels, ({ lit, all }) => lit > kMap * all);
-  await eventually('an image', () => countPixels(page, page.locator('#image')), ({ lit }) => lit > 1000);
+  await eventually('an image', image, ({ lit }) => lit > 1000);
   await keepPicture('viewer_phone');
   for (const tab of ['charts', 'objects', 'layers', 'image']) {
     await page.locator(`[data-tab=${tab}]`).last().tap();
