@@ -24,6 +24,9 @@ std::map<Timestamp, const Stamped*> by_stamp(const std::vector<Stamped>& items) 
   return found;
 }
 
+/// Whose track it is: of an object that counts, of another, or of none.
+enum class Owner { kNobody, kWanted, kOther };
+
 class Comparison {
  public:
   explicit Comparison(const TrackingOptions& options)
@@ -31,27 +34,28 @@ class Comparison {
 
   void add(Timestamp stamp, const std::vector<ObjectBox>& truth,
            const std::vector<ObjectBox>& tracks, const Eigen::Vector3d& sensor) {
+    // All of them, or the track of one that does not count would be taken for a neighbour's.
+    const std::vector<int> pairs = pairing_.pair(truth, tracks);
     std::vector<ObjectBox> wanted;
     std::vector<ObjectBox> others;
-    for (const ObjectBox& object : truth) {
-      const bool counts = in_range(object, sensor) && object.visible >= options_.min_visible;
-      (counts ? wanted : others).push_back(object);
-      if (!counts) turns_.lose(object.id);
-    }
-    const std::vector<int> pairs = pairing_.pair(wanted, tracks);
-    std::vector<bool> used(tracks.size(), false);
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
+    std::vector<Owner> owners(tracks.size(), Owner::kNobody);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const bool counts = in_range(truth[i], sensor) && truth[i].visible >= options_.min_visible;
       const ObjectBox* track = nullptr;
       if (pairs[i] >= 0) {
-        track = &tracks[static_cast<std::size_t>(pairs[i])];
-        used[static_cast<std::size_t>(pairs[i])] = true;
-        compare(wanted[i], *track);
+        const auto paired = static_cast<std::size_t>(pairs[i]);
+        track = &tracks[paired];
+        owners[paired] = counts ? Owner::kWanted : Owner::kOther;
       }
-      turns_.see(wanted[i].id, stamp, wanted[i].moving,
-                 track != nullptr && track->moving == wanted[i].moving);
+      (counts ? wanted : others).push_back(truth[i]);
+      if (counts) {
+        see(stamp, truth[i], track);
+      } else {
+        turns_.lose(truth[i].id);
+      }
     }
     objects_ += static_cast<std::int64_t>(wanted.size());
-    count_tracks(wanted, others, tracks, used, sensor);
+    count_tracks(wanted, others, tracks, owners, sensor);
   }
 
   TrackingError result() const {
@@ -80,6 +84,11 @@ class Comparison {
     return (a.center() - b.center()).norm() <= options_.match_distance;
   }
 
+  void see(Timestamp stamp, const ObjectBox& truth, const ObjectBox* track) {
+    if (track != nullptr) compare(truth, *track);
+    turns_.see(truth.id, stamp, truth.moving, track != nullptr && track->moving == truth.moving);
+  }
+
   void compare(const ObjectBox& truth, const ObjectBox& track) {
     offsets_.push_back((truth.center() - track.center()).norm());
     squared_velocity_errors_.push_back((truth.velocity - track.velocity).squaredNorm());
@@ -89,15 +98,17 @@ class Comparison {
   }
 
   void count_tracks(const std::vector<ObjectBox>& wanted, const std::vector<ObjectBox>& others,
-                    const std::vector<ObjectBox>& tracks, const std::vector<bool>& used,
+                    const std::vector<ObjectBox>& tracks, const std::vector<Owner>& owners,
                     const Eigen::Vector3d& sensor) {
+    const auto is_excused = [&](const ObjectBox& track) {
+      return !in_range(track, sensor) ||
+             std::any_of(others.begin(), others.end(),
+                         [&](const ObjectBox& other) { return is_near(other, track); });
+    };
     for (std::size_t j = 0; j < tracks.size(); ++j) {
-      const bool is_excused =
-          !in_range(tracks[j], sensor) ||
-          std::any_of(others.begin(), others.end(),
-                      [&](const ObjectBox& other) { return is_near(other, tracks[j]); });
-      if (used[j] || !is_excused) ++tracks_;
-      if (!used[j] && is_excused) continue;
+      if (owners[j] == Owner::kOther) continue;
+      if (owners[j] == Owner::kNobody && is_excused(tracks[j])) continue;
+      ++tracks_;
       for (const ObjectBox& object : wanted) {
         if (is_near(object, tracks[j])) ++met_[{object.id, tracks[j].id}];
       }

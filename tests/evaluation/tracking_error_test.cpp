@@ -108,6 +108,22 @@ TEST(TrackingError, LeavesOutWhatIsFarOrHidden) {
   EXPECT_EQ(error.extra, 0.0);  // the track on the hidden one is excused
 }
 
+TEST(TrackingError, LeavesTheTrackOfAHiddenOneToHim) {
+  ObjectHistory truth = two_walkers();
+  ObjectHistory tracks = two_walkers();
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    truth[i].objects[1] = object(1, truth[i].objects[0].center() + Eigen::Vector3d(0, 0, 0.9));
+    truth[i].objects[1].visible = 0.1;
+    tracks[i].objects = {truth[i].objects[1]};
+  }
+  const TrackingError error = evaluate_tracking(truth, tracks, still_sensor());
+  EXPECT_EQ(error.objects, kFrames);
+  EXPECT_EQ(error.found, 0.0);  // though the track is less than a metre away
+  EXPECT_EQ(error.idf1, 0.0);
+  EXPECT_TRUE(std::isnan(error.extra));
+  EXPECT_TRUE(std::isnan(error.center_mean));
+}
+
 TEST(TrackingError, MeasuresWhenAStopIsRecognised) {
   ObjectHistory truth;
   ObjectHistory tracks;
