@@ -1,11 +1,36 @@
 #include "mms/fusion/dynamic_objects.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "mms/fusion/dynamic_parts.hpp"
 
 namespace mms {
+namespace {
+
+/// Length of a box (sensor frame [m]) along a direction.
+float length_along(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& direction) {
+  return direction.cwiseAbs().dot(box.sizes());
+}
+
+/// The larger side of a box across a direction.
+float size_across(const Eigen::AlignedBox3f& box, const Eigen::Array3f& direction) {
+  return (box.sizes().array() * (1.0F - direction.square()).max(0.0F).sqrt()).maxCoeff();
+}
+
+/// Whether two parts under one mask can be of one object.
+bool are_one(const Eigen::AlignedBox3f& a, const Eigen::AlignedBox3f& b, const ObjectSize& size) {
+  const Eigen::AlignedBox3f both = a.merged(b);
+  if (!fits(both, size)) return false;
+  const Eigen::Vector3f sight = both.center().normalized();
+  const float depths = 0.5F * (length_along(a, sight) + length_along(b, sight));
+  const bool apart_in_depth = std::abs(sight.dot(b.center() - a.center())) > depths;
+  const float most = static_cast<float>(size.depth) * size_across(both, sight.array());
+  return !apart_in_depth || length_along(both, sight) <= most;
+}
+
+}  // namespace
 
 DynamicObjects find_dynamic_objects(const Nodes& nodes, const std::vector<Instance>& instances,
                                     const FusionConfig& config) {
@@ -22,7 +47,7 @@ DynamicObjects find_dynamic_objects(const Nodes& nodes, const std::vector<Instan
     const auto& size = config.sizes[static_cast<std::size_t>(instance.object_class)];
     auto object = std::find_if(
         result.objects.begin(), result.objects.end(), [&](const DynamicObjects::Object& other) {
-          return other.instance == part.instance && fits(other.box.merged(part.box), size);
+          return other.instance == part.instance && are_one(other.box, part.box, size);
         });
     if (object == result.objects.end()) {
       object = result.objects.insert(object, {part.instance, part.box});

@@ -24,7 +24,8 @@ struct DynamicObjects {
 };
 
 /// Finds the dynamic parts of `nodes`; those of one instance that fit into one object of its class
-/// (a person seen above and below a table) are one object.
+/// (a person seen above and below a table) are one object. What lies too far behind
+/// or before the largest of them is another: the background that a mask spilled onto.
 DynamicObjects find_dynamic_objects(const Nodes& nodes, const std::vector<Instance>& instances,
                                     const FusionConfig& config);
 

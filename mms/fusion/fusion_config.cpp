@@ -20,6 +20,8 @@ void PlaneRemoval::visit(ConfigVisitor& v) {
 void ObjectSize::visit(ConfigVisitor& v) {
   v.number({"length", "m", "largest longest side of one object"}, length, {0.0, 50.0});
   v.number({"width", "m", "largest side of the other two"}, width, {0.0, 50.0});
+  v.number({"depth", "", "largest depth of parts behind each other, in sides that they show"},
+           depth, {0.0, 50.0});
 }
 
 void FusionConfig::visit(ConfigVisitor& v) {

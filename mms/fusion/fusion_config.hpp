@@ -36,10 +36,13 @@ struct PlaneRemoval {
 };
 
 /// Largest box one object of a class fills [m]: `length` along its longest side, `width` along the
-/// other two.
+/// other two. Parts one behind the other are together at most `depth` times as deep as the larger
+/// side they show: a forklift's mast stands behind its engine, but what is far behind a small robot
+/// is none of it.
 struct ObjectSize {
   double length = 2.3;
   double width = 1.2;
+  double depth = 1.0;
   void visit(ConfigVisitor& v);
 };
 
@@ -77,7 +80,7 @@ struct FusionConfig {
 
   DepthNoise noise;  ///< of the depth camera; the sensor's, so not among the visited fields
   PlaneRemoval planes;
-  std::array<ObjectSize, kObjectClassCount> sizes{{{2.3, 1.2}, {4.0, 2.5}}};
+  std::array<ObjectSize, kObjectClassCount> sizes{{{2.3, 1.2, 1.0}, {4.0, 2.5, 1.5}}};
 
   void visit(ConfigVisitor& v);
 };

@@ -34,6 +34,17 @@ double cost_of(const Track& track, const ObjectMeasurement& object,
   return cost + config.color_penalty * difference.value_or(0.0);
 }
 
+/// Of what one mask covers, the rest follows no track where the largest follows one.
+void leave_out_rest(const std::vector<ObjectMeasurement>& objects, std::vector<int>& track_of) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].largest) continue;
+    for (std::size_t j = 0; j < objects.size(); ++j) {
+      const bool is_its_largest = objects[j].largest && objects[j].instance == objects[i].instance;
+      if (is_its_largest && track_of[j] >= 0) track_of[i] = -1;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<int> associate(const std::vector<Track>& tracks,
@@ -46,7 +57,9 @@ std::vector<int> associate(const std::vector<Track>& tracks,
                            objects[static_cast<std::size_t>(i)], config);
     }
   }
-  return assign_least_cost(cost);
+  std::vector<int> track_of = assign_least_cost(cost);
+  leave_out_rest(objects, track_of);
+  return track_of;
 }
 
 }  // namespace mms

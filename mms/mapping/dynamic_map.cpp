@@ -72,7 +72,14 @@ void DynamicMap::extend(const std::vector<ObjectMeasurement>& objects,
 
 void DynamicMap::begin_new(const std::vector<ObjectMeasurement>& objects,
                            const std::vector<int>& track_of) {
+  std::vector<int> followed;  // masks of which another part than the largest has a track
   for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (!objects[i].largest && track_of[i] >= 0) followed.push_back(objects[i].instance);
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const bool is_spilled =
+        std::find(followed.begin(), followed.end(), objects[i].instance) != followed.end();
+    if (!objects[i].largest || is_spilled) continue;
     // What follows an object without a mask of its own begins none.
     const bool is_told =
         objects[i].score > 0.0F || objects[i].object_class == ObjectClass::kUnknown;

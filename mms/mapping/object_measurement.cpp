@@ -24,12 +24,13 @@ std::vector<std::vector<std::size_t>> members(const ClusterParts& parts) {
   return lists;
 }
 
-bool is_secondary(const LabeledCloud& cloud, std::size_t cluster) {
+/// Whether no cluster before it is under the same mask.
+bool is_largest(const LabeledCloud& cloud, std::size_t cluster) {
   const int instance = cloud.clusters[cluster].instance;
   const auto begin = cloud.clusters.begin();
-  return instance >= 0 &&
-         std::any_of(begin, begin + static_cast<std::ptrdiff_t>(cluster),
-                     [&](const DynamicCluster& other) { return other.instance == instance; });
+  return instance < 0 ||
+         std::none_of(begin, begin + static_cast<std::ptrdiff_t>(cluster),
+                      [&](const DynamicCluster& other) { return other.instance == instance; });
 }
 
 std::vector<Eigen::Vector3d> corners(const DynamicCluster& cluster) {
@@ -85,11 +86,13 @@ std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
     const DynamicCluster& cluster = cloud.clusters[parts.cluster[p]];
     const bool has_place =
         !indices[p].empty() || (cluster.box_min.allFinite() && cluster.box_max.allFinite());
-    if (!has_place || is_secondary(cloud, parts.cluster[p])) continue;
+    if (!has_place) continue;
     ObjectMeasurement& object = objects.emplace_back();
     object.stamp = cloud.stamp;
     object.object_class = cluster.object_class;
     object.score = cluster.score;
+    object.instance = cluster.instance;
+    object.largest = is_largest(cloud, parts.cluster[p]);
     object.sensor = T_world_sensor.translation();
     object.right = T_world_sensor.rotation().col(0);
     object.cut = cuts[p];

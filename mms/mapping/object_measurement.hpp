@@ -16,6 +16,8 @@ struct ObjectMeasurement {
   Timestamp stamp;
   ObjectClass object_class = ObjectClass::kPerson;
   float score = 1.0F;                                ///< of its mask, in (0, 1]; 0 without one
+  int instance = -1;                                 ///< of its mask; -1 without one
+  bool largest = true;                               ///< of what its mask covers
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< where it was seen from [m]
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();  ///< the image's axis to the right
   std::vector<Eigen::Vector3d> points;               ///< a few hundred, evenly chosen; never empty
@@ -32,10 +34,10 @@ struct ObjectMeasurement {
   } cut;
 };
 
-/// Measures the clusters of `cloud` in their order, of those under one mask the first, each as the
-/// objects it holds. Cuts are known of organised clouds only. Clusters that list no points of
-/// theirs (as in tests) are taken for the corners of their boxes. Without a floor the lowest point
-/// of an object is taken to stand on it.
+/// Measures the clusters of `cloud` in their order, of which the first under a mask is its largest,
+/// each as the objects it holds. Cuts are known of organised clouds only. Clusters that list no
+/// points of theirs (as in tests) are taken for the corners of their boxes. Without a floor the
+/// lowest point of an object is taken to stand on it.
 std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
                                                const Transform<World, Sensor>& T_world_sensor,
                                                const GroundFrame& ground,

@@ -232,6 +232,41 @@ TEST(SemanticFusion, TwoMasksOnOneBodyAreOneObject) {
   expect_only_person(cloud, view);
 }
 
+TEST(SemanticFusion, BothSidesOfAPillarAreOneVehicle) {
+  testing::Scene scene = room();
+  scene.add(Thing::kPerson, {-0.8F, 0.4F, 3.0F}, {0.8F, 1.2F, 3.4F});
+  scene.add(Thing::kOther, {-0.1F, -1.0F, 2.0F}, {0.1F, 1.2F, 2.2F});
+  const View view = render(scene);
+  Instance vehicle = mask_of(view, Thing::kPerson);
+  vehicle.object_class = ObjectClass::kAgv;
+  const LabeledCloud cloud = fuse(view, {vehicle});
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  EXPECT_NEAR(cloud.clusters[0].box_max.x() - cloud.clusters[0].box_min.x(), 1.6F, 0.1F);
+}
+
+TEST(SemanticFusion, AForkliftsMastIsPartOfIt) {
+  testing::Scene scene = room();
+  scene.add(Thing::kPerson, {-0.5F, 0.4F, 2.2F}, {0.5F, 1.2F, 2.5F});
+  scene.add(Thing::kPerson, {-0.3F, -0.7F, 3.3F}, {0.3F, 0.4F, 3.4F});
+  const View view = render(scene);
+  Instance vehicle = mask_of(view, Thing::kPerson);
+  vehicle.object_class = ObjectClass::kAgv;
+  EXPECT_EQ(fuse(view, {vehicle}).clusters.size(), 1U);
+}
+
+TEST(SemanticFusion, WhatAMaskSpilledOntoFarBehindIsNoPartOfTheVehicle) {
+  testing::Scene scene = room();
+  scene.add(Thing::kPerson, {-0.2F, 0.8F, 2.5F}, {0.2F, 1.2F, 2.8F});
+  scene.add(Thing::kPerson, {0.4F, 0.8F, 3.6F}, {0.7F, 1.2F, 3.8F});
+  const View view = render(scene);
+  Instance vehicle = mask_of(view, Thing::kPerson);
+  vehicle.object_class = ObjectClass::kAgv;
+  const LabeledCloud cloud = fuse(view, {vehicle});
+  ASSERT_EQ(cloud.clusters.size(), 2U);
+  EXPECT_LT(cloud.clusters[0].box_max.z(), 2.9F);
+  EXPECT_GT(cloud.clusters[1].box_min.z(), 3.5F);
+}
+
 TEST(SemanticFusion, VisionModeTakesTheDilatedMaskAsItIs) {
   const View view = render(room_with_person());
   const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)}, FusionMode::kVision);

@@ -243,6 +243,33 @@ TEST(DynamicMap, WhatElseAMaskCoversIsNoObject) {
   EXPECT_LT(map.objects()[0].box.center().z(), 2.5);
 }
 
+TEST(DynamicMap, FollowsWhatItKnowsWhereAMaskCoversMoreOfSomethingElse) {
+  DynamicMap map;
+  DynamicCluster vehicle = cluster_at({0.0F, 0.0F, 3.0F}, ObjectClass::kAgv);
+  DynamicCluster shelf = cluster_at({0.5F, 0.0F, 5.0F}, ObjectClass::kAgv);
+  vehicle.instance = shelf.instance = 3;
+  for (int i = 0; i < 10; ++i) give(map, i, {vehicle});
+  for (int i = 10; i < 30; ++i) give(map, i, {shelf, vehicle});  // the largest comes first
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
+  EXPECT_LT(map.objects()[0].box.center().z(), 3.5);
+  EXPECT_EQ(map.confirmed(), 1);
+}
+
+TEST(DynamicMap, OneMaskKeepsOneObjectAlive) {
+  DynamicMap map;
+  DynamicCluster engine = cluster_at({0.0F, 0.0F, 3.0F}, ObjectClass::kAgv);
+  DynamicCluster mast = cluster_at({0.0F, 0.0F, 4.2F}, ObjectClass::kAgv);
+  engine.instance = 0;
+  mast.instance = 1;
+  for (int i = 0; i < 10; ++i) give(map, i, {engine, mast});
+  EXPECT_EQ(map.objects().size(), 2U);
+  mast.instance = 0;
+  for (int i = 10; i < 40; ++i) give(map, i, {engine, mast});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_LT(map.objects()[0].box.center().z(), 3.5);
+}
+
 TEST(DynamicMap, AClusterWithoutPointsIsWhereItsBoxIsAndOneWithoutABoxIsNowhere) {
   DynamicMap map;
   DynamicCluster lost_points = cluster_at({0.0F, 0.0F, 3.0F});
