@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mms/geometry/clustering.hpp"
-#include "mms/geometry/point_map.hpp"
-#include "mms/geometry/voxel_grid.hpp"
+#include "mms/geometry/voxels/point_map.hpp"
+#include "mms/geometry/voxels/voxel_downsampling.hpp"
 
 namespace mms {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene.hpp"
+#include "benchmarks/scene.hpp"
 
 #include "mms/simulation/simulated_scene.hpp"
 

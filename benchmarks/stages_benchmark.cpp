@@ -5,10 +5,10 @@
 
 #include <memory>
 
-#include "mms/evaluation/trajectory_error.hpp"
+#include "benchmarks/scene.hpp"
+#include "mms/evaluation/trajectory/trajectory_error.hpp"
 #include "mms/pipeline/slam_system.hpp"
-#include "mms/segmentation/mask_segmenter.hpp"
-#include "scene.hpp"
+#include "mms/segmentation/segmenters/mask_segmenter.hpp"
 
 namespace mms {
 namespace {

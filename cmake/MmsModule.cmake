@@ -1,12 +1,14 @@
 # Compiler settings shared by every target, and one library target a module.
+include(${CMAKE_CURRENT_LIST_DIR}/MmsPrecompiledHeaders.cmake)
 
 add_library(mms_build_settings INTERFACE)
 target_compile_features(mms_build_settings INTERFACE cxx_std_20)
 target_compile_options(mms_build_settings INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wconversion;-Wshadow;-Werror>)
 # gcc 12 warns of Eigen's and std::string's own code when it inlines them.
+set(mms_false_warnings -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow)
 target_compile_options(mms_build_settings INTERFACE
-  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized$<SEMICOLON>-Wno-restrict>>)
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:${mms_false_warnings}>>)
 if(MMS_ARCH STREQUAL "" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(mms_arch "x86-64-v3")
 else()
@@ -24,19 +26,34 @@ endif()
 
 set_property(GLOBAL PROPERTY MMS_MODULES "")
 
-# mms_module(NAME [FOLDER dir] [PUBLIC lib...] [PRIVATE lib...]): the target mms_NAME (alias
-# mms::NAME) of all sources in mms/NAME, or in mms/FOLDER; one of headers alone becomes an interface
-# library.
+# What all modules share of precompiled headers.
+add_library(mms_precompiled OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
+target_link_libraries(mms_precompiled PRIVATE mms_build_settings Eigen3::Eigen)
+mms_precompile(mms_precompiled)
+
+# mms_module(NAME [FOLDER dir] [WITHOUT regex...] [PRECOMPILE header...] [PUBLIC lib...]
+# [PRIVATE lib...]): the target
+# mms_NAME (alias mms::NAME) of all sources below mms/NAME, or below mms/FOLDER, but those whose path
+# from there begins with one of WITHOUT; one of headers alone becomes an interface library.
 function(mms_module name)
-  cmake_parse_arguments(ARG "" "FOLDER" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "FOLDER" "WITHOUT;PRECOMPILE;PUBLIC;PRIVATE" ${ARGN})
   if(NOT ARG_FOLDER)
     set(ARG_FOLDER ${name})
   endif()
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/mms/${ARG_FOLDER}/*.cpp)
+  set(folder ${PROJECT_SOURCE_DIR}/mms/${ARG_FOLDER})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  foreach(part IN LISTS ARG_WITHOUT)
+    list(FILTER sources EXCLUDE REGEX "^${folder}/${part}")
+  endforeach()
   if(sources)
     add_library(mms_${name} STATIC ${sources})
     set(scope PUBLIC)
     target_link_libraries(mms_${name} PRIVATE ${ARG_PRIVATE})
+    if(ARG_PRECOMPILE)
+      mms_precompile(mms_${name} ${ARG_PRECOMPILE})
+    else()
+      mms_share_precompiled(mms_${name} mms_precompiled)
+    endif()
   else()
     add_library(mms_${name} INTERFACE)
     set(scope INTERFACE)

@@ -23,7 +23,7 @@ function(mms_viewer_page target)
   set(source ${PROJECT_BINARY_DIR}/viewer_page.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "#include <vector>
 
-#include \"mms/server/page.hpp\"
+#include \"mms/server/http/page.hpp\"
 
 @symbols@
 @declarations@

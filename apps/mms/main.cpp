@@ -1,20 +1,8 @@
 #include <CLI/App.hpp>
 
-#include "config_command.hpp"
-#include "convert_command.hpp"
-#include "doctor_command.hpp"
-#include "eval_command.hpp"
-#include "import_command.hpp"
-#include "info_command.hpp"
-#include "quantize_command.hpp"
-#include "reproduce_command.hpp"
-#include "run_app.hpp"
-#include "run_command.hpp"
-#include "segment_command.hpp"
-#include "simulate_command.hpp"
-#include "torch_backend.hpp"
-#include "view_command.hpp"
-#include "waiting_threads.hpp"
+#include "apps/mms/commands/commands.hpp"
+#include "apps/mms/console/run_app.hpp"
+#include "apps/mms/console/waiting_threads.hpp"
 
 int main(int argc, char** argv) {
   mms::let_waiting_threads_sleep(argv);

@@ -12,7 +12,7 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/pipeline/slam_system.hpp"
-#include "mms/segmentation/mask_segmenter.hpp"
+#include "mms/segmentation/segmenters/mask_segmenter.hpp"
 
 namespace {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "mms/core/error.hpp"
-#include "mms/dataset/bag_source.hpp"
-#include "mms/dataset/folder_rgbd.hpp"
-#include "mms/dataset/kitti_lidar.hpp"
-#include "mms/dataset/simulated_source.hpp"
-#include "mms/dataset/tum_rgbd.hpp"
-#include "mms/io/files.hpp"
+#include "mms/dataset/bag/bag_source.hpp"
+#include "mms/dataset/folder/folder_rgbd.hpp"
+#include "mms/dataset/kitti/kitti_lidar.hpp"
+#include "mms/dataset/simulated/simulated_source.hpp"
+#include "mms/dataset/tum/tum_rgbd.hpp"
+#include "mms/io/text/files.hpp"
 #include "mms/ros/bag_reader.hpp"
 
 namespace mms {

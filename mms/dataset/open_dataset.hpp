@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "mms/dataset/frame_source.hpp"
-#include "mms/dataset/source_options.hpp"
+#include "mms/dataset/source/frame_source.hpp"
+#include "mms/dataset/source/source_options.hpp"
 
 namespace mms {
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "mms/evaluation/metric_json.hpp"
-#include "mms/evaluation/statistics.hpp"
-#include "mms/io/atomic_file.hpp"
+#include "mms/evaluation/scores/metric_json.hpp"
+#include "mms/evaluation/scores/statistics.hpp"
+#include "mms/io/text/atomic_file.hpp"
 
 namespace mms {
 namespace {

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "mms/core/odometry_estimate.hpp"
-#include "mms/evaluation/drift.hpp"
-#include "mms/evaluation/map_error.hpp"
-#include "mms/evaluation/mask_agreement.hpp"
-#include "mms/evaluation/metric_value.hpp"
-#include "mms/evaluation/tracking_error.hpp"
-#include "mms/evaluation/trajectory_error.hpp"
+#include "mms/evaluation/map/map_error.hpp"
+#include "mms/evaluation/scores/metric_value.hpp"
+#include "mms/evaluation/segmentation/mask_agreement.hpp"
+#include "mms/evaluation/tracking/tracking_error.hpp"
+#include "mms/evaluation/trajectory/drift.hpp"
+#include "mms/evaluation/trajectory/trajectory_error.hpp"
 
 namespace mms {
 

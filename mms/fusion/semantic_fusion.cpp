@@ -1,14 +1,14 @@
 #include "mms/fusion/semantic_fusion.hpp"
 
-#include "mms/fusion/cluster_list.hpp"
-#include "mms/fusion/dynamic_objects.hpp"
-#include "mms/fusion/grid_nodes.hpp"
-#include "mms/fusion/grid_planes.hpp"
-#include "mms/fusion/grid_relabel.hpp"
-#include "mms/fusion/mask_image.hpp"
-#include "mms/fusion/mask_labels.hpp"
-#include "mms/fusion/scan_cloud.hpp"
-#include "mms/fusion/scan_geometry.hpp"
+#include "mms/fusion/clouds/grid_nodes.hpp"
+#include "mms/fusion/clouds/mask_image.hpp"
+#include "mms/fusion/clouds/scan_cloud.hpp"
+#include "mms/fusion/clusters/cluster_list.hpp"
+#include "mms/fusion/clusters/dynamic_objects.hpp"
+#include "mms/fusion/clusters/grid_relabel.hpp"
+#include "mms/fusion/clusters/scan_geometry.hpp"
+#include "mms/fusion/masks/mask_labels.hpp"
+#include "mms/fusion/planes/grid_planes.hpp"
 
 namespace mms {
 namespace {

@@ -3,9 +3,9 @@
 #include "mms/core/frame.hpp"
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/core/segmentation.hpp"
-#include "mms/fusion/depth_cloud.hpp"
-#include "mms/fusion/fusion_config.hpp"
-#include "mms/fusion/mask_memory.hpp"
+#include "mms/fusion/clouds/depth_cloud.hpp"
+#include "mms/fusion/config/fusion_config.hpp"
+#include "mms/fusion/masks/mask_memory.hpp"
 
 namespace mms {
 

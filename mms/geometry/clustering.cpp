@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include "mms/geometry/cell_chains.hpp"
 #include "mms/geometry/union_find.hpp"
+#include "mms/geometry/voxels/cell_chains.hpp"
 
 namespace mms {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "mms/geometry/cell_chains.hpp"
+#include "mms/geometry/voxels/cell_chains.hpp"
 
 namespace mms {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "mms/geometry/se3.hpp"
-#include "mms/localization/motion_compensation.hpp"
+#include "mms/localization/motion/motion_compensation.hpp"
 
 namespace mms {
 namespace {

@@ -3,11 +3,11 @@
 #include <optional>
 
 #include "mms/core/config.hpp"
-#include "mms/core/feature_cloud.hpp"
 #include "mms/core/odometry_estimate.hpp"
-#include "mms/localization/motion_model.hpp"
-#include "mms/localization/reference_keyframes.hpp"
-#include "mms/localization/registration.hpp"
+#include "mms/localization/features/feature_cloud.hpp"
+#include "mms/localization/motion/motion_model.hpp"
+#include "mms/localization/photometric/reference_keyframes.hpp"
+#include "mms/localization/registration/registration.hpp"
 
 namespace mms {
 

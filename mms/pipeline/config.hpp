@@ -1,16 +1,16 @@
 #pragma once
 
 #include "mms/core/config.hpp"
-#include "mms/fusion/fusion_config.hpp"
+#include "mms/fusion/config/fusion_config.hpp"
 #include "mms/geometry/depth_noise.hpp"
-#include "mms/localization/feature_extractor.hpp"
+#include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
-#include "mms/mapping/dynamic_map.hpp"
-#include "mms/mapping/keyframe_selector.hpp"
-#include "mms/mapping/movement_config.hpp"
-#include "mms/mapping/occupancy_config.hpp"
-#include "mms/mapping/static_map.hpp"
-#include "mms/segmentation/segmentation_config.hpp"
+#include "mms/mapping/motion_segmentation/movement_config.hpp"
+#include "mms/mapping/occupancy/occupancy_config.hpp"
+#include "mms/mapping/static_map/keyframe_selector.hpp"
+#include "mms/mapping/static_map/static_map.hpp"
+#include "mms/mapping/tracking/dynamic_map.hpp"
+#include "mms/segmentation/segmenters/segmentation_config.hpp"
 
 namespace mms {
 

@@ -7,7 +7,7 @@
 
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/core/odometry_estimate.hpp"
-#include "mms/mapping/dynamic_map.hpp"
+#include "mms/mapping/tracking/dynamic_map.hpp"
 
 namespace mms {
 

@@ -3,9 +3,9 @@
 #include <chrono>
 #include <utility>
 
-#include "mms/localization/feature_exclusion.hpp"
-#include "mms/localization/motion_compensation.hpp"
-#include "mms/mapping/unseen_objects.hpp"
+#include "mms/localization/features/feature_exclusion.hpp"
+#include "mms/localization/motion/motion_compensation.hpp"
+#include "mms/mapping/tracking/unseen_objects.hpp"
 
 namespace mms {
 namespace {

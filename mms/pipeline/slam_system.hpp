@@ -5,17 +5,17 @@
 
 #include "mms/core/frame.hpp"
 #include "mms/fusion/semantic_fusion.hpp"
-#include "mms/localization/feature_extractor.hpp"
+#include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
-#include "mms/mapping/dynamic_map.hpp"
-#include "mms/mapping/keyframe_selector.hpp"
-#include "mms/mapping/movement.hpp"
-#include "mms/mapping/occupancy_map.hpp"
-#include "mms/mapping/scan_movement.hpp"
-#include "mms/mapping/static_map.hpp"
+#include "mms/mapping/motion_segmentation/movement.hpp"
+#include "mms/mapping/motion_segmentation/scan_movement.hpp"
+#include "mms/mapping/occupancy/occupancy_map.hpp"
+#include "mms/mapping/static_map/keyframe_selector.hpp"
+#include "mms/mapping/static_map/static_map.hpp"
+#include "mms/mapping/tracking/dynamic_map.hpp"
 #include "mms/pipeline/config.hpp"
 #include "mms/pipeline/frame_result.hpp"
-#include "mms/segmentation/segmenter.hpp"
+#include "mms/segmentation/segmenters/segmenter.hpp"
 
 namespace mms {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "mms/core/error.hpp"
-#include "mms/io/byte_reader.hpp"
+#include "mms/io/journal/byte_reader.hpp"
 
 namespace mms {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "mms/core/error.hpp"
-#include "mms/io/image_io.hpp"
+#include "mms/io/image/image_io.hpp"
 
 namespace mms {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mms/core/error.hpp"
-#include "mms/io/rle.hpp"
+#include "mms/io/image/rle.hpp"
 
 namespace mms {
 namespace {

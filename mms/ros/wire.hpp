@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mms/core/time.hpp"
-#include "mms/io/byte_reader.hpp"
+#include "mms/io/journal/byte_reader.hpp"
 
 namespace mms::msg {
 

@@ -7,11 +7,11 @@
 
 #include "mms/core/error.hpp"
 #include "mms/core/hash_noise.hpp"
-#include "mms/simulation/camera_ride.hpp"
-#include "mms/simulation/lidar_scan.hpp"
-#include "mms/simulation/mesh_sampling.hpp"
-#include "mms/simulation/object_visibility.hpp"
-#include "mms/simulation/stage.hpp"
+#include "mms/simulation/truth/mesh_sampling.hpp"
+#include "mms/simulation/truth/object_visibility.hpp"
+#include "mms/simulation/world/camera_ride.hpp"
+#include "mms/simulation/world/lidar_scan.hpp"
+#include "mms/simulation/world/stage.hpp"
 
 namespace mms {
 namespace {

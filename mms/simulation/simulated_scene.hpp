@@ -5,11 +5,11 @@
 
 #include "mms/core/frame.hpp"
 #include "mms/core/trajectory.hpp"
-#include "mms/simulation/exact_view.hpp"
-#include "mms/simulation/object_truth.hpp"
-#include "mms/simulation/scene_config.hpp"
-#include "mms/simulation/sensor_preset.hpp"
-#include "mms/simulation/truth_cloud.hpp"
+#include "mms/simulation/config/scene_config.hpp"
+#include "mms/simulation/sensors/exact_view.hpp"
+#include "mms/simulation/sensors/sensor_preset.hpp"
+#include "mms/simulation/truth/object_truth.hpp"
+#include "mms/simulation/truth/truth_cloud.hpp"
 
 namespace mms {
 

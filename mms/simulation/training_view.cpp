@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "mms/core/random_stream.hpp"
-#include "mms/simulation/agv_model.hpp"
-#include "mms/simulation/object_visibility.hpp"
-#include "mms/simulation/person_model.hpp"
-#include "mms/simulation/stage.hpp"
+#include "mms/simulation/people/person_model.hpp"
+#include "mms/simulation/truth/object_visibility.hpp"
+#include "mms/simulation/vehicles/agv_model.hpp"
+#include "mms/simulation/world/stage.hpp"
 
 namespace mms {
 namespace {

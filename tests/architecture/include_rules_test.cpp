@@ -10,43 +10,54 @@ namespace {
 using namespace testing;  // NOLINT: helpers of the tests
 
 std::vector<std::string> faults_of(const TempFolder& tree) {
-  return include_faults(tree.path(), arrows());
+  return include_faults(tree.path(), include_rules());
 }
 
 TEST(Architecture, TheTreeKeepsItsArrows) {
   std::string all;
-  for (const std::string& fault : include_faults(MMS_SOURCE_DIR, arrows())) all += fault + "\n";
+  for (const std::string& fault : include_faults(MMS_SOURCE_DIR, include_rules()))
+    all += fault + "\n";
   EXPECT_TRUE(all.empty()) << all;
 }
 
-TEST(Architecture, EveryModuleOfTheTreeHasArrowsAndTheOtherWayRound) {
-  std::set<std::string> found;
-  for (const auto& entry : std::filesystem::directory_iterator(MMS_SOURCE_DIR "/mms")) {
-    found.insert(entry.path().filename().string());
+TEST(Architecture, EveryFolderOfTheRulesIsThere) {
+  const std::filesystem::path root = MMS_SOURCE_DIR;
+  const std::set<std::string> beside_mms = {"apps", "interfaces", "benchmarks", "examples",
+                                            "tests"};
+  for (const auto& [module, targets] : include_rules().modules) {
+    const auto folder = beside_mms.contains(module) ? root / module : root / "mms" / module;
+    EXPECT_TRUE(std::filesystem::is_directory(folder)) << module << " is gone";
+    for (const std::string& target : targets) {
+      EXPECT_TRUE(include_rules().modules.contains(target)) << target;
+    }
   }
-  for (const auto& [module, targets] : arrows()) {
-    EXPECT_TRUE(found.contains(module)) << module << " is gone";
-    for (const std::string& target : targets) EXPECT_TRUE(arrows().contains(target)) << target;
+  for (const auto& [module, folders] : include_rules().folders) {
+    const auto base = module == "apps" ? root / "apps/mms" : root / "mms" / module;
+    for (const std::string& folder : folders) {
+      EXPECT_TRUE(std::filesystem::is_directory(base / folder)) << module << " " << folder;
+    }
   }
 }
 
 TEST(Architecture, ThePaperModulesNeverIncludeEachOther) {
   const std::set<std::string> paper = {"segmentation", "fusion", "localization", "mapping"};
   for (const std::string& from : paper) {
-    for (const std::string& to : paper) EXPECT_FALSE(arrows().at(from).contains(to));
+    for (const std::string& to : paper) EXPECT_FALSE(include_rules().modules.at(from).contains(to));
   }
 }
 
 TEST(Architecture, AnIncludeFromFusionToMappingIsCaught) {
   const TempFolder tree;
-  tree.write("mms/mapping/static_map.hpp", "#pragma once\n#include \"mms/core/frame.hpp\"\n");
+  tree.write("mms/mapping/static_map/static_map.hpp",
+             "#pragma once\n#include \"mms/core/frame.hpp\"\n");
   tree.write("mms/fusion/fusion.cpp",
              "#include \"mms/fusion/fusion.hpp\"\n\n#include \"mms/core/frame.hpp\"\n"
-             "#include \"mms/mapping/static_map.hpp\"\n");
+             "#include \"mms/mapping/static_map/static_map.hpp\"\n");
   const auto faults = faults_of(tree);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0],
-            "mms/fusion/fusion.cpp:4: includes \"mms/mapping/static_map.hpp\": arrow fusion -> "
+            "mms/fusion/fusion.cpp:4: includes \"mms/mapping/static_map/static_map.hpp\": arrow "
+            "fusion -> "
             "mapping is forbidden, allowed are: core, geometry");
 }
 
@@ -61,14 +72,15 @@ TEST(Architecture, CoreKnowsNobody) {
 TEST(Architecture, DetoursAroundTheRootAreCaught) {
   const TempFolder tree;
   tree.write("mms/fusion/a.cpp", "#include \"../mapping/static_map.hpp\"\n");
-  tree.write("mms/fusion/b.cpp", "#  include <mms/mapping/static_map.hpp>\n");
+  tree.write("mms/fusion/b.cpp", "#  include <mms/mapping/static_map/static_map.hpp>\n");
   tree.write("mms/fusion/c.cpp", "#include \"mms/fusion/../mapping/static_map.hpp\"\n");
   tree.write("mms/fusion/d.cpp", "#include \"fusion.hpp\"\n");
   tree.write("mms/fusion/e.cpp", "#include <vector>\n// #include \"mms/mapping/x.hpp\"\n");
   const auto faults = faults_of(tree);
   ASSERT_EQ(faults.size(), 4U);
   expect_in("a.cpp:1: includes \"../mapping/static_map.hpp\", allowed is \"mms/", faults[0]);
-  expect_in("b.cpp:1: includes <mms/mapping/static_map.hpp>, project headers", faults[1]);
+  expect_in("b.cpp:1: includes <mms/mapping/static_map/static_map.hpp>, project headers",
+            faults[1]);
   expect_in("c.cpp:1: includes \"mms/fusion/../mapping", faults[2]);
   expect_in("d.cpp:1: includes \"fusion.hpp\"", faults[3]);
 }
@@ -86,7 +98,45 @@ TEST(Architecture, AModuleWithoutArrowsIsCaught) {
   tree.write("mms/helpers/help.hpp", "#pragma once\n");
   const auto faults = faults_of(tree);
   ASSERT_EQ(faults.size(), 1U);
-  expect_in("module 'helpers' has no arrows", faults[0]);
+  expect_in("module 'helpers' has no rules", faults[0]);
+}
+
+TEST(Architecture, AnIncludeOfAHigherFolderIsCaught) {
+  const TempFolder tree;
+  tree.write("mms/fusion/clouds/a.cpp", "#include \"mms/fusion/masks/b.hpp\"\n");
+  tree.write("mms/fusion/masks/b.hpp", "#pragma once\n#include \"mms/fusion/clouds/c.hpp\"\n");
+  const auto faults = faults_of(tree);
+  ASSERT_EQ(faults.size(), 1U);
+  expect_in("clouds/a.cpp:1: includes \"mms/fusion/masks/b.hpp\": folder 'masks' lies above",
+            faults[0]);
+}
+
+TEST(Architecture, AFolderWithoutPlaceIsCaught) {
+  const TempFolder tree;
+  tree.write("mms/fusion/odds/a.hpp", "#pragma once\n");
+  const auto faults = faults_of(tree);
+  ASSERT_EQ(faults.size(), 1U);
+  expect_in("folder 'odds' of module 'fusion' has no place", faults[0]);
+}
+
+TEST(Architecture, SourcesOfTheProgramInALibraryAreCaught) {
+  const TempFolder tree;
+  tree.write("interfaces/ros1/src/node.cpp", "#include \"apps/mms/console/progress.hpp\"\n");
+  tree.write("mms/run/slam_run.cpp", "#include \"apps/mms/console/progress.hpp\"\n");
+  const auto faults = faults_of(tree);
+  ASSERT_EQ(faults.size(), 2U);
+  expect_in("arrow run -> apps is forbidden", faults[0]);
+  expect_in("arrow interfaces -> apps is forbidden", faults[1]);
+}
+
+TEST(Architecture, AFolderWithTooManySourcesIsCaught) {
+  const TempFolder tree;
+  for (std::size_t i = 0; i <= kMaxFilesInFolder; ++i) {
+    tree.write("mms/core/part" + std::to_string(i) + ".cpp", "int x;\n");
+  }
+  const auto faults = faults_of(tree);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0], "mms/core: 31 sources, at most 30 are allowed: split it by idea");
 }
 
 }  // namespace

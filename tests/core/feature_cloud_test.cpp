@@ -1,4 +1,4 @@
-#include "mms/core/feature_cloud.hpp"
+#include "mms/localization/features/feature_cloud.hpp"
 
 #include <gtest/gtest.h>
 

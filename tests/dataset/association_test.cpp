@@ -1,4 +1,4 @@
-#include "mms/dataset/association.hpp"
+#include "mms/dataset/source/frame_association.hpp"
 
 #include <gtest/gtest.h>
 

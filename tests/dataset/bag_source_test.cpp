@@ -1,10 +1,10 @@
-#include "mms/dataset/bag_source.hpp"
+#include "mms/dataset/bag/bag_source.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/dataset/frame_recorder.hpp"
 #include "mms/dataset/open_dataset.hpp"
+#include "mms/dataset/recorder/frame_recorder.hpp"
 #include "mms/ros/bag_writer.hpp"
 #include "mms/ros/camera_messages.hpp"
 #include "mms/ros/cloud_messages.hpp"

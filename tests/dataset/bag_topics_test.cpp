@@ -1,4 +1,4 @@
-#include "mms/dataset/bag_topics.hpp"
+#include "mms/dataset/bag/bag_topics.hpp"
 
 #include <gtest/gtest.h>
 

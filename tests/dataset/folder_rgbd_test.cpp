@@ -1,4 +1,4 @@
-#include "mms/dataset/folder_rgbd.hpp"
+#include "mms/dataset/folder/folder_rgbd.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/dataset/instance_annotations.hpp"
+#include "mms/dataset/simulated/instance_annotations.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/dataset/kitti_lidar.hpp"
+#include "mms/dataset/kitti/kitti_lidar.hpp"
 
 #include <gtest/gtest.h>
 

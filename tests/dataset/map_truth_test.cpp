@@ -1,4 +1,4 @@
-#include "mms/dataset/map_truth.hpp"
+#include "mms/dataset/simulated/map_truth.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/dataset/recorded_frame.hpp"
+#include "mms/dataset/recorder/recorded_frame.hpp"
 
 #include <gtest/gtest.h>
 

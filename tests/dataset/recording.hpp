@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mms/dataset/frame_source.hpp"
-#include "mms/io/image_io.hpp"
+#include "mms/dataset/source/frame_source.hpp"
+#include "mms/io/image/image_io.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms::testing {

@@ -1,12 +1,12 @@
-#include "mms/dataset/scene_source.hpp"
+#include "mms/dataset/simulated/scene_source.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
-#include "mms/dataset/simulation_writer.hpp"
-#include "mms/io/ply_io.hpp"
-#include "mms/io/trajectory_io.hpp"
+#include "mms/dataset/simulated/simulation_writer.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
 #include "tests/dataset/recording.hpp"
 #include "tests/dataset/same_frame.hpp"
 

@@ -1,4 +1,4 @@
-#include "mms/dataset/simulated_source.hpp"
+#include "mms/dataset/simulated/simulated_source.hpp"
 
 #include <gtest/gtest.h>
 

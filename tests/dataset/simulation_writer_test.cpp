@@ -1,4 +1,4 @@
-#include "mms/dataset/simulation_writer.hpp"
+#include "mms/dataset/simulated/simulation_writer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,13 +6,13 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
-#include "mms/dataset/recorded_frame.hpp"
-#include "mms/dataset/recording_folder.hpp"
-#include "mms/io/config_yaml.hpp"
-#include "mms/io/files.hpp"
-#include "mms/io/image_io.hpp"
-#include "mms/io/ply_io.hpp"
-#include "mms/io/trajectory_io.hpp"
+#include "mms/dataset/recorder/recorded_frame.hpp"
+#include "mms/dataset/recorder/recording_folder.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/dataset/recording.hpp"
 #include "tests/dataset/same_frame.hpp"
 #include "tests/dataset/simulated_frames.hpp"

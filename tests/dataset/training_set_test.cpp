@@ -1,10 +1,10 @@
-#include "mms/dataset/training_set.hpp"
+#include "mms/dataset/simulated/training_set.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/io/files.hpp"
-#include "mms/io/image_io.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

@@ -1,10 +1,10 @@
-#include "mms/dataset/tum_rgbd.hpp"
+#include "mms/dataset/tum/tum_rgbd.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
-#include "mms/dataset/tum_calibration.hpp"
+#include "mms/dataset/tum/tum_calibration.hpp"
 #include "tests/dataset/recording.hpp"
 
 namespace mms {

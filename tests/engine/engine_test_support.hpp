@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "mms/segmentation/engine/tensor.hpp"
-#include "mms/segmentation/model.hpp"
-#include "mms/segmentation/prepared_image.hpp"
-#include "mms/segmentation/tensor_shapes.hpp"
+#include "mms/segmentation/solo/prepared_image.hpp"
+#include "mms/segmentation/weights/model.hpp"
+#include "mms/segmentation/weights/tensor_shapes.hpp"
 
 namespace mms::testing {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "mms/core/error.hpp"
-#include "mms/segmentation/engine/calibration.hpp"
-#include "mms/segmentation/engine/magnitude_histogram.hpp"
-#include "mms/segmentation/engine/network_graph.hpp"
-#include "mms/segmentation/weight_bytes.hpp"
+#include "mms/segmentation/engine/calibration/calibration.hpp"
+#include "mms/segmentation/engine/calibration/magnitude_histogram.hpp"
+#include "mms/segmentation/engine/graph/network_graph.hpp"
+#include "mms/segmentation/weights/int8_weights.hpp"
 #include "tests/engine/engine_test_support.hpp"
 #include "tests/io/temp_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "mms/evaluation/alignment.hpp"
+#include "mms/evaluation/trajectory/alignment.hpp"
 
 #include <gtest/gtest.h>
 

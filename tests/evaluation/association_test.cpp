@@ -1,4 +1,4 @@
-#include "mms/evaluation/association.hpp"
+#include "mms/evaluation/trajectory/stamp_matching.hpp"
 
 #include <gtest/gtest.h>
 

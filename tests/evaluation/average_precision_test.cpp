@@ -1,4 +1,4 @@
-#include "mms/evaluation/average_precision.hpp"
+#include "mms/evaluation/segmentation/average_precision.hpp"
 
 #include <gtest/gtest.h>
 

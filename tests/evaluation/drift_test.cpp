@@ -1,4 +1,4 @@
-#include "mms/evaluation/drift.hpp"
+#include "mms/evaluation/trajectory/drift.hpp"
 
 #include <gtest/gtest.h>
 

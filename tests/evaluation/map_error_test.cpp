@@ -1,4 +1,4 @@
-#include "mms/evaluation/map_error.hpp"
+#include "mms/evaluation/map/map_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/evaluation/mask_agreement.hpp"
+#include "mms/evaluation/segmentation/mask_agreement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/evaluation/mask_iou.hpp"
+#include "mms/evaluation/segmentation/mask_iou.hpp"
 
 #include <gtest/gtest.h>
 

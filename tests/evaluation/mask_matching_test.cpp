@@ -1,4 +1,4 @@
-#include "mms/evaluation/mask_matching.hpp"
+#include "mms/evaluation/segmentation/mask_matching.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/evaluation/metric_value.hpp"
+#include "mms/evaluation/scores/metric_value.hpp"
 
 #include <gtest/gtest.h>
 

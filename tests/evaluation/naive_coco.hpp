@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "mms/evaluation/segmentation_scores.hpp"
-#include "mms/io/coco_io.hpp"
+#include "mms/evaluation/segmentation/segmentation_scores.hpp"
+#include "mms/io/image/coco_io.hpp"
 
 namespace mms::test {
 

@@ -1,4 +1,4 @@
-#include "mms/evaluation/relative_error.hpp"
+#include "mms/evaluation/trajectory/relative_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/evaluation/segmentation_error.hpp"
+#include "mms/evaluation/segmentation/segmentation_error.hpp"
 
 #include <gtest/gtest.h>
 

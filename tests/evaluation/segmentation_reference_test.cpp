@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <random>
 
-#include "mms/evaluation/segmentation_error.hpp"
+#include "mms/evaluation/segmentation/segmentation_error.hpp"
 #include "tests/evaluation/coco_cases.hpp"
 #include "tests/evaluation/naive_coco.hpp"
 

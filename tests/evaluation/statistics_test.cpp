@@ -1,4 +1,4 @@
-#include "mms/evaluation/statistics.hpp"
+#include "mms/evaluation/scores/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/evaluation/tracking_error.hpp"
+#include "mms/evaluation/tracking/tracking_error.hpp"
 
 #include <gtest/gtest.h>
 

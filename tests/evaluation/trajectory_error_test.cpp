@@ -1,11 +1,11 @@
-#include "mms/evaluation/trajectory_error.hpp"
+#include "mms/evaluation/trajectory/trajectory_error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "mms/core/error.hpp"
-#include "mms/io/trajectory_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
 #include "tests/evaluation/trajectories.hpp"
 
 namespace mms {

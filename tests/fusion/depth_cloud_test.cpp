@@ -1,4 +1,4 @@
-#include "mms/fusion/depth_cloud.hpp"
+#include "mms/fusion/clouds/depth_cloud.hpp"
 
 #include <gtest/gtest.h>
 

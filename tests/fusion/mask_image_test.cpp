@@ -1,4 +1,4 @@
-#include "mms/fusion/mask_image.hpp"
+#include "mms/fusion/clouds/mask_image.hpp"
 
 #include <gtest/gtest.h>
 

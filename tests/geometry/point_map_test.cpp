@@ -1,4 +1,4 @@
-#include "mms/geometry/point_map.hpp"
+#include "mms/geometry/voxels/point_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/geometry/voxel_grid.hpp"
+#include "mms/geometry/voxels/voxel_downsampling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/geometry/voxel_hash_map.hpp"
+#include "mms/geometry/voxels/voxel_hash_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/geometry/voxel_ray.hpp"
+#include "mms/geometry/voxels/voxel_ray.hpp"
 
 #include <gtest/gtest.h>
 

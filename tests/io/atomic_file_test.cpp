@@ -1,9 +1,9 @@
-#include "mms/io/atomic_file.hpp"
+#include "mms/io/text/atomic_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

@@ -1,4 +1,4 @@
-#include "mms/io/calibration_io.hpp"
+#include "mms/io/config/calibration_io.hpp"
 
 #include <gtest/gtest.h>
 

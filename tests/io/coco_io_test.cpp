@@ -1,11 +1,11 @@
-#include "mms/io/coco_io.hpp"
+#include "mms/io/image/coco_io.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "mms/core/error.hpp"
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

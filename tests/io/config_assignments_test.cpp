@@ -1,4 +1,4 @@
-#include "mms/io/config_assignments.hpp"
+#include "mms/io/config/config_assignments.hpp"
 
 #include <gtest/gtest.h>
 

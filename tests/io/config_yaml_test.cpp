@@ -1,4 +1,4 @@
-#include "mms/io/config_yaml.hpp"
+#include "mms/io/config/config_yaml.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/io/half_float.hpp"
+#include "mms/io/weights/half_float.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "mms/io/image_io.hpp"
+#include "mms/io/image/image_io.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/io/atomic_file.hpp"
-#include "mms/io/files.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

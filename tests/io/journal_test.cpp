@@ -1,13 +1,13 @@
-#include "mms/io/journal.hpp"
+#include "mms/io/journal/journal.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/io/crc32.hpp"
-#include "mms/io/files.hpp"
-#include "mms/io/journal_reader.hpp"
-#include "mms/io/journal_record.hpp"
-#include "mms/io/journal_writer.hpp"
+#include "mms/io/journal/crc32.hpp"
+#include "mms/io/journal/journal_reader.hpp"
+#include "mms/io/journal/journal_record.hpp"
+#include "mms/io/journal/journal_writer.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

@@ -1,4 +1,4 @@
-#include "mms/io/kitti_io.hpp"
+#include "mms/io/cloud/kitti_io.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/io/numbers.hpp"
+#include "mms/io/text/numbers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/io/objects_io.hpp"
+#include "mms/io/results/objects_io.hpp"
 
 #include <gtest/gtest.h>
 

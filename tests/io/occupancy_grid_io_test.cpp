@@ -1,4 +1,4 @@
-#include "mms/io/occupancy_grid_io.hpp"
+#include "mms/io/results/occupancy_grid_io.hpp"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "mms/core/error.hpp"
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

@@ -1,4 +1,4 @@
-#include "mms/io/octomap_io.hpp"
+#include "mms/io/results/octomap_io.hpp"
 
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
@@ -8,7 +8,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/core/random_stream.hpp"
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

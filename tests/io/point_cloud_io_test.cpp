@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "mms/core/error.hpp"
-#include "mms/io/files.hpp"
-#include "mms/io/kitti_io.hpp"
-#include "mms/io/pcd_io.hpp"
-#include "mms/io/ply_io.hpp"
+#include "mms/io/cloud/kitti_io.hpp"
+#include "mms/io/cloud/pcd_io.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

@@ -1,4 +1,4 @@
-#include "mms/io/polygon_mask.hpp"
+#include "mms/io/image/polygon_mask.hpp"
 
 #include <gtest/gtest.h>
 

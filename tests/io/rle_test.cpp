@@ -1,4 +1,4 @@
-#include "mms/io/rle.hpp"
+#include "mms/io/image/rle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/io/safetensors.hpp"
+#include "mms/io/weights/safetensors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "mms/core/error.hpp"
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

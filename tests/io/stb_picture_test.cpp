@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "mms/core/error.hpp"
-#include "mms/io/image_io.hpp"
+#include "mms/io/image/image_io.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

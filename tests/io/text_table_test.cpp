@@ -1,4 +1,4 @@
-#include "mms/io/text_table.hpp"
+#include "mms/io/text/text_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "mms/io/trajectory_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
 #include "mms/geometry/se3.hpp"
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "mms/core/feature_cloud.hpp"
 #include "mms/core/labeled_cloud.hpp"
-#include "mms/localization/local_maps.hpp"
+#include "mms/localization/features/feature_cloud.hpp"
+#include "mms/localization/registration/local_maps.hpp"
 
 namespace mms::testing {
 

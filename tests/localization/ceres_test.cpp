@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "mms/localization/registration.hpp"
+#include "mms/localization/registration/registration.hpp"
 #include "tests/localization/box_room.hpp"
 
 namespace mms {

@@ -1,4 +1,4 @@
-#include "mms/localization/data_association.hpp"
+#include "mms/localization/registration/data_association.hpp"
 
 #include <gtest/gtest.h>
 

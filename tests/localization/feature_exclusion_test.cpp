@@ -1,4 +1,4 @@
-#include "mms/localization/feature_exclusion.hpp"
+#include "mms/localization/features/feature_exclusion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/localization/feature_extractor.hpp"
+#include "mms/localization/features/feature_extractor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mms/localization/feature_extractor.hpp"
+#include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
 #include "tests/geometry/threads.hpp"
 #include "tests/localization/box_room.hpp"

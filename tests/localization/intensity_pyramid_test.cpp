@@ -1,4 +1,4 @@
-#include "mms/localization/intensity_pyramid.hpp"
+#include "mms/localization/features/intensity_pyramid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "mms/localization/motion_compensation.hpp"
+#include "mms/localization/motion/motion_compensation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "mms/localization/feature_extractor.hpp"
+#include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
 #include "tests/localization/box_room.hpp"
 

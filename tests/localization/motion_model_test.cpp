@@ -1,4 +1,4 @@
-#include "mms/localization/motion_model.hpp"
+#include "mms/localization/motion/motion_model.hpp"
 
 #include <gtest/gtest.h>
 

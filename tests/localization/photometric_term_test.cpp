@@ -1,4 +1,4 @@
-#include "mms/localization/photometric_term.hpp"
+#include "mms/localization/photometric/photometric_term.hpp"
 
 #include <gtest/gtest.h>
 

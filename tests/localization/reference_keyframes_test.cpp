@@ -1,8 +1,8 @@
-#include "mms/localization/reference_keyframes.hpp"
+#include "mms/localization/photometric/reference_keyframes.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mms/localization/intensity_pyramid.hpp"
+#include "mms/localization/features/intensity_pyramid.hpp"
 #include "tests/localization/box_room.hpp"
 
 namespace mms {

@@ -1,4 +1,4 @@
-#include "mms/localization/registration.hpp"
+#include "mms/localization/registration/registration.hpp"
 
 #include <gtest/gtest.h>
 

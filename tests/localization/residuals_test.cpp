@@ -1,4 +1,4 @@
-#include "mms/localization/residuals.hpp"
+#include "mms/localization/registration/residuals.hpp"
 
 #include <gtest/gtest.h>
 

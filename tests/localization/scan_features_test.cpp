@@ -1,4 +1,4 @@
-#include "mms/localization/scan_features.hpp"
+#include "mms/localization/features/scan_features.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/localization/surface_map.hpp"
+#include "mms/localization/registration/surface_map.hpp"
 
 #include <gtest/gtest.h>
 

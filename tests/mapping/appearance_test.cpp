@@ -1,4 +1,4 @@
-#include "mms/mapping/appearance.hpp"
+#include "mms/mapping/tracking/appearance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/mapping/box_fit.hpp"
+#include "mms/mapping/tracking/box_fit.hpp"
 
 #include <gtest/gtest.h>
 

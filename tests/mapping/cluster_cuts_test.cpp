@@ -1,4 +1,4 @@
-#include "mms/mapping/cluster_cuts.hpp"
+#include "mms/mapping/tracking/cluster_cuts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/mapping/dynamic_map.hpp"
+#include "mms/mapping/tracking/dynamic_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "mms/mapping/floor_map.hpp"
+#include "mms/mapping/ground/floor_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "mms/mapping/floor.hpp"
-#include "mms/mapping/static_map.hpp"
+#include "mms/mapping/ground/floor.hpp"
+#include "mms/mapping/static_map/static_map.hpp"
 #include "tests/mapping/synthetic_room.hpp"
 
 namespace mms {

@@ -1,4 +1,4 @@
-#include "mms/mapping/floor.hpp"
+#include "mms/mapping/ground/floor.hpp"
 
 #include <gtest/gtest.h>
 

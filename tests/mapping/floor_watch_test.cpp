@@ -1,4 +1,4 @@
-#include "mms/mapping/floor_watch.hpp"
+#include "mms/mapping/ground/floor_tracker.hpp"
 
 #include <gtest/gtest.h>
 

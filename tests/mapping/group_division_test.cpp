@@ -1,4 +1,4 @@
-#include "mms/mapping/group_division.hpp"
+#include "mms/mapping/tracking/group_division.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/mapping/keyframe_selector.hpp"
+#include "mms/mapping/static_map/keyframe_selector.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "mms/mapping/lost_tracks.hpp"
+#include "mms/mapping/tracking/lost_tracks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 #include <vector>
 
-#include "mms/mapping/dynamic_map.hpp"
+#include "mms/mapping/tracking/dynamic_map.hpp"
 
 namespace mms {
 namespace {

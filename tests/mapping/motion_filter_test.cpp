@@ -1,4 +1,4 @@
-#include "mms/mapping/motion_filter.hpp"
+#include "mms/mapping/tracking/motion_filter.hpp"
 
 #include <gtest/gtest.h>
 

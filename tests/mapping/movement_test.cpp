@@ -1,4 +1,4 @@
-#include "mms/mapping/movement.hpp"
+#include "mms/mapping/motion_segmentation/movement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/mapping/object_smoother.hpp"
+#include "mms/mapping/tracking/object_smoother.hpp"
 
 #include <gtest/gtest.h>
 

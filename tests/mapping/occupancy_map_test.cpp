@@ -1,4 +1,4 @@
-#include "mms/mapping/occupancy_map.hpp"
+#include "mms/mapping/occupancy/occupancy_map.hpp"
 
 #include <gtest/gtest.h>
 

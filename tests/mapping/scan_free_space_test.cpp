@@ -1,4 +1,4 @@
-#include "mms/mapping/scan_free_space.hpp"
+#include "mms/mapping/free_space/scan_free_space.hpp"
 
 #include <gtest/gtest.h>
 

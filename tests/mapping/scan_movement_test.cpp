@@ -1,4 +1,4 @@
-#include "mms/mapping/scan_movement.hpp"
+#include "mms/mapping/motion_segmentation/scan_movement.hpp"
 
 #include <gtest/gtest.h>
 

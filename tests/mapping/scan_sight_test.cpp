@@ -1,4 +1,4 @@
-#include "mms/mapping/scan_sight.hpp"
+#include "mms/mapping/free_space/scan_sight.hpp"
 
 #include <gtest/gtest.h>
 

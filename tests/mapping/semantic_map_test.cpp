@@ -1,4 +1,4 @@
-#include "mms/mapping/semantic_map.hpp"
+#include "mms/mapping/static_map/semantic_map.hpp"
 
 #include <gtest/gtest.h>
 

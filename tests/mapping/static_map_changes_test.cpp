@@ -3,7 +3,7 @@
 #include <map>
 
 #include "mms/core/error.hpp"
-#include "mms/mapping/static_map.hpp"
+#include "mms/mapping/static_map/static_map.hpp"
 #include "tests/mapping/synthetic_cloud.hpp"
 
 namespace mms {

@@ -1,4 +1,4 @@
-#include "mms/mapping/static_map.hpp"
+#include "mms/mapping/static_map/static_map.hpp"
 
 #include <gtest/gtest.h>
 

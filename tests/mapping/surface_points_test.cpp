@@ -1,4 +1,4 @@
-#include "mms/mapping/surface_points.hpp"
+#include "mms/mapping/static_map/surface_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/mapping/unseen_objects.hpp"
+#include "mms/mapping/tracking/unseen_objects.hpp"
 
 #include <gtest/gtest.h>
 

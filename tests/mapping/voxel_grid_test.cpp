@@ -1,4 +1,4 @@
-#include "mms/mapping/voxel_grid.hpp"
+#include "mms/mapping/static_map/surface_voxels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <string>
 
-#include "mms/io/image_io.hpp"
-#include "mms/io/safetensors.hpp"
-#include "mms/segmentation/model.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/weights/safetensors.hpp"
 #include "mms/segmentation/network/inference.hpp"
 #include "mms/segmentation/network/solo_network.hpp"
-#include "mms/segmentation/weight_growth.hpp"
+#include "mms/segmentation/weights/model.hpp"
+#include "mms/segmentation/weights/weight_transfer.hpp"
 
 namespace mms::network {
 namespace {

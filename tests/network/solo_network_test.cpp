@@ -3,8 +3,8 @@
 #include <torch/nn/init.h>
 
 #include "mms/core/error.hpp"
-#include "mms/segmentation/tensor_shapes.hpp"
-#include "mms/segmentation/weight_growth.hpp"
+#include "mms/segmentation/weights/tensor_shapes.hpp"
+#include "mms/segmentation/weights/weight_transfer.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/network/torch_test.hpp"
 

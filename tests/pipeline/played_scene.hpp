@@ -6,7 +6,7 @@
 
 #include "mms/core/frame.hpp"
 #include "mms/pipeline/slam_system.hpp"
-#include "mms/segmentation/mask_segmenter.hpp"
+#include "mms/segmentation/segmenters/mask_segmenter.hpp"
 #include "mms/simulation/simulated_scene.hpp"
 
 namespace mms::testing {

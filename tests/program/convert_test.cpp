@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "mms/io/files.hpp"
-#include "mms/io/journal.hpp"
-#include "mms/io/ply_io.hpp"
-#include "mms/io/trajectory_io.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/journal/journal.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/program/program.hpp"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "mms/io/coco_io.hpp"
-#include "mms/io/ply_io.hpp"
-#include "mms/io/trajectory_io.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/image/coco_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/recordings.hpp"

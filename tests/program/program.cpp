@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms::testing {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/program/program.hpp"
 

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <numbers>
 
-#include "mms/io/calibration_io.hpp"
-#include "mms/io/files.hpp"
-#include "mms/io/image_io.hpp"
-#include "mms/io/trajectory_io.hpp"
+#include "mms/io/config/calibration_io.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/files.hpp"
 
 namespace mms::testing {
 namespace fs = std::filesystem;

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/recordings.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/recordings.hpp"

@@ -2,10 +2,10 @@
 
 #include <sstream>
 
-#include "mms/io/files.hpp"
-#include "mms/io/image_io.hpp"
-#include "mms/io/ply_io.hpp"
-#include "mms/io/trajectory_io.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/recordings.hpp"

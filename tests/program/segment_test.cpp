@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "mms/io/atomic_file.hpp"
-#include "mms/io/coco_io.hpp"
-#include "mms/io/files.hpp"
-#include "mms/io/image_io.hpp"
-#include "mms/io/safetensors.hpp"
+#include "mms/io/image/coco_io.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/io/weights/safetensors.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/program/program.hpp"
 

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <thread>
 
-#include "mms/io/files.hpp"
-#include "mms/server/server.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/server/http/server.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/recordings.hpp"

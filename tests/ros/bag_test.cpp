@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/io/files.hpp"
+#include "mms/io/text/files.hpp"
 #include "mms/ros/bag_reader.hpp"
 #include "mms/ros/bag_scan.hpp"
 #include "mms/ros/bag_writer.hpp"

@@ -1,10 +1,10 @@
-#include "mms/segmentation/checkpoint_import.hpp"
+#include "mms/segmentation/weights/checkpoint_import.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/segmentation/checkpoint_names.hpp"
-#include "mms/segmentation/tensor_shapes.hpp"
+#include "mms/segmentation/weights/checkpoint_names.hpp"
+#include "mms/segmentation/weights/tensor_shapes.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/segmentation/published_checkpoints.hpp"
 

@@ -1,9 +1,9 @@
-#include "mms/segmentation/config_inference.hpp"
+#include "mms/segmentation/weights/config_inference.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/segmentation/tensor_shapes.hpp"
+#include "mms/segmentation/weights/tensor_shapes.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

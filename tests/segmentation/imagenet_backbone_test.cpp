@@ -1,4 +1,4 @@
-#include "mms/segmentation/imagenet_backbone.hpp"
+#include "mms/segmentation/weights/imagenet_backbone.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mms/core/error.hpp"
-#include "mms/segmentation/tensor_shapes.hpp"
+#include "mms/segmentation/weights/tensor_shapes.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/segmentation/published_checkpoints.hpp"
 

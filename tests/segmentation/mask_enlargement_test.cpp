@@ -1,4 +1,4 @@
-#include "mms/segmentation/mask_enlargement.hpp"
+#include "mms/segmentation/solo/mask_upsampling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/segmentation/mask_logits.hpp"
+#include "mms/segmentation/solo/mask_logits.hpp"
 
 #include <gtest/gtest.h>
 

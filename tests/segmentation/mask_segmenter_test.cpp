@@ -1,11 +1,11 @@
-#include "mms/segmentation/mask_segmenter.hpp"
+#include "mms/segmentation/segmenters/mask_segmenter.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "mms/segmentation/none_segmenter.hpp"
+#include "mms/segmentation/segmenters/none_segmenter.hpp"
 
 namespace mms {
 namespace {

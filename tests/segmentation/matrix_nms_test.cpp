@@ -1,4 +1,4 @@
-#include "mms/segmentation/matrix_nms.hpp"
+#include "mms/segmentation/solo/matrix_nms.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/segmentation/model.hpp"
+#include "mms/segmentation/weights/model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/segmentation/network_segmenter.hpp"
+#include "mms/segmentation/segmenters/network_segmenter.hpp"
 
 #include <gtest/gtest.h>
 

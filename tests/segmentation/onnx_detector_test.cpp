@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/segmentation/coco_classes.hpp"
+#include "mms/segmentation/detection/coco_classes.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/segmentation/tiny_onnx.hpp"
 

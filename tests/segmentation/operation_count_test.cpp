@@ -1,4 +1,4 @@
-#include "mms/segmentation/operation_count.hpp"
+#include "mms/segmentation/weights/operation_count.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "mms/segmentation/prepared_image.hpp"
+#include "mms/segmentation/solo/prepared_image.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mms/segmentation/resize.hpp"
+#include "mms/segmentation/solo/resize.hpp"
 
 namespace mms {
 namespace {

@@ -1,4 +1,4 @@
-#include "mms/segmentation/solo_decoder.hpp"
+#include "mms/segmentation/solo/solo_decoder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "mms/segmentation/tensor_shapes.hpp"
+#include "mms/segmentation/weights/tensor_shapes.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mms/segmentation/backbone_shapes.hpp"
+#include "mms/segmentation/weights/backbone_shapes.hpp"
 
 namespace mms {
 namespace {

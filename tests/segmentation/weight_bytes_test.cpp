@@ -1,4 +1,4 @@
-#include "mms/segmentation/weight_bytes.hpp"
+#include "mms/segmentation/weights/int8_weights.hpp"
 
 #include <gtest/gtest.h>
 

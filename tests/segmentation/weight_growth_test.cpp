@@ -1,4 +1,4 @@
-#include "mms/segmentation/weight_growth.hpp"
+#include "mms/segmentation/weights/weight_transfer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/segmentation/weight_standardisation.hpp"
+#include "mms/segmentation/weights/weight_standardisation.hpp"
 
 #include <gtest/gtest.h>
 

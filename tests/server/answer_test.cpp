@@ -1,10 +1,10 @@
-#include "mms/server/answer.hpp"
+#include "mms/server/http/answer.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mms/server/downloads.hpp"
-#include "mms/server/origin.hpp"
-#include "mms/server/page.hpp"
+#include "mms/server/http/origin.hpp"
+#include "mms/server/http/page.hpp"
+#include "mms/server/scene/downloads.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/server/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "mms/server/command.hpp"
+#include "mms/server/viewer/command.hpp"
 
 #include <gtest/gtest.h>
 

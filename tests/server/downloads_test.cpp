@@ -1,4 +1,4 @@
-#include "mms/server/downloads.hpp"
+#include "mms/server/scene/downloads.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-#include "mms/server/map_chunks.hpp"
+#include "mms/server/scene/map_chunks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/server/map_feed.hpp"
+#include "mms/server/viewer/map_feed.hpp"
 
 #include <gtest/gtest.h>
 

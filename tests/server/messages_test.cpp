@@ -1,4 +1,4 @@
-#include "mms/server/messages.hpp"
+#include "mms/server/viewer/messages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "mms/server/pictures.hpp"
+#include "mms/server/scene/pictures.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "mms/io/image_io.hpp"
-#include "mms/server/picture_cache.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/server/scene/picture_cache.hpp"
 #include "tests/server/scenes.hpp"
 
 namespace mms {

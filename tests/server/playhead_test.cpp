@@ -1,4 +1,4 @@
-#include "mms/server/playhead.hpp"
+#include "mms/server/viewer/playhead.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/server/scene.hpp"
+#include "mms/server/scene/scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "mms/server/scene.hpp"
+#include "mms/server/scene/scene.hpp"
 
 namespace mms::testing {
 

@@ -1,4 +1,4 @@
-#include "mms/server/server.hpp"
+#include "mms/server/http/server.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "mms/core/error.hpp"
-#include "mms/io/ply_io.hpp"
-#include "mms/server/pictures.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/server/scene/pictures.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/server/client.hpp"
 #include "tests/server/scenes.hpp"

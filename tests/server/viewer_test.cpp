@@ -1,4 +1,4 @@
-#include "mms/server/viewer.hpp"
+#include "mms/server/viewer/viewer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/simulation/agv_model.hpp"
+#include "mms/simulation/vehicles/agv_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/simulation/color_sensor.hpp"
+#include "mms/simulation/sensors/color_sensor.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>

@@ -1,4 +1,4 @@
-#include "mms/simulation/depth_sensor.hpp"
+#include "mms/simulation/sensors/depth_sensor.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "mms/simulation/sensor_preset.hpp"
+#include "mms/simulation/sensors/sensor_preset.hpp"
 
 namespace mms {
 namespace {

@@ -1,4 +1,4 @@
-#include "mms/simulation/lidar_sensor.hpp"
+#include "mms/simulation/sensors/lidar_sensor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mms/core/hash_noise.hpp"
-#include "mms/simulation/sensor_preset.hpp"
+#include "mms/simulation/sensors/sensor_preset.hpp"
 
 namespace mms {
 namespace {

@@ -1,4 +1,4 @@
-#include "mms/simulation/mask_errors.hpp"
+#include "mms/simulation/sensors/mask_errors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/simulation/mesh_shapes.hpp"
+#include "mms/simulation/models/mesh_shapes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "mms/simulation/motion.hpp"
+#include "mms/simulation/world/motion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "mms/simulation/route.hpp"
+#include "mms/simulation/world/route.hpp"
 
 namespace mms {
 namespace {

@@ -1,4 +1,4 @@
-#include "mms/simulation/person_model.hpp"
+#include "mms/simulation/people/person_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mms/core/error.hpp"
-#include "mms/simulation/person_proportions.hpp"
+#include "mms/simulation/people/person_proportions.hpp"
 
 namespace mms {
 namespace {

@@ -1,4 +1,4 @@
-#include "mms/simulation/ray_scene.hpp"
+#include "mms/simulation/sensors/ray_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mms/core/error.hpp"
-#include "mms/simulation/mesh_shapes.hpp"
+#include "mms/simulation/models/mesh_shapes.hpp"
 
 namespace mms {
 namespace {

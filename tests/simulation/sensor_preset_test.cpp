@@ -1,4 +1,4 @@
-#include "mms/simulation/sensor_preset.hpp"
+#include "mms/simulation/sensors/sensor_preset.hpp"
 
 #include <gtest/gtest.h>
 

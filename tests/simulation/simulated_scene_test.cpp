@@ -8,7 +8,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/geometry/camera.hpp"
-#include "mms/geometry/voxel_hash_map.hpp"
+#include "mms/geometry/voxels/voxel_hash_map.hpp"
 
 namespace mms {
 namespace {

@@ -1,4 +1,4 @@
-#include "mms/training/augmentation.hpp"
+#include "mms/training/data/augmentation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mms/training/data_files.hpp"
+#include "mms/training/data/data_files.hpp"
 
 #include "mms/core/error.hpp"
 #include "tests/io/temp_folder.hpp"

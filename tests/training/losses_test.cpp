@@ -1,4 +1,4 @@
-#include "mms/training/losses.hpp"
+#include "mms/training/run/losses.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mms/training/sample.hpp"
+#include "mms/training/data/sample.hpp"
 
 namespace mms::testing {
 

@@ -1,4 +1,4 @@
-#include "mms/training/schedule.hpp"
+#include "mms/training/run/schedule.hpp"
 
 #include <gtest/gtest.h>
 

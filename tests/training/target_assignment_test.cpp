@@ -1,4 +1,4 @@
-#include "mms/training/target_assignment.hpp"
+#include "mms/training/data/target_assignment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "mms/training/training_run.hpp"
+#include "mms/training/run/training_run.hpp"
 
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
-#include "mms/io/files.hpp"
-#include "mms/io/image_io.hpp"
-#include "mms/io/safetensors.hpp"
-#include "mms/segmentation/model.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/io/weights/safetensors.hpp"
 #include "mms/segmentation/network/inference.hpp"
+#include "mms/segmentation/weights/model.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {

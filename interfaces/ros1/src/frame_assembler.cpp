@@ -1,4 +1,4 @@
-#include "frame_assembler.hpp"
+#include "interfaces/ros1/src/frame_assembler.hpp"
 
 #include <algorithm>
 #include <chrono>

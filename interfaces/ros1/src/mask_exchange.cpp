@@ -1,4 +1,4 @@
-#include "mask_exchange.hpp"
+#include "interfaces/ros1/src/mask_exchange.hpp"
 
 #include <algorithm>
 

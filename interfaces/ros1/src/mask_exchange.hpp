@@ -9,7 +9,7 @@
 
 #include "mms/core/segmentation.hpp"
 #include "mms/core/time.hpp"
-#include "mms/segmentation/segmenter.hpp"
+#include "mms/segmentation/segmenters/segmenter.hpp"
 
 namespace mms {
 

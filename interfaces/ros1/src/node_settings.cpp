@@ -1,11 +1,11 @@
-#include "node_settings.hpp"
+#include "interfaces/ros1/src/node_settings.hpp"
 
 #include <sstream>
 
 #include "mms/core/error.hpp"
-#include "mms/io/config_assignments.hpp"
-#include "mms/io/config_yaml.hpp"
-#include "mms/io/numbers.hpp"
+#include "mms/io/config/config_assignments.hpp"
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/io/text/numbers.hpp"
 
 namespace mms {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "frame_assembler.hpp"
+#include "interfaces/ros1/src/frame_assembler.hpp"
 #include "mms/pipeline/config.hpp"
 
 namespace mms {

@@ -1,4 +1,4 @@
-#include "remote_image.hpp"
+#include "interfaces/ros1/src/remote_image.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

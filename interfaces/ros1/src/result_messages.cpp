@@ -1,4 +1,4 @@
-#include "result_messages.hpp"
+#include "interfaces/ros1/src/result_messages.hpp"
 
 #include <cmath>
 #include <cstdio>

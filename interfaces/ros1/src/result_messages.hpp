@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mms/core/labeled_cloud.hpp"
-#include "mms/mapping/map_cloud.hpp"
+#include "mms/mapping/static_map/map_cloud.hpp"
 #include "mms/pipeline/frame_result.hpp"
 #include "mms/ros/display_messages.hpp"
 

@@ -1,8 +1,8 @@
-#include "result_publisher.hpp"
+#include "interfaces/ros1/src/result_publisher.hpp"
 
+#include "interfaces/ros1/src/result_messages.hpp"
+#include "interfaces/ros1/src/ros_traits.hpp"
 #include "mms/ros/transform_tree.hpp"
-#include "result_messages.hpp"
-#include "ros_traits.hpp"
 
 namespace mms {
 namespace {

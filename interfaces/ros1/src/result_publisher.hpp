@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "interfaces/ros1/src/node_settings.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/ros/display_messages.hpp"
-#include "node_settings.hpp"
 
 namespace mms {
 

@@ -3,12 +3,12 @@
 #include <exception>
 #include <memory>
 
-#include "apps/mms/network_detector.hpp"
+#include "interfaces/ros1/src/node_settings.hpp"
+#include "interfaces/ros1/src/ros_traits.hpp"
 #include "mms/core/error.hpp"
 #include "mms/ros/image_messages.hpp"
 #include "mms/ros/mask_messages.hpp"
-#include "node_settings.hpp"
-#include "ros_traits.hpp"
+#include "mms/run/segmenter/network_detector.hpp"
 
 namespace mms {
 namespace {

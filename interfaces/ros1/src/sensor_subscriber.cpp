@@ -1,10 +1,10 @@
-#include "sensor_subscriber.hpp"
+#include "interfaces/ros1/src/sensor_subscriber.hpp"
 
+#include "interfaces/ros1/src/ros_traits.hpp"
 #include "mms/core/error.hpp"
 #include "mms/ros/camera_messages.hpp"
 #include "mms/ros/cloud_messages.hpp"
 #include "mms/ros/image_messages.hpp"
-#include "ros_traits.hpp"
 
 namespace mms {
 namespace {

@@ -6,10 +6,10 @@
 #include <mutex>
 #include <string>
 
-#include "frame_assembler.hpp"
+#include "interfaces/ros1/src/frame_assembler.hpp"
+#include "interfaces/ros1/src/node_settings.hpp"
 #include "mms/ros/display_messages.hpp"
 #include "mms/ros/transform_tree.hpp"
-#include "node_settings.hpp"
 
 namespace mms {
 

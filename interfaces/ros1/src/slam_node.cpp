@@ -1,16 +1,16 @@
-#include "slam_node.hpp"
+#include "interfaces/ros1/src/slam_node.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <numeric>
 
-#include "apps/mms/network_detector.hpp"
-#include "apps/mms/result_files.hpp"
-#include "apps/mms/robot_maps.hpp"
+#include "interfaces/ros1/src/remote_image.hpp"
 #include "mms/core/error.hpp"
 #include "mms/ros/mask_messages.hpp"
-#include "mms/segmentation/none_segmenter.hpp"
-#include "remote_image.hpp"
+#include "mms/run/results/result_files.hpp"
+#include "mms/run/results/robot_maps.hpp"
+#include "mms/run/segmenter/network_detector.hpp"
+#include "mms/segmentation/segmenters/none_segmenter.hpp"
 
 namespace mms {
 namespace {

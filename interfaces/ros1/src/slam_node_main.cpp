@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "slam_node.hpp"
+#include "interfaces/ros1/src/slam_node.hpp"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "mms_slam");

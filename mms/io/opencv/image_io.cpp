@@ -1,4 +1,4 @@
-#include "mms/io/image_io.hpp"
+#include "mms/io/image/image_io.hpp"
 
 #include <algorithm>
 #include <opencv2/core.hpp>
@@ -7,9 +7,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "mms/core/error.hpp"
-#include "mms/io/atomic_file.hpp"
-#include "mms/io/files.hpp"
-#include "mms/io/image_container.hpp"
+#include "mms/io/image/image_container.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;

@@ -1,7 +1,7 @@
-#include "mms/io/image_io.hpp"
+#include "mms/io/image/image_io.hpp"
 
-#include "mms/io/files.hpp"
 #include "mms/io/stb/stb_picture.hpp"
+#include "mms/io/text/files.hpp"
 
 namespace mms {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "mms/core/error.hpp"
-#include "mms/io/image_container.hpp"
+#include "mms/io/image/image_container.hpp"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC

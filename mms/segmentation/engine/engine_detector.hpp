@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "mms/segmentation/detector.hpp"
+#include "mms/segmentation/detection/detector.hpp"
 #include "mms/segmentation/engine/network_engine.hpp"
 
 namespace mms::engine {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "mms/core/error.hpp"
-#include "mms/segmentation/engine/network_graph.hpp"
-#include "mms/segmentation/tensor_shapes.hpp"
+#include "mms/segmentation/engine/graph/network_graph.hpp"
+#include "mms/segmentation/weights/tensor_shapes.hpp"
 
 namespace mms::engine {
 namespace {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "mms/segmentation/engine/layer_reader.hpp"
+#include "mms/segmentation/engine/graph/layer_reader.hpp"
 #include "mms/segmentation/engine/plan.hpp"
 #include "mms/segmentation/engine/quantization.hpp"
-#include "mms/segmentation/model.hpp"
-#include "mms/segmentation/prepared_image.hpp"
-#include "mms/segmentation/solo_decoder.hpp"
+#include "mms/segmentation/solo/prepared_image.hpp"
+#include "mms/segmentation/solo/solo_decoder.hpp"
+#include "mms/segmentation/weights/model.hpp"
 
 namespace mms::engine {
 

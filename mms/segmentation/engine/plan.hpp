@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mms/segmentation/engine/convolution_kernel.hpp"
-#include "mms/segmentation/engine/graph.hpp"
+#include "mms/segmentation/engine/graph/graph.hpp"
 #include "mms/segmentation/engine/memory_plan.hpp"
 
 namespace mms::engine {

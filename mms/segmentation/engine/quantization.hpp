@@ -5,7 +5,7 @@
 #include <string>
 
 #include "mms/core/weights.hpp"
-#include "mms/segmentation/engine/graph.hpp"
+#include "mms/segmentation/engine/graph/graph.hpp"
 
 namespace mms::engine {
 

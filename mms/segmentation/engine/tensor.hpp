@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "mms/segmentation/engine/graph.hpp"
+#include "mms/segmentation/engine/graph/graph.hpp"
 
 namespace mms::engine {
 

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "mms/segmentation/network_config.hpp"
+#include "mms/segmentation/solo/network_config.hpp"
 
 namespace mms::network {
 

@@ -2,7 +2,7 @@
 
 #include <c10/core/InferenceMode.h>
 
-#include "mms/segmentation/prepared_image.hpp"
+#include "mms/segmentation/solo/prepared_image.hpp"
 
 namespace mms::network {
 namespace {

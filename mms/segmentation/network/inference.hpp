@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "mms/segmentation/network/solo_network.hpp"
-#include "mms/segmentation/solo_decoder.hpp"
+#include "mms/segmentation/solo/solo_decoder.hpp"
 
 namespace mms::network {
 

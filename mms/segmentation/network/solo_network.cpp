@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mms/segmentation/tensor_shapes.hpp"
+#include "mms/segmentation/weights/tensor_shapes.hpp"
 
 namespace mms::network {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mms/segmentation/detector.hpp"
-#include "mms/segmentation/model.hpp"
+#include "mms/segmentation/detection/detector.hpp"
 #include "mms/segmentation/network/solo_network.hpp"
+#include "mms/segmentation/weights/model.hpp"
 
 namespace mms::network {
 

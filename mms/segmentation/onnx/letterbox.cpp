@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mms/segmentation/resize.hpp"
+#include "mms/segmentation/solo/resize.hpp"
 
 namespace mms::onnx {
 namespace {

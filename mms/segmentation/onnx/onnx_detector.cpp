@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "mms/core/error.hpp"
-#include "mms/segmentation/coco_classes.hpp"
+#include "mms/segmentation/detection/coco_classes.hpp"
 #include "mms/segmentation/onnx/class_names.hpp"
 #include "mms/segmentation/onnx/letterbox.hpp"
 #include "mms/segmentation/onnx/model_header.hpp"

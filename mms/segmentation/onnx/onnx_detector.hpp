@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mms/segmentation/detector.hpp"
+#include "mms/segmentation/detection/detector.hpp"
 #include "mms/segmentation/onnx/onnx_config.hpp"
 
 namespace mms {

@@ -5,7 +5,7 @@
 #include "mms/segmentation/onnx/letterbox.hpp"
 #include "mms/segmentation/onnx/onnx_config.hpp"
 #include "mms/segmentation/onnx/yolo_layout.hpp"
-#include "mms/segmentation/solo_decoder.hpp"
+#include "mms/segmentation/solo/solo_decoder.hpp"
 
 namespace mms::onnx {
 

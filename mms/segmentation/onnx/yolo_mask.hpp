@@ -4,7 +4,7 @@
 
 #include "mms/segmentation/onnx/letterbox.hpp"
 #include "mms/segmentation/onnx/yolo_boxes.hpp"
-#include "mms/segmentation/solo_decoder.hpp"
+#include "mms/segmentation/solo/solo_decoder.hpp"
 
 namespace mms::onnx {
 

@@ -1,0 +1,45 @@
+#include "apps/mms/commands/commands.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <string>
+
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/pipeline/config.hpp"
+
+namespace mms {
+namespace {
+
+void add_dump(CLI::App& config) {
+  const auto file = std::make_shared<std::string>();
+  CLI::App* command = config.add_subcommand("dump", "Print every setting with its meaning");
+  command->add_option("FILE", *file, "settings to print in place of the defaults");
+  command->callback([file] {
+    SystemConfig settings;
+    if (!file->empty()) load_config(*file, settings);
+    fmt::print("{}", dump_config(settings));
+  });
+}
+
+void add_check(CLI::App& config) {
+  const auto file = std::make_shared<std::string>();
+  CLI::App* command = config.add_subcommand("check", "Check a file of settings");
+  command->add_option("FILE", *file, "the file to check")->required();
+  command->callback([file] {
+    SystemConfig settings;
+    load_config(*file, settings);
+    fmt::print("{}: valid\n", *file);
+  });
+}
+
+}  // namespace
+
+void add_config_command(CLI::App& app) {
+  CLI::App* config = app.add_subcommand("config", "Show or check settings");
+  config->require_subcommand(1);
+  add_dump(*config);
+  add_check(*config);
+}
+
+}  // namespace mms

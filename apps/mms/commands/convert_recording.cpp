@@ -1,0 +1,57 @@
+#include "apps/mms/commands/convert_recording.hpp"
+
+#include <fmt/core.h>
+
+#include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/rate_progress.hpp"
+#include "mms/core/error.hpp"
+#include "mms/dataset/open_dataset.hpp"
+#include "mms/dataset/recorder/frame_recorder.hpp"
+#include "mms/dataset/simulated/simulated_source.hpp"
+#include "mms/ros/bag_reader.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// x.bag becomes the folder x, a folder x the bag x.bag.
+fs::path other_recording(const RecordingConversion& conversion) {
+  if (!conversion.output.empty()) return conversion.output;
+  if (is_bag_name(conversion.input)) return fs::path(conversion.input).replace_extension();
+  throw DataError(conversion.input, "is converted into what?", "give -o x.bag");
+}
+
+std::unique_ptr<FrameRecorder> open_recorder(const fs::path& output, bool compressed) {
+  return is_bag_name(output) ? record_bag(output, compressed) : record_folder(output);
+}
+
+}  // namespace
+
+bool is_recording_conversion(const std::string& input, const fs::path& output) {
+  return is_bag_name(input) || is_bag_name(output) || is_simulated(input);
+}
+
+void convert_recording(const RecordingConversion& conversion) {
+  const fs::path output = other_recording(conversion);
+  const auto source =
+      open_dataset(conversion.input, {.map_truth = false, .topics = conversion.topics});
+  const auto recorder = open_recorder(output, conversion.compressed);
+  RateProgress progress("frame");
+  source->on_warning([&](const std::string& message) { progress.warn(message); });
+  const InterruptGuard interrupt;
+  int done = 0;
+  while (!InterruptGuard::requested()) {
+    const std::optional<Frame> frame = source->next();
+    if (!frame) break;
+    recorder->add(*frame);
+    progress.show(++done, static_cast<int>(source->size()));
+  }
+  progress.finish();
+  if (done == 0) throw DataError(conversion.input, "none of its frames could be read");
+  recorder->finish(source->ground_truth());
+  fmt::print("{}: {} frames, {} true poses\nplay it: mms run {}\n", output.string(), done,
+             source->ground_truth().size(), output.string());
+}
+
+}  // namespace mms

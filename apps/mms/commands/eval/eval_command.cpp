@@ -1,0 +1,32 @@
+#include "apps/mms/commands/commands.hpp"
+
+#include <fmt/core.h>
+
+#include "apps/mms/commands/eval/eval_parts.hpp"
+
+namespace mms {
+
+void add_json_flag(CLI::App& command, bool& json) {
+  command.add_flag("--json", json, "print one JSON object in place of a table");
+}
+
+void print_metrics(const std::vector<MetricValue>& values, bool json) {
+  if (json) {
+    fmt::print("{}\n", to_json(values));
+  } else {
+    fmt::print("{}", to_table(values));
+  }
+}
+
+void add_eval_command(CLI::App& app) {
+  CLI::App* eval = app.add_subcommand("eval", "Measure results against truth");
+  eval->require_subcommand(1);
+  add_eval_trajectory(*eval);
+  add_eval_drift(*eval);
+  add_eval_map(*eval);
+  add_eval_residue(*eval);
+  add_eval_segmentation(*eval);
+  add_eval_objects(*eval);
+}
+
+}  // namespace mms

@@ -1,0 +1,89 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/mms/commands/eval/eval_parts.hpp"
+#include "mms/core/error.hpp"
+#include "mms/dataset/open_dataset.hpp"
+#include "mms/evaluation/map/map_error.hpp"
+#include "mms/evaluation/map/map_residue.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+
+namespace mms {
+namespace {
+
+struct MapArguments {
+  std::string truth;  ///< PLY with labels, or the recording a residue is seen by
+  std::string map;
+  bool json = false;
+};
+
+void evaluate_cleanness(const MapArguments& arguments) {
+  const PointCloudFile truth = read_ply(arguments.truth);
+  if (truth.labels.empty() && !truth.points.empty()) {
+    throw DataError(arguments.truth, "has no property 'label'",
+                    "a truth map labels its points: 0 static, else the object's id");
+  }
+  std::vector<Eigen::Vector3f> fixed;
+  std::vector<Eigen::Vector3f> dynamic;
+  for (std::size_t i = 0; i < truth.points.size(); ++i) {
+    (truth.labels[i] == 0 ? fixed : dynamic).push_back(truth.points[i]);
+  }
+  const MapError error = evaluate_map(fixed, dynamic, read_ply(arguments.map).points);
+  if (!arguments.json) {
+    fmt::print(
+        "truth: {} static and {} dynamic points; {} dynamic ones within 5 cm of a static "
+        "one left out\n",
+        error.static_points, error.dynamic_points, error.ambiguous_points);
+  }
+  print_metrics(metric_values(error), arguments.json);
+}
+
+void evaluate_residue_of(const MapArguments& arguments) {
+  const auto source = open_dataset(arguments.truth, {.masks = {}, .load_masks = false});
+  source->on_warning(
+      [](const std::string& message) { fmt::print(stderr, "warning: {}\n", message); });
+  RoomDepth room;
+  std::optional<CameraIntrinsics> camera;
+  while (const auto frame = source->next()) {
+    if (!frame->has_depth()) {
+      throw DataError(arguments.truth, "has no depth images", "the residue is seen by a camera");
+    }
+    room.add(frame->depth);
+    camera = frame->calibration->camera;
+  }
+  if (!camera) throw DataError(arguments.truth, "has no readable frame");
+  const auto map = read_ply(arguments.map).points;
+  print_metrics(metric_values(evaluate_residue(map, room.far_mode(), *camera)), arguments.json);
+}
+
+}  // namespace
+
+void add_eval_map(CLI::App& eval) {
+  const auto arguments = std::make_shared<MapArguments>();
+  CLI::App* command = eval.add_subcommand("map", "Cleanness SA, DA, AA, HA of a static map (5 cm)");
+  command
+      ->add_option("TRUTH", arguments->truth,
+                   "PLY whose points have a label: 0 static, else the id of an object")
+      ->required();
+  command->add_option("MAP", arguments->map, "PLY in the same world frame")->required();
+  add_json_flag(*command, arguments->json);
+  command->callback([arguments] { evaluate_cleanness(*arguments); });
+}
+
+void add_eval_residue(CLI::App& eval) {
+  const auto arguments = std::make_shared<MapArguments>();
+  CLI::App* command = eval.add_subcommand(
+      "residue", "What moving things left in a map, seen by a camera that stood still");
+  command->add_option("DATA", arguments->truth, "recording of the camera that stood still")
+      ->required();
+  command->add_option("MAP", arguments->map, "PLY of its static map")->required();
+  add_json_flag(*command, arguments->json);
+  command->callback([arguments] { evaluate_residue_of(*arguments); });
+}
+
+}  // namespace mms

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <vector>
+
+#include "mms/evaluation/scores/metric_value.hpp"
+
+namespace mms {
+
+// The commands of `mms eval`, one function each. All have --json.
+void add_eval_trajectory(CLI::App& eval);
+void add_eval_drift(CLI::App& eval);
+void add_eval_map(CLI::App& eval);
+void add_eval_residue(CLI::App& eval);
+void add_eval_segmentation(CLI::App& eval);
+void add_eval_objects(CLI::App& eval);
+
+/// Adds the flag --json, which sets `json`.
+void add_json_flag(CLI::App& command, bool& json);
+
+/// A table on stdout, or one JSON object.
+void print_metrics(const std::vector<MetricValue>& values, bool json);
+
+}  // namespace mms

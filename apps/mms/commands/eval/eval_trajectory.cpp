@@ -1,0 +1,117 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/mms/commands/eval/eval_parts.hpp"
+#include "mms/core/error.hpp"
+#include "mms/evaluation/trajectory/drift.hpp"
+#include "mms/evaluation/trajectory/trajectory_error.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+
+namespace mms {
+namespace {
+
+struct TrajectoryArguments {
+  std::string reference;
+  std::string estimate;
+  double max_difference = 0.02;  ///< [s]
+  std::optional<double> rpe_delta;
+  std::string rpe_unit = "s";
+  bool json = false;
+};
+
+const std::map<std::string, DeltaUnit> kUnits = {
+    {"s", DeltaUnit::kSeconds}, {"m", DeltaUnit::kMeters}, {"frames", DeltaUnit::kFrames}};
+
+std::string unit_name(DeltaUnit unit) {
+  for (const auto& [name, value] : kUnits) {
+    if (value == unit) return name;
+  }
+  return "";
+}
+
+Matching matching_of(const TrajectoryArguments& arguments) {
+  const bool by_index = is_kitti_trajectory(arguments.reference);
+  if (by_index != is_kitti_trajectory(arguments.estimate)) {
+    throw DataError(arguments.estimate,
+                    "is of another form than " + arguments.reference +
+                        ": one has stamps (TUM, 8 numbers a line), the other has none (KITTI, 12)",
+                    "mms run writes both forms: trajectory.tum and trajectory_kitti.txt");
+  }
+  return by_index ? Matching::kByIndex : Matching::kByStamp;
+}
+
+TrajectoryErrorOptions options_of(const TrajectoryArguments& arguments) {
+  TrajectoryErrorOptions options;
+  options.matching = matching_of(arguments);
+  options.max_difference =
+      std::chrono::round<Duration>(std::chrono::duration<double>(arguments.max_difference));
+  if (arguments.rpe_delta) {
+    options.rpe_delta = {*arguments.rpe_delta, kUnits.at(arguments.rpe_unit)};
+  }
+  return options;
+}
+
+void evaluate(const TrajectoryArguments& arguments) {
+  const TrajectoryErrorOptions options = options_of(arguments);
+  const TrajectoryError error = evaluate_trajectory(read_trajectory(arguments.reference),
+                                                    read_trajectory(arguments.estimate), options);
+  if (!arguments.json) {
+    const RelativeDelta delta = rpe_delta(options);
+    const std::string how = options.matching == Matching::kByIndex
+                                ? "frame by frame"
+                                : fmt::format("within {} s", arguments.max_difference);
+    fmt::print("matched {} of {} poses {}, SE(3) aligned; RPE over {} pairs {} {} apart\n",
+               error.matched, error.poses, how, error.rpe.pairs, delta.value,
+               unit_name(delta.unit));
+  }
+  print_metrics(metric_values(error), arguments.json);
+}
+
+void add_options(CLI::App& command, TrajectoryArguments& arguments) {
+  command
+      .add_option(
+          "--max-difference", arguments.max_difference,
+          "largest difference of matched stamps [s]; KITTI files are matched frame by frame")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str();
+  CLI::Option* delta = command
+                           .add_option("--rpe-delta", arguments.rpe_delta,
+                                       "how far apart the poses of an RPE pair are (default: 1 s; "
+                                       "KITTI files: 10 m of path)")
+                           ->check(CLI::Range(1e-9, 1e9));
+  command.add_option("--rpe-unit", arguments.rpe_unit, "unit of --rpe-delta")
+      ->check(CLI::IsMember({"s", "m", "frames"}))
+      ->needs(delta);
+}
+
+}  // namespace
+
+void add_eval_trajectory(CLI::App& eval) {
+  const auto arguments = std::make_shared<TrajectoryArguments>();
+  CLI::App* command = eval.add_subcommand("trajectory", "ATE and RPE against a reference");
+  command->add_option("REFERENCE", arguments->reference, "truth, a TUM or KITTI file")->required();
+  command->add_option("ESTIMATE", arguments->estimate, "trajectory, a file of the same form")
+      ->required();
+  add_options(*command, *arguments);
+  add_json_flag(*command, arguments->json);
+  command->callback([arguments] { evaluate(*arguments); });
+}
+
+void add_eval_drift(CLI::App& eval) {
+  const auto arguments = std::make_shared<TrajectoryArguments>();
+  CLI::App* command = eval.add_subcommand("drift", "ATDE and MTDE of a sensor that stood still");
+  command->add_option("ESTIMATE", arguments->estimate, "trajectory, a TUM or KITTI file")
+      ->required();
+  add_json_flag(*command, arguments->json);
+  command->callback([arguments] {
+    print_metrics(metric_values(evaluate_drift(read_trajectory(arguments->estimate))),
+                  arguments->json);
+  });
+}
+
+}  // namespace mms

@@ -1,0 +1,87 @@
+#include "apps/mms/commands/commands.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "apps/mms/commands/topic_options.hpp"
+#include "mms/dataset/open_dataset.hpp"
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/io/weights/safetensors.hpp"
+#include "mms/segmentation/solo/prepared_image.hpp"
+#include "mms/segmentation/weights/model.hpp"
+#include "mms/segmentation/weights/operation_count.hpp"
+
+namespace mms {
+namespace {
+
+struct InfoOptions {
+  std::string data;
+  std::string masks;
+  BagTopicNames topics;
+};
+
+/// Reads one frame of a freshly opened recording. @returns what is wrong with it, or nothing.
+std::string fault_of_frame(const InfoOptions& options, std::size_t index) {
+  const auto source =
+      open_dataset(options.data, {.masks = options.masks, .topics = options.topics});
+  std::vector<std::string> warnings;
+  source->on_warning([&](const std::string& message) { warnings.push_back(message); });
+  warnings.clear();  // those of opening, which print_info shows
+  source->skip(index);
+  const auto frame = source->next();
+  const bool read = frame && frame->index == static_cast<std::int64_t>(index);
+  return read || warnings.empty() ? "" : warnings.front();
+}
+
+void print_frame_checks(const InfoOptions& options, std::size_t size) {
+  const std::set<std::size_t> checked = {0, size / 2, size - 1};
+  for (const std::size_t index : checked) {
+    const std::string fault = fault_of_frame(options, index);
+    fmt::print("frame {}: {}\n", index, fault.empty() ? "readable" : fault);
+  }
+}
+
+/// What a weights file is, and what it costs for a camera's usual picture.
+void print_model(const std::string& path) {
+  SegmentationModel model = unpack_model(read_safetensors(path), path);
+  const NetworkConfig& network = model.network;
+  std::string names;
+  for (const std::string& name : model.classes) names += (names.empty() ? "" : ", ") + name;
+  const PreparedImage input = prepare_image(Image<Rgb>(640, 480), network);
+  fmt::print("segmentation network of the classes {}\n", names);
+  fmt::print("{:.2f} million parameters\n",
+             1e-6 * static_cast<double>(network_parameters(network)));
+  fmt::print("{:.2f} GFLOP for a picture of 640x480 (input {}x{})\n",
+             1e-9 * static_cast<double>(network_operations(network, input.width, input.height)),
+             input.width, input.height);
+  fmt::print("{}", dump_config(network));
+}
+
+void print_info(const InfoOptions& options) {
+  if (options.data.ends_with(".safetensors")) return print_model(options.data);
+  const auto source =
+      open_dataset(options.data, {.masks = options.masks, .topics = options.topics});
+  for (const std::string& line : source->describe()) fmt::print("{}\n", line);
+  source->on_warning([](const std::string& message) { fmt::print("warning: {}\n", message); });
+  if (source->size() > 0) print_frame_checks(options, source->size());
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = app.add_subcommand("info", "Show what a recording or a weights file holds");
+  command
+      ->add_option("DATA", options->data,
+                   "folder of the recording, x.bag, sim:SCENE, or weights.safetensors")
+      ->required();
+  command->add_option("--masks", options->masks, "folder of label images named like the frames");
+  add_topic_options(*command, options->topics);
+  command->callback([options] { print_info(*options); });
+}
+
+}  // namespace mms

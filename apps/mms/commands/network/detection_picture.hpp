@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mms/core/image.hpp"
+#include "mms/segmentation/solo/solo_decoder.hpp"
+
+namespace mms {
+
+/// The picture with each object tinted and outlined (people red, vehicles green, all else blue),
+/// and its class and score above it.
+Image<Rgb> draw_detections(const Image<Rgb>& image, const std::vector<Detection>& detections,
+                           const std::vector<std::string>& classes);
+
+/// Label image: 0 where nothing is, else 1 + class id of the objects that count as dynamic.
+Image<std::uint8_t> label_image(int width, int height, const std::vector<Detection>& detections,
+                                const std::vector<std::string>& classes);
+
+}  // namespace mms

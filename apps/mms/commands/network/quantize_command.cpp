@@ -1,0 +1,156 @@
+#include "apps/mms/commands/commands.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "apps/mms/commands/network/picture_source.hpp"
+#include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/rate_progress.hpp"
+#include "mms/core/error.hpp"
+#include "mms/io/weights/safetensors.hpp"
+#include "mms/run/segmenter/network_detector.hpp"
+#include "mms/segmentation/engine/calibration/calibration.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct QuantizeArguments {
+  fs::path weights;
+  fs::path output;
+  std::vector<std::string> data;
+  std::vector<std::string> float_layers;
+  std::size_t images = 300;
+  int long_side = 0;
+  std::size_t judged = 8;
+  bool bytes = false;
+  bool sensitivity = false;
+};
+
+void stop_if_asked() {
+  if (InterruptGuard::requested()) {
+    throw Error("mms quantize", "was interrupted", "nothing was written");
+  }
+}
+
+/// So many pictures of each source, spread over the whole of it.
+std::vector<PreparedImage> pictures_of(const QuantizeArguments& arguments,
+                                       const NetworkConfig& config) {
+  RateProgress progress("picture");
+  std::vector<PreparedImage> pictures;
+  for (const std::string& where : arguments.data) {
+    const auto source =
+        open_pictures(where, [&](const std::string& message) { progress.warn(message); });
+    const std::size_t wanted = std::max<std::size_t>(1, arguments.images / arguments.data.size());
+    const std::size_t every = std::max<std::size_t>(1, source->size() / wanted);
+    for (std::size_t i = 0; const std::optional<Picture> picture = source->next(); ++i) {
+      stop_if_asked();
+      if (i % every == 0) pictures.push_back(prepare_image(picture->image, config));
+      if (pictures.size() >= arguments.images) break;
+    }
+  }
+  progress.finish();
+  if (pictures.empty()) {
+    throw DataError("--data", "has no picture that could be read", "the warnings above say why");
+  }
+  return pictures;
+}
+
+/// Pictures spread over all of them, to judge by.
+std::vector<PreparedImage> some_of(const std::vector<PreparedImage>& pictures, std::size_t count) {
+  std::vector<PreparedImage> some;
+  const std::size_t every = std::max<std::size_t>(1, pictures.size() / count);
+  for (std::size_t i = 0; i < pictures.size() && some.size() < count; i += every) {
+    some.push_back(pictures[i]);
+  }
+  return some;
+}
+
+engine::Quantization calibrated(const SegmentationModel& model, const QuantizeArguments& arguments,
+                                const std::vector<PreparedImage>& pictures) {
+  engine::Calibration calibration(model, arguments.weights.string());
+  RateProgress progress("picture");
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    stop_if_asked();
+    calibration.add(pictures[i]);
+    progress.show(static_cast<int>(i + 1), static_cast<int>(pictures.size()));
+  }
+  progress.finish();
+  return calibration.quantization({arguments.float_layers.begin(), arguments.float_layers.end()});
+}
+
+void print_sensitivities(const SegmentationModel& model, const QuantizeArguments& arguments,
+                         const engine::Quantization& quantization,
+                         const std::vector<PreparedImage>& pictures) {
+  RateProgress progress("layer");
+  const auto layers = engine::layer_sensitivities(model, arguments.weights.string(), quantization,
+                                                  pictures, [&](int done, int total) {
+                                                    progress.show(done, total);
+                                                    stop_if_asked();
+                                                    return true;
+                                                  });
+  progress.finish();
+  fmt::print("change of the outputs when one layer alone is in bytes:\n");
+  for (const auto& [layer, error] : layers) fmt::print("{:6.2f} %  {}\n", 100.0 * error, layer);
+}
+
+void quantize(const QuantizeArguments& arguments) {
+  const InterruptGuard interrupt;
+  const std::string where = arguments.weights.string();
+  SegmentationModel model = unpack_model(read_safetensors(arguments.weights), where);
+  if (arguments.long_side > 0) resize_input(model.network, arguments.long_side);
+  const std::vector<PreparedImage> pictures = pictures_of(arguments, model.network);
+  const engine::Quantization quantization = calibrated(model, arguments, pictures);
+  const std::vector<PreparedImage> judged = some_of(pictures, arguments.judged);
+  if (arguments.sensitivity) print_sensitivities(model, arguments, quantization, judged);
+  const double error = engine::output_error(model, where, quantization, judged);
+  if (arguments.bytes) model.weights = engine::weights_in_bytes(model, quantization);
+  engine::pack_quantization(quantization, model.weights);
+  const TensorType type = arguments.bytes ? TensorType::kInt8 : TensorType::kFloat16;
+  write_safetensors(arguments.output, pack_model(std::move(model)), type);
+  fmt::print("{}: calibrated on {} pictures, the outputs change by {:.1f} %\n",
+             arguments.output.string(), pictures.size(), 100.0 * error);
+}
+
+}  // namespace
+
+void add_quantize_command(CLI::App& app) {
+  const auto arguments = std::make_shared<QuantizeArguments>();
+  CLI::App* command = app.add_subcommand(
+      "quantize", "Calibrate a network to compute in bytes (int8), several times faster");
+  command->add_option("WEIGHTS", arguments->weights, "weights file of mms train or mms import")
+      ->required();
+  command
+      ->add_option("--data", arguments->data,
+                   "pictures as it will see them: a picture, a folder, or a recording; several "
+                   "with commas or one after the other")
+      ->required()
+      ->delimiter(',');
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "weights file to write: the same weights in float16, with the ranges for int8")
+      ->required();
+  command->add_option("--images", arguments->images, "pictures to look at")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100000}))
+      ->capture_default_str();
+  command
+      ->add_option("--long-side", arguments->long_side,
+                   "input of the written network [px]; without it that of the training")
+      ->check(CLI::Range(96, 4096));
+  command
+      ->add_option("--float-layers", arguments->float_layers,
+                   "convolutions to leave in float32, with commas")
+      ->delimiter(',');
+  command->add_flag("--bytes", arguments->bytes,
+                    "write the weights in bytes as well: half the file, the same results in int8");
+  command->add_flag("--sensitivity", arguments->sensitivity,
+                    "say what each convolution alone costs in accuracy");
+  command->callback([arguments] { quantize(*arguments); });
+}
+
+}  // namespace mms

@@ -1,0 +1,201 @@
+#include "apps/mms/commands/commands.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "apps/mms/commands/network/detection_picture.hpp"
+#include "apps/mms/commands/network/picture_source.hpp"
+#include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/rate_progress.hpp"
+#include "mms/core/error.hpp"
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/io/image/coco_io.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/pipeline/config.hpp"
+#include "mms/run/record/peak_memory.hpp"
+#include "mms/run/segmenter/network_detector.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestCount = 1'000'000'000;  // of pictures
+
+struct SegmentArguments {
+  std::string data;
+  fs::path output;
+  fs::path config;
+  fs::path weights;
+  fs::path annotations;
+  std::string split;
+  std::size_t limit = kLargestCount;
+  int threads = 0;
+  bool json_only = false;
+};
+
+SegmentationConfig settings_of(const SegmentArguments& arguments) {
+  SystemConfig config;
+  if (!arguments.config.empty()) load_config(arguments.config, config);
+  if (!arguments.weights.empty()) config.segmentation.weights = arguments.weights.string();
+  config.segmentation.threads = arguments.threads;
+  return config.segmentation;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (fs::is_directory(folder)) return;
+  throw FileError(folder.string(), "cannot be made a folder: " + error.message(),
+                  "choose another with -o");
+}
+
+/// Writes what was found: masks, overlays and results picture by picture.
+class SegmentOutputs {
+ public:
+  SegmentOutputs(const fs::path& folder, std::vector<std::string> classes, double least_score,
+                 bool json_only)
+      : folder_(folder),
+        classes_(std::move(classes)),
+        least_score_(least_score),
+        json_only_(json_only) {
+    make_folder(folder_);
+    results_.emplace(folder_ / "results.json");
+    if (!json_only_) make_folder(folder_ / "masks");
+    if (!json_only_) make_folder(folder_ / "overlays");
+    for (std::size_t i = 0; i < classes_.size(); ++i) {
+      found_.categories.push_back({static_cast<int>(i) + 1, classes_[i]});
+    }
+  }
+
+  void add(const Picture& picture, std::vector<Detection> detections) {
+    const int width = picture.image.width();
+    const int height = picture.image.height();
+    found_.images.push_back(
+        {.id = picture.id, .file_name = picture.name, .width = width, .height = height});
+    for (const Detection& d : detections) {
+      results_->add(
+          {picture.id, d.category + 1, d.score, encode_rle(d.mask, d.x, d.y, width, height)});
+    }
+    std::erase_if(detections, [&](const Detection& d) { return d.score < least_score_; });
+    objects_ += detections.size();
+    if (json_only_) return;
+    write_png(folder_ / "masks" / (picture.stem + ".png"),
+              label_image(width, height, detections, classes_));
+    write_file(folder_ / "overlays" / (picture.stem + ".jpg"),
+               encode_jpeg(draw_detections(picture.image, detections, classes_)));
+  }
+
+  void finish() {
+    results_->finish();
+    write_coco(folder_ / "images.json", found_);
+  }
+
+  std::size_t pictures() const { return found_.images.size(); }
+  std::size_t objects() const { return objects_; }
+
+ private:
+  fs::path folder_;
+  std::vector<std::string> classes_;
+  double least_score_;
+  bool json_only_;
+  CocoDataset found_;                         ///< images and categories
+  std::optional<CocoResultsWriter> results_;  ///< opened once there is the folder
+  std::size_t objects_ = 0;
+};
+
+/// The first picture prepares the network for its size, and is told apart.
+class PictureTimes {
+ public:
+  void add(std::chrono::duration<double, std::milli> time) {
+    (pictures_ == 0 ? first_ : rest_) += time.count();
+    ++pictures_;
+  }
+
+  std::string text() const {
+    if (pictures_ < 2) return fmt::format("{:.1f} ms a picture", first_);
+    return fmt::format("{:.1f} ms a picture (the first {:.0f})", rest_ / (pictures_ - 1), first_);
+  }
+
+ private:
+  int pictures_ = 0;
+  double first_ = 0.0;
+  double rest_ = 0.0;
+};
+
+std::unique_ptr<PictureSource> open_source(const SegmentArguments& arguments,
+                                           const PictureWarning& warning) {
+  if (arguments.annotations.empty()) return open_pictures(arguments.data, warning);
+  return open_annotated(arguments.annotations, arguments.data, arguments.split, warning);
+}
+
+void segment(const SegmentArguments& arguments) {
+  const SegmentationConfig config = settings_of(arguments);
+  RateProgress progress("picture");
+  const auto source =
+      open_source(arguments, [&](const std::string& message) { progress.warn(message); });
+  const std::unique_ptr<Detector> detector = make_detector(config);
+  SegmentOutputs outputs(arguments.output, detector->classes(), config.objects.score,
+                         arguments.json_only);
+  const InterruptGuard interrupt;
+  const auto total = static_cast<int>(std::min(source->size(), arguments.limit));
+  PictureTimes times;
+  while (outputs.pictures() < arguments.limit && !InterruptGuard::requested()) {
+    const std::optional<Picture> picture = source->next();
+    if (!picture) break;
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<Detection> detections = detector->detect(picture->image);
+    times.add(std::chrono::steady_clock::now() - start);
+    outputs.add(*picture, std::move(detections));
+    progress.show(static_cast<int>(outputs.pictures()), total);
+  }
+  progress.finish();
+  if (outputs.pictures() == 0) {
+    throw DataError(arguments.data, "none of its pictures could be read",
+                    "the warnings above say why");
+  }
+  outputs.finish();
+  fmt::print("{}: {} pictures, {} objects of score {} or more, {}, {:.0f} MiB\n",
+             arguments.output.string(), outputs.pictures(), outputs.objects(), config.objects.score,
+             times.text(), peak_memory_mb());
+}
+
+}  // namespace
+
+void add_segment_command(CLI::App& app) {
+  const auto arguments = std::make_shared<SegmentArguments>();
+  CLI::App* command = app.add_subcommand("segment", "Find people and vehicles in pictures");
+  command
+      ->add_option("DATA", arguments->data,
+                   "a picture, a folder of pictures, or a recording as of mms run")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "folder for masks/, overlays/, results.json (COCO) and images.json")
+      ->required();
+  command->add_option("-c,--config", arguments->config,
+                      "settings, the group 'segmentation' of them");
+  command->add_option("--weights", arguments->weights,
+                      "network to use: our safetensors, or an ONNX model with YOLO-seg's outputs");
+  CLI::Option* annotations =
+      command->add_option("--annotations", arguments->annotations,
+                          "COCO file: segment its images, found below DATA, under their ids");
+  command->add_option("--split", arguments->split, "only those images of this split")
+      ->needs(annotations);
+  command->add_option("--limit", arguments->limit, "at most N pictures")
+      ->check(CLI::Range(std::size_t{1}, kLargestCount))
+      ->default_str("all");
+  command->add_option("--threads", arguments->threads, "of the network (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  command->add_flag("--json-only", arguments->json_only, "write no masks and overlays");
+  command->callback([arguments] { segment(*arguments); });
+}
+
+}  // namespace mms

@@ -1,0 +1,59 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/mms/commands/commands.hpp"
+#include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/thread_limit.hpp"
+#include "apps/mms/console/training_progress.hpp"
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/training/run/training_run.hpp"
+
+namespace mms {
+namespace {
+
+struct TrainArguments {
+  std::filesystem::path config;
+  std::filesystem::path output;
+  int threads = 0;  ///< 0: one a core
+};
+
+void train(const TrainArguments& arguments) {
+  TrainingConfig config;
+  load_config(arguments.config, config);
+  const ThreadLimit limit(arguments.threads);
+  const InterruptGuard interrupt;
+  TrainingProgress progress;
+  TrainingRun run(config, arguments.output, arguments.threads);
+  run.on_event([&](const TrainingEvent& event) {
+    progress.show(event);
+    return !InterruptGuard::requested();
+  });
+  const bool finished = run.train();
+  progress.finish();
+  fmt::print("{}\n", finished ? "weights: " + run.weights_path().string() +
+                                    "\nreport:  " + run.report_path().string()
+                              : "interrupted; the same command goes on from the last checkpoint");
+}
+
+}  // namespace
+
+void add_train_command(CLI::App& app) {
+  const auto arguments = std::make_shared<TrainArguments>();
+  CLI::App* command = app.add_subcommand("train", "Train the segmentation network");
+  command
+      ->add_option("-c,--config", arguments->config,
+                   "architecture, data and schedule (config/train/*.yaml are examples)")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "folder for weights, checkpoints and report; a training that is there goes on")
+      ->required();
+  command->add_option("--threads", arguments->threads, "threads to use (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  command->callback([arguments] { train(*arguments); });
+}
+
+}  // namespace mms

@@ -1,0 +1,169 @@
+#include "apps/mms/commands/commands.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/mms/console/progress.hpp"
+#include "apps/mms/paper/paper_tables.hpp"
+#include "apps/mms/paper/reproduction.hpp"
+#include "mms/core/error.hpp"
+#include "mms/evaluation/trajectory/truth_frame.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/run/results/result_folder.hpp"
+#include "mms/run/slam_run.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kMaxCount = 1'000'000'000;  // of frames
+
+struct ReproduceOptions {
+  std::string still = "sim:still_walker";
+  std::string ride = "sim:warehouse_loop";
+  fs::path output;
+  fs::path trainings;
+  std::string segmenter = "network";
+  std::size_t frames = std::numeric_limits<std::size_t>::max();
+  int threads = 0;
+};
+
+/// One row of the paper's comparison.
+struct Method {
+  std::string name;
+  std::string folder;
+  std::string fusion;
+};
+const Method kWithout{"without semantics", "none", "none"};
+const Method kVision{"vision-based", "vision", "vision"};
+const Method kMultimodal{"multi-modal", "multimodal", "multimodal"};
+
+/// Plays the recordings and keeps what the report needs of every run; its files go to a folder of
+/// their own.
+class Reproducer {
+ public:
+  Reproducer(const ReproduceOptions& options, const fs::path& folder)
+      : options_(options), folder_(folder) {
+    found_.title = "MMS-SLAM: the paper's tables and figures";
+  }
+
+  Reproduction run() {
+    if (!options_.trainings.empty()) {
+      found_.tables.push_back(segmentation_table(options_.trainings));
+    }
+    compare_drifts();
+    compare_localization();
+    return std::move(found_);
+  }
+
+ private:
+  /// @return the run's numbers
+  PaperRun play(const std::string& data, const std::string& place, const Method& method) {
+    RunOptions words;
+    words.data = data;
+    words.segmenter = method.fusion == "none" ? "none" : options_.segmenter;
+    words.fusion = method.fusion;
+    words.frames = options_.frames;
+    words.threads = options_.threads;
+    fmt::print("{}, {}\n", data, method.name);
+    const fs::path folder = folder_ / (place + "_" + method.folder);
+    fs::create_directories(folder);
+    SlamRun run(words);
+    Progress progress;
+    run.play(folder, progress);
+    run.write(folder);
+    if (run.interrupted()) throw Error(data, "was interrupted", "the tables need all runs");
+    last_trajectory_ = run.log().trajectory();
+    last_truth_ = run.log().truth();
+    return {method.name, run.log().metrics()};
+  }
+
+  void compare_drifts() {
+    std::vector<PaperRun> runs;
+    for (const Method& method : {kWithout, kVision, kMultimodal}) {
+      runs.push_back(play(options_.still, "still", method));
+      if (!runs.back().metrics.drift) runs.back().metrics.drift = evaluate_drift(last_trajectory_);
+    }
+    found_.tables.push_back(drift_table(options_.still, runs));
+    found_.tables.push_back(stage_table(runs));
+  }
+
+  void compare_localization() {
+    std::vector<PaperRun> runs;
+    for (const Method& method : {kWithout, kMultimodal}) {
+      runs.push_back(play(options_.ride, "ride", method));
+      add_path(method.name);
+    }
+    found_.tables.push_back(localization_table(options_.ride, runs));
+    add_picture("The static map", "map.png");
+    add_picture("The semantic map: people red, vehicles green", "objects.png");
+  }
+
+  /// Adds the last run's path in the frame of the truth, before the first the truth itself.
+  void add_path(const std::string& name) {
+    const auto T = align_truth(last_truth_, last_trajectory_);
+    if (!T) return;
+    if (found_.paths.empty()) found_.paths.push_back({"truth", last_truth_});
+    const Transform<World, World> T_truth_map(T->inverse());
+    for (StampedPose& pose : last_trajectory_) {
+      pose.T_world_sensor = T_truth_map * pose.T_world_sensor;
+    }
+    found_.paths.push_back({name, last_trajectory_});
+  }
+
+  void add_picture(const std::string& title, const std::string& file) {
+    const fs::path path = folder_ / "ride_multimodal" / "pictures" / file;
+    if (fs::exists(path)) found_.pictures.push_back({title, read_color(path)});
+  }
+
+  const ReproduceOptions& options_;
+  fs::path folder_;
+  Reproduction found_;
+  Trajectory last_trajectory_;
+  Trajectory last_truth_;
+};
+
+void reproduce(const ReproduceOptions& options) {
+  const ResultFolder folder(options.output, "reproduction");
+  const Reproduction found = Reproducer(options, folder.path()).run();
+  write_file(folder.path() / "report.html", reproduction_html(found));
+  write_file(folder.path() / "reproduction.json", reproduction_json(found));
+  folder.make_latest();
+  for (const PlainTable& table : found.tables) fmt::print("\n{}", text_of(table));
+  fmt::print("\nreport: {}\n", (folder.path() / "report.html").string());
+}
+
+}  // namespace
+
+void add_reproduce_command(CLI::App& app) {
+  const auto options = std::make_shared<ReproduceOptions>();
+  CLI::App* command = app.add_subcommand(
+      "reproduce", "The paper's tables and figures, in one report, from a few runs");
+  command
+      ->add_option("DATA", options->still,
+                   "recording of a sensor that stands still, for the table of drifts")
+      ->capture_default_str();
+  command->add_option("--ride", options->ride, "recording with truth, for the localisation figure")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output,
+                      "folder for the results (default: results/<time>_reproduction)");
+  command->add_option("--trainings", options->trainings,
+                      "folder of benchmarks/table1.sh, for the table of networks");
+  command->add_option("--segmenter", options->segmenter, "where masks come from: network or masks")
+      ->check(CLI::IsMember({"network", "masks"}))
+      ->capture_default_str();
+  command->add_option("--frames", options->frames, "of every recording, at most")
+      ->check(CLI::Range(1, kMaxCount))
+      ->default_str("all");
+  command->add_option("--threads", options->threads, "threads to use (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  command->callback([options] { reproduce(*options); });
+}
+
+}  // namespace mms

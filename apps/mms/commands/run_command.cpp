@@ -1,0 +1,140 @@
+#include "apps/mms/commands/commands.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/mms/commands/topic_options.hpp"
+#include "apps/mms/console/progress.hpp"
+#include "apps/mms/console/viewing.hpp"
+#include "mms/io/text/numbers.hpp"
+#include "mms/run/record/run_options.hpp"
+#include "mms/run/results/result_folder.hpp"
+#include "mms/run/slam_run.hpp"
+
+namespace mms {
+namespace {
+
+constexpr int kMaxCount = 1'000'000'000;  // of frames
+
+/// The table a run ends with, and where its files are, on stdout.
+void print_summary(const std::filesystem::path& folder, const RunLog& log) {
+  fmt::print("{}", to_table(metric_values(log.metrics())));
+  const std::int64_t lost = log.metrics().status[static_cast<std::size_t>(Status::kLost)];
+  if (lost > 0) {
+    fmt::print("lost in {} of {} frames, whose poses are predictions; the report shows when\n",
+               lost, log.frames().size());
+  }
+  fmt::print("report: {}\nmap:    {}\n", (folder / "report.html").string(),
+             (folder / "static_map.ply").string());
+}
+
+/// Lets viewers know where the files are. Where a person is at the terminal, goes on to show the
+/// run until Ctrl-C; a script goes on at once.
+void keep_showing(const SlamRun& run, const std::filesystem::path& folder) {
+  run.view()->end(folder, run.log());
+  if (run.interrupted()) return;
+  if (isatty(STDIN_FILENO) == 0) {
+    fmt::print(stderr, "the viewer ends with the run; mms view {} shows it again\n",
+               folder.string());
+    return;
+  }
+  fmt::print(stderr, "the viewer stays at {} until Ctrl-C\n", run.view()->server().url());
+  wait_for_interrupt();
+}
+
+void play(SlamRun& run, const std::filesystem::path& folder) {
+  Progress progress;
+  run.play(folder, progress);
+}
+
+void run(const RunOptions& options) {
+  SlamRun run(options);
+  if (run.view() != nullptr) announce(run.view()->server(), *options.view);
+  const ResultFolder folder(options.output, options.data);
+  play(run, folder.path());
+  run.write(folder.path());
+  folder.make_latest();
+  print_summary(folder.path(), run.log());
+  if (run.view() != nullptr) keep_showing(run, folder.path());
+}
+
+/// What `--view` has after it is a port, or DATA where that is not given elsewhere.
+ViewOptions view_of(const CLI::App& command, const std::string& word, ViewOptions place,
+                    RunOptions& options) {
+  if (word.empty()) return place;
+  const std::optional<std::int64_t> port = parse_integer(word);
+  if (!port && command.count("DATA") == 0) {
+    options.data = word;
+    return place;
+  }
+  place.port = checked_port("--view", word);
+  return place;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Localise a recording and map its surroundings");
+  command
+      ->add_option("DATA", options->data,
+                   "recording (folder or .bag), or a simulation: "
+                   "sim:warehouse_loop[?seed=N&frames=N]")
+      ->capture_default_str();
+  command->add_option("-c,--config", options->config, "settings (mms config dump prints them all)");
+  command->add_option("-o,--output", options->output,
+                      "folder for the results (default: results/<time>_<name>)");
+  command
+      ->add_option("--segmenter", options->segmenter,
+                   "where masks of people and vehicles come from: a network, the recording's "
+                   "masks/ (or --masks), or nowhere")
+      ->check(CLI::IsMember({"network", "masks", "none"}))
+      ->default_str("network, or masks with --masks");
+  command->add_option("--weights", options->weights,
+                      "network to use in place of the settings': a safetensors file of ours, or an "
+                      "ONNX model with YOLO-seg's outputs");
+  command->add_option("--masks", options->masks, "folder of label images named like the frames");
+  command
+      ->add_option("--fusion", options->fusion,
+                   "what makes a point dynamic (default: as the settings say, multimodal)")
+      ->check(CLI::IsMember({"multimodal", "vision", "none"}));
+  command->add_option("--frames", options->frames, "process at most N frames")
+      ->check(CLI::Range(1, kMaxCount))
+      ->default_str("all");
+  command->add_option("--start", options->start, "pass over the first K frames")
+      ->check(CLI::Range(0, kMaxCount))
+      ->capture_default_str();
+  command->add_flag("--realtime", options->realtime,
+                    "play at the recording's pace and drop frames that come too fast");
+  command
+      ->add_option("--threads", options->threads,
+                   "threads to use (default: one a core); the results are the same for any number")
+      ->check(CLI::Range(1, 256));
+  command->add_flag("--keep-journal", options->keep_journal,
+                    "leave journal.bin, from which mms convert recovers a run that was killed, in "
+                    "the folder of a run that came to its end");
+  add_topic_options(*command, options->topics);
+  const auto view = std::make_shared<std::string>();
+  const auto place = std::make_shared<ViewOptions>();
+  command
+      ->add_option("--view", *view,
+                   "show the run in a browser while it goes on, at this port (8080)")
+      ->expected(0, 1)
+      ->type_name("[PORT]");
+  add_bind_option(*command, *place);
+  command->callback([=] {
+    if (command->count("--view") > 0) options->view = view_of(*command, *view, *place, *options);
+    if (options->segmenter.empty())
+      options->segmenter = options->masks.empty() ? "network" : "masks";
+    if (!options->weights.empty() && options->segmenter != "network") {
+      throw CLI::ValidationError(
+          "--weights", "is for masks of the network, but they come from " + options->segmenter);
+    }
+    run(*options);
+  });
+}
+
+}  // namespace mms

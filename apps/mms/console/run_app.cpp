@@ -1,0 +1,42 @@
+#include "apps/mms/console/run_app.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "apps/mms/console/usage.hpp"
+#include "mms/core/error.hpp"
+
+namespace mms {
+namespace {
+
+constexpr int kFault = 1;
+constexpr int kUsage = 2;
+
+int fail(const std::string& what, int exit_code = kFault) {
+  fmt::print(stderr, "mms: {}\n", what);
+  return exit_code;
+}
+
+}  // namespace
+
+int run_app(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked = error.get_exit_code() == 0;  // for help or the version
+    return asked ? app.exit(error) : fail(usage_fault(app, error), kUsage);
+  } catch (const Error& error) {
+    return fail(error.what());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory (less data with --frames, or a larger static_map.voxel_size)");
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
+  return 0;
+}
+
+}  // namespace mms

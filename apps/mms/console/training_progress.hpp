@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "apps/mms/console/rate_progress.hpp"
+#include "mms/training/run/training_run.hpp"
+
+namespace mms {
+
+/// Shows a training on stderr: a progress line, and the APs as they are measured.
+class TrainingProgress {
+ public:
+  void show(const TrainingEvent& event);
+  void finish();
+
+ private:
+  RateProgress loading_{"image read,"};
+  std::optional<RateProgress> training_;
+};
+
+}  // namespace mms

@@ -1,0 +1,64 @@
+#include "mms/dataset/bag/bag_calibration.hpp"
+
+#include "mms/core/error.hpp"
+#include "mms/io/config/calibration_io.hpp"
+#include "mms/ros/camera_messages.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+/// x.calibration.yaml of x.bag.
+fs::path calibration_file(fs::path bag) {
+  return bag.replace_extension(".calibration.yaml");
+}
+
+void read_camera(BagRecording& recording, const std::string& topic, Calibration& calibration,
+                 const std::string& where) {
+  if (topic.empty()) {
+    throw DataError(where,
+                    "has no sensor_msgs/CameraInfo for " + recording.color.topic + "; it has " +
+                        listed(recording.bag->topics()),
+                    "name its topic with --topic-camera-info, or put the camera into " +
+                        calibration_file(where).filename().string());
+  }
+  const bool rectified = recording.color.topic.find("rect") != std::string::npos;
+  calibration.camera = intrinsics_of(recording.bag->read<msg::CameraInfo>(topic, 0), rectified,
+                                     recording.bag->where(topic, 0));
+  recording.facts.push_back("calibration: " + topic);
+}
+
+void read_extrinsics(BagRecording& recording, const TransformTree& transforms,
+                     Calibration& calibration) {
+  if (recording.cloud.empty() || recording.color.empty()) return;
+  const auto T = transforms.lookup(recording.color.frame_id, recording.cloud.frame_id,
+                                   recording.frames.front().stamp);
+  const std::string frames = recording.cloud.frame_id + " to " + recording.color.frame_id;
+  if (T) {
+    calibration.T_camera_lidar = Transform<Camera, Lidar>(*T);
+    recording.facts.push_back("extrinsics: " + frames + " by the bag's transforms");
+  } else {
+    recording.warnings.push_back("no transform from " + frames +
+                                 ", so the camera counts as where the LiDAR is");
+  }
+}
+
+}  // namespace
+
+Calibration bag_calibration(BagRecording& recording, const std::string& camera_info,
+                            const TransformTree& transforms, const fs::path& path) {
+  Calibration calibration;
+  const fs::path file = calibration_file(path);
+  if (fs::exists(file)) {
+    calibration = read_calibration(file);
+    recording.facts.push_back("calibration: " + file.filename().string());
+  } else {
+    read_extrinsics(recording, transforms, calibration);
+  }
+  if (!recording.color.empty() && !calibration.camera) {
+    read_camera(recording, camera_info, calibration, path.string());
+  }
+  return calibration;
+}
+
+}  // namespace mms

@@ -1,0 +1,182 @@
+#include "mms/dataset/bag/bag_recording.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/bag/bag_calibration.hpp"
+#include "mms/dataset/bag/bag_topics.hpp"
+#include "mms/dataset/bag/bag_truth.hpp"
+#include "mms/dataset/source/frame_association.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr Duration kMaxDifference = std::chrono::milliseconds(20);
+constexpr Duration kMaxCloudDifference = std::chrono::milliseconds(50);
+
+/// What all messages with a stamp begin with.
+struct Stamped {
+  msg::Header header;
+
+  template <class Self, class Archive>
+  static void fields(Self& self, Archive& archive) {
+    archive(self.header);
+  }
+};
+
+/// The stamp of a message's header; when it was recorded where the driver gave none.
+Timestamp stamp_of(const msg::Header& header, Timestamp received) {
+  constexpr Timestamp kFirst(1);  // what bags have in place of zero
+  return header.stamp == Timestamp() && received > kFirst ? received : header.stamp;
+}
+
+BagStream read_stream(const BagReader& bag, const std::string& topic) {
+  BagStream stream;
+  stream.topic = topic;
+  for (const BagTopic& candidate : bag.topics()) {
+    if (candidate.name == topic)
+      stream.compressed = candidate.type == "sensor_msgs/CompressedImage";
+  }
+  for (std::size_t i = 0; i < bag.count(topic); ++i) {
+    const msg::Header header = bag.read<Stamped>(topic, i).header;
+    stream.stamps.push_back(stamp_of(header, bag.received(topic, i)));
+    if (i == 0) stream.frame_id = header.frame_id;
+  }
+  return stream;
+}
+
+std::string counts_of(const BagStream& stream, const std::string& what) {
+  return std::to_string(stream.stamps.size()) + " " + what + " of " + stream.topic;
+}
+
+/// Gives each frame the message of `stream` that is nearest to it.
+std::size_t match(std::vector<BagFrame>& frames, const BagStream& stream, Duration reach,
+                  std::size_t BagFrame::*member) {
+  std::vector<Timestamp> stamps;
+  for (const BagFrame& frame : frames) stamps.push_back(frame.stamp);
+  const auto pairs = associate(stamps, stream.stamps, reach);
+  for (const auto& [i, j] : pairs) frames[i].*member = j;
+  return pairs.size();
+}
+
+void make_rgbd_frames(BagRecording& recording, const std::string& where) {
+  for (std::size_t i = 0; i < recording.color.stamps.size(); ++i) {
+    recording.frames.push_back({.stamp = recording.color.stamps[i], .color = i});
+  }
+  const std::size_t colors = recording.frames.size();
+  match(recording.frames, recording.depth, kMaxDifference, &BagFrame::depth);
+  std::erase_if(recording.frames,
+                [](const BagFrame& frame) { return frame.depth == BagFrame::kNone; });
+  const std::string counts = counts_of(recording.color, "colour images") + " and " +
+                             counts_of(recording.depth, "depth images");
+  if (recording.frames.empty()) {
+    throw DataError(where, "of " + counts + " no two have stamps within 0.02 s of each other",
+                    "they begin at " + recording.color.stamps[0].to_string() + " and " +
+                        recording.depth.stamps[0].to_string());
+  }
+  recording.facts.push_back("images: " + counts + ", " + std::to_string(recording.frames.size()) +
+                            " matched within 0.02 s, " +
+                            std::to_string(colors - recording.frames.size()) +
+                            " colour images unmatched");
+}
+
+void make_cloud_frames(BagRecording& recording) {
+  for (std::size_t i = 0; i < recording.cloud.stamps.size(); ++i) {
+    recording.frames.push_back({.stamp = recording.cloud.stamps[i], .cloud = i});
+  }
+  recording.facts.push_back("clouds: " + counts_of(recording.cloud, "clouds"));
+  if (recording.color.empty()) return;
+  const std::size_t found =
+      match(recording.frames, recording.color, kMaxCloudDifference, &BagFrame::color);
+  recording.facts.push_back("images: " + counts_of(recording.color, "colour images") + ", " +
+                            std::to_string(found) + " clouds have one within 0.05 s");
+}
+
+/// Label images of a folder, named like the frames.
+void find_mask_files(BagRecording& recording, const fs::path& folder) {
+  std::size_t found = 0;
+  for (BagFrame& frame : recording.frames) {
+    const fs::path file = folder / (frame.stamp.to_string() + ".png");
+    if (!fs::exists(file)) continue;
+    frame.mask_file = file;
+    ++found;
+  }
+  if (found == 0) {
+    throw DataError(folder.string(), "has a mask for none of the frames",
+                    "masks are named by the stamps, the first one " +
+                        recording.frames.front().stamp.to_string() + ".png");
+  }
+  recording.facts.push_back("masks: " + std::to_string(found) + " of " +
+                            std::to_string(recording.frames.size()) + " in " + folder.string());
+}
+
+void find_masks(BagRecording& recording, const std::string& topic, const SourceOptions& options) {
+  if (options.load_masks && !options.masks.empty()) {
+    return find_mask_files(recording, options.masks);
+  }
+  if (!options.load_masks || topic.empty()) {
+    recording.facts.emplace_back("masks: none");
+    return;
+  }
+  recording.mask = read_stream(*recording.bag, topic);
+  const std::size_t found = match(recording.frames, recording.mask, Duration(0), &BagFrame::mask);
+  recording.facts.push_back("masks: " + std::to_string(found) + " of " +
+                            std::to_string(recording.frames.size()) + " in " + topic);
+}
+
+void add_topic_facts(BagRecording& recording) {
+  for (const BagTopic& topic : recording.bag->topics()) {
+    recording.facts.push_back("topic: " + topic.name + ", " + topic.type + ", " +
+                              std::to_string(topic.count) + " messages");
+  }
+}
+
+void add_choice_facts(BagRecording& recording, const BagTopicNames& topics) {
+  const auto add = [&](const char* what, const std::string& topic) {
+    if (!topic.empty()) recording.facts.push_back(std::string(what) + " topic: " + topic);
+  };
+  add("colour", topics.color);
+  add("depth", topics.depth);
+  add("cloud", topics.cloud);
+  add("camera_info", topics.camera_info);
+  add("mask", topics.mask);
+  add("truth", topics.truth);
+}
+
+BagTopicNames topics_of(const BagReader& bag, const BagTopicNames& given,
+                        const std::string& where) {
+  const auto encoding_of = [&](const BagTopic& topic) {
+    return bag.read<msg::Image>(topic.name, 0).encoding;
+  };
+  if (bag.topics().empty()) throw DataError(where, "is empty: it has no topics");
+  return choose_topics(bag.topics(), given, encoding_of, where);
+}
+
+}  // namespace
+
+BagRecording read_bag_recording(const fs::path& path, const SourceOptions& options) {
+  BagRecording recording;
+  recording.bag = std::make_unique<BagReader>(path);
+  const BagReader& bag = *recording.bag;
+  const BagTopicNames topics = topics_of(bag, options.topics, path.string());
+  recording.facts.emplace_back("layout: ROS 1 bag");
+  add_topic_facts(recording);
+  add_choice_facts(recording, topics);
+  recording.color = read_stream(bag, topics.color);
+  recording.depth = read_stream(bag, topics.depth);
+  recording.cloud = read_stream(bag, topics.cloud);
+  topics.cloud.empty() ? make_rgbd_frames(recording, path.string()) : make_cloud_frames(recording);
+  const TransformTree transforms = read_transforms(bag);
+  recording.calibration = std::make_shared<const Calibration>(
+      bag_calibration(recording, topics.camera_info, transforms, path));
+  find_masks(recording, topics.mask, options);
+  if (!topics.truth.empty()) {
+    const BagStream& sensor = topics.cloud.empty() ? recording.color : recording.cloud;
+    recording.ground_truth = read_truth(bag, topics.truth, transforms, sensor.frame_id);
+  }
+  return recording;
+}
+
+}  // namespace mms

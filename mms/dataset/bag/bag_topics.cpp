@@ -1,0 +1,191 @@
+#include "mms/dataset/bag/bag_topics.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <initializer_list>
+
+#include "mms/core/error.hpp"
+#include "mms/ros/image_messages.hpp"
+
+namespace mms {
+namespace {
+
+using Words = std::initializer_list<const char*>;
+
+constexpr const char* kImage = "sensor_msgs/Image";
+constexpr const char* kCompressed = "sensor_msgs/CompressedImage";
+
+bool has_word(const std::string& name, Words words) {
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return lower.find(word) != std::string::npos; });
+}
+
+bool is_type(const BagTopic& topic, Words types) {
+  return std::any_of(types.begin(), types.end(),
+                     [&](const char* type) { return topic.type == type; });
+}
+
+/// Letters that two names have in common from their beginning.
+std::size_t common(const std::string& a, const std::string& b) {
+  const auto ends = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  return static_cast<std::size_t>(ends.first - a.begin());
+}
+
+/// One choice: the topic given, or the best of those that fit.
+class Choice {
+ public:
+  Choice(const std::vector<BagTopic>& topics, const std::string& where)
+      : topics_(topics), where_(where) {}
+
+  /// @param rank  of a topic that fits, > 0; 0 for one that does not. The first of the best wins.
+  template <class Rank>
+  std::string best(const Rank& rank) const {
+    const BagTopic* chosen = nullptr;
+    int highest = 0;
+    for (const BagTopic& topic : topics_) {
+      const int value = topic.count == 0 ? 0 : rank(topic);
+      if (value <= highest) continue;
+      highest = value;
+      chosen = &topic;
+    }
+    return chosen == nullptr ? "" : chosen->name;
+  }
+
+  /// @throws DataError when there is no such topic, or it is of none of the types.
+  std::string given(const std::string& name, const char* option, Words types) const {
+    const auto found = std::find_if(topics_.begin(), topics_.end(),
+                                    [&](const BagTopic& topic) { return topic.name == name; });
+    if (found == topics_.end()) fail(std::string(option) + " is " + name + ", which is not there");
+    if (!is_type(*found, types)) {
+      fail(std::string(option) + " is " + name + ", which is " + found->type + ", wanted is " +
+           listed_types(types));
+    }
+    if (found->count == 0) fail(std::string(option) + " is " + name + ", which has no messages");
+    return name;
+  }
+
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
+    throw DataError(where_, what + "; it has " + listed(topics_), hint);
+  }
+
+ private:
+  static std::string listed_types(Words types) {
+    std::string text;
+    for (const char* type : types) text += (text.empty() ? "" : " or ") + std::string(type);
+    return text;
+  }
+
+  const std::vector<BagTopic>& topics_;
+  const std::string& where_;
+};
+
+bool is_mask_name(const std::string& name) {
+  return has_word(name, {"mask", "label", "segmentation"});
+}
+
+/// "16UC1" is an encoding of depth, but so could be "mono16" of an infrared image.
+bool is_depth(const BagTopic& topic, const EncodingOf& encoding_of) {
+  if (topic.type == kCompressed) return has_word(topic.name, {"depth"});
+  if (topic.type != kImage || has_word(topic.name, {"infra", "confidence"})) return false;
+  const std::string encoding = encoding_of(topic);
+  return is_depth_encoding(encoding) && (encoding != "mono16" || has_word(topic.name, {"depth"}));
+}
+
+int depth_rank(const BagTopic& topic, const EncodingOf& encoding_of) {
+  if (!is_depth(topic, encoding_of)) return 0;
+  int rank = topic.type == kImage ? 2 : 1;
+  if (has_word(topic.name, {"aligned", "registered", "to_color", "to_rgb"})) rank += 4;
+  if (has_word(topic.name, {"depth"})) rank += 2;
+  return rank;
+}
+
+int color_rank(const BagTopic& topic, const EncodingOf& encoding_of) {
+  const bool compressed = topic.type == kCompressed;
+  if (!compressed && topic.type != kImage) return 0;
+  if (is_mask_name(topic.name) || has_word(topic.name, {"depth", "infra", "confidence"})) {
+    const bool beside_depth = has_word(topic.name, {"color", "rgb"}) && !is_mask_name(topic.name) &&
+                              !is_depth(topic, encoding_of);
+    if (!beside_depth) return 0;
+  }
+  const std::string encoding = compressed ? "" : encoding_of(topic);
+  if (!compressed && !is_color_encoding(encoding)) return 0;
+  int rank = compressed ? 1 : 2;
+  if (encoding != "mono8" && encoding != "8UC1") rank += 4;
+  if (has_word(topic.name, {"color", "rgb"})) rank += 8;
+  return rank;
+}
+
+/// The name without its last part, and without that of a compressed or rectified image.
+std::string camera_of(std::string topic) {
+  if (topic.ends_with("/compressed")) topic.resize(topic.rfind('/'));
+  return topic.substr(0, topic.rfind('/') + 1);
+}
+
+std::string find_camera_info(const Choice& choice, const std::string& color) {
+  return choice.best([&](const BagTopic& topic) {
+    if (topic.type != "sensor_msgs/CameraInfo") return 0;
+    const bool beside = topic.name == camera_of(color) + "camera_info";
+    return beside ? 100'000 : 1 + static_cast<int>(common(topic.name, color));
+  });
+}
+
+std::string find_truth(const Choice& choice) {
+  return choice.best([](const BagTopic& topic) {
+    const bool poses = is_type(topic, {"geometry_msgs/PoseStamped", "nav_msgs/Odometry",
+                                       "geometry_msgs/TransformStamped"});
+    const bool called = has_word(
+        topic.name, {"ground_truth", "groundtruth", "truth", "mocap", "vicon", "optitrack", "/gt"});
+    return poses && called ? 1 : 0;
+  });
+}
+
+}  // namespace
+
+BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicNames& given,
+                            const EncodingOf& encoding_of, const std::string& where) {
+  const Choice choice(topics, where);
+  const auto pick = [&](const std::string& name, const char* option, Words types,
+                        const auto& find) {
+    return name.empty() ? find() : choice.given(name, option, types);
+  };
+  BagTopicNames chosen;
+  chosen.color = pick(given.color, "--topic-color", {kImage, kCompressed}, [&] {
+    return choice.best([&](const BagTopic& topic) { return color_rank(topic, encoding_of); });
+  });
+  const bool wants_cloud = !given.cloud.empty();
+  chosen.depth = pick(given.depth, "--topic-depth", {kImage, kCompressed}, [&] {
+    if (wants_cloud || chosen.color.empty()) return std::string();
+    return choice.best([&](const BagTopic& topic) { return depth_rank(topic, encoding_of); });
+  });
+  chosen.cloud = pick(given.cloud, "--topic-cloud", {"sensor_msgs/PointCloud2"}, [&] {
+    if (!chosen.depth.empty()) return std::string();
+    return choice.best([](const BagTopic& topic) {
+      return topic.type != "sensor_msgs/PointCloud2" ? 0 : static_cast<int>(topic.count);
+    });
+  });
+  if (chosen.cloud.empty() && (chosen.depth.empty() || chosen.color.empty())) {
+    choice.fail(
+        "has neither colour images with depth nor point clouds",
+        "wanted are sensor_msgs/Image or CompressedImage of colour and of depth, or "
+        "sensor_msgs/PointCloud2; --topic-color, --topic-depth and --topic-cloud name them");
+  }
+  if (!chosen.color.empty()) {
+    chosen.camera_info = pick(given.camera_info, "--topic-camera-info", {"sensor_msgs/CameraInfo"},
+                              [&] { return find_camera_info(choice, chosen.color); });
+    chosen.mask = pick(given.mask, "--topic-mask", {kImage}, [&] {
+      return choice.best([&](const BagTopic& topic) {
+        return topic.type == kImage && is_mask_name(topic.name) ? 1 : 0;
+      });
+    });
+  }
+  chosen.truth = pick(given.truth, "--topic-truth",
+                      {"geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped",
+                       "nav_msgs/Odometry", "tf2_msgs/TFMessage", "tf/tfMessage"},
+                      [&] { return find_truth(choice); });
+  return chosen;
+}
+
+}  // namespace mms

@@ -1,0 +1,94 @@
+#include "mms/dataset/folder/folder_rgbd.hpp"
+
+#include <algorithm>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/source/rgbd_source.hpp"
+#include "mms/io/config/calibration_io.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/io/text/pose_text.hpp"
+#include "mms/io/text/text_table.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::int64_t kRate = 30;
+constexpr std::string_view kColorEndings[] = {".color.png", ".color.jpg", ".color.jpeg"};
+
+/// What of a colour image's name comes before its ending; empty for other files.
+std::string frame_name(const std::string& file) {
+  for (const std::string_view ending : kColorEndings) {
+    if (file.ends_with(ending)) return file.substr(0, file.size() - ending.size());
+  }
+  return "";
+}
+
+Calibration seven_scenes_calibration() {
+  Calibration calibration;
+  calibration.camera = CameraIntrinsics{585.0, 585.0, 320.0, 240.0, 640, 480, {}};
+  calibration.depth_scale = 1000.0;
+  return calibration;
+}
+
+void read_calibration_of(RgbdRecording& recording) {
+  const fs::path file = recording.folder / "calibration.yaml";
+  const bool there = fs::exists(file);
+  const Calibration calibration = there ? read_calibration(file) : seven_scenes_calibration();
+  if (!calibration.camera) {
+    throw DataError(file.string(), "has no camera", "add fx fy cx cy width height depth_scale");
+  }
+  recording.facts.emplace_back(there ? "calibration: calibration.yaml"
+                                     : "calibration: 7-Scenes' default");
+  recording.calibration = std::make_shared<const Calibration>(calibration);
+}
+
+StampedPose read_pose(const fs::path& path, Timestamp stamp) {
+  const TextTable table(path);
+  std::vector<std::string_view> fields;
+  for (const TextLine& line : table.lines()) {
+    fields.insert(fields.end(), line.fields.begin(), line.fields.end());
+  }
+  const std::string where = path.string();
+  return {stamp, Transform<World, Sensor>(isometry_from_rows(parse_finite(fields, where), where))};
+}
+
+/// 7-Scenes writes NaN where tracking was lost: a frame without truth, not a damaged recording.
+void add_pose(RgbdRecording& recording, const std::string& name, Timestamp stamp) {
+  const fs::path path = recording.folder / (name + ".pose.txt");
+  if (!fs::exists(path)) return;
+  try {
+    recording.ground_truth.push_back(read_pose(path, stamp));
+  } catch (const Error& error) {
+    recording.warnings.push_back(std::string("pose left out: ") + error.what());
+  }
+}
+
+}  // namespace
+
+bool looks_like_folder_rgbd(const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [](const std::string& name) { return !frame_name(name).empty(); });
+}
+
+std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
+                                              const SourceOptions& options) {
+  RgbdRecording recording;
+  recording.folder = folder;
+  recording.invalid_depth = 65535;
+  recording.facts.emplace_back("layout: folder of colour, depth and pose files (7-Scenes)");
+  for (const std::string& file : list_folder(folder)) {
+    const std::string name = frame_name(file);
+    if (name.empty()) continue;
+    const auto index = static_cast<std::int64_t>(recording.frames.size());
+    const Timestamp stamp(index * 1'000'000'000 / kRate);
+    recording.frames.push_back(
+        {stamp, Duration::zero(), folder / file, folder / (name + ".depth.png"), {}, name});
+    add_pose(recording, name, stamp);
+  }
+  read_calibration_of(recording);
+  find_masks(recording, options);
+  return std::make_unique<RgbdSource>(std::move(recording));
+}
+
+}  // namespace mms

@@ -1,0 +1,117 @@
+#include "mms/dataset/kitti/scan_files.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "mms/core/error.hpp"
+#include "mms/io/cloud/kitti_io.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/text/files.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+using Member = fs::path ScanFiles::*;
+
+/// Sets a member of each scan for which the folder has a file of its name. @returns how many
+std::size_t find_files(std::vector<ScanFiles>& scans, const fs::path& folder,
+                       std::initializer_list<const char*> extensions, Member member) {
+  if (!fs::is_directory(folder)) return 0;
+  const std::vector<std::string> names = list_folder(folder);
+  std::size_t found = 0;
+  for (ScanFiles& files : scans) {
+    for (const char* extension : extensions) {
+      const std::string name = files.scan.stem().string() + extension;
+      if (!std::binary_search(names.begin(), names.end(), name)) continue;
+      files.*member = folder / name;
+      ++found;
+      break;
+    }
+  }
+  return found;
+}
+
+void add_fact(std::vector<std::string>& facts, const std::string& what, std::size_t found,
+              std::size_t count) {
+  if (found == 0) return;
+  facts.push_back(what + ": " + std::to_string(found) + " of " + std::to_string(count) + " scans");
+}
+
+void find_masks(std::vector<ScanFiles>& scans, const fs::path& folder, const SourceOptions& options,
+                std::vector<std::string>& facts) {
+  const fs::path masks = options.masks.empty() ? folder / "masks" : options.masks;
+  const std::size_t found = find_files(scans, masks, {".png"}, &ScanFiles::mask);
+  if (found == 0 && !options.masks.empty()) {
+    throw DataError(masks.string(), "has a mask for none of the scans",
+                    "masks are named as the scans, the first one " +
+                        scans.front().scan.stem().string() + ".png");
+  }
+  add_fact(facts, "masks", found, scans.size());
+}
+
+template <class T>
+void check_size(const Image<T>& image, const CameraIntrinsics& camera, const fs::path& path) {
+  if (image.width() == camera.width && image.height() == camera.height) return;
+  throw DataError(path.string(),
+                  "is " + std::to_string(image.width()) + "x" + std::to_string(image.height()) +
+                      " pixels, the calibration says " + std::to_string(camera.width) + "x" +
+                      std::to_string(camera.height));
+}
+
+}  // namespace
+
+std::vector<ScanFiles> find_scans(const fs::path& folder) {
+  std::vector<ScanFiles> scans;
+  for (const fs::path& candidate : {folder, folder / "velodyne"}) {
+    if (!scans.empty() || !fs::is_directory(candidate)) continue;
+    for (const std::string& name : list_folder(candidate)) {
+      if (name.ends_with(".bin")) scans.push_back({candidate / name, {}, {}, {}});
+    }
+  }
+  if (scans.empty()) throw DataError(folder.string(), "has no *.bin scans, nor has velodyne/");
+  return scans;
+}
+
+void find_companions(std::vector<ScanFiles>& scans, const fs::path& folder,
+                     const Calibration& calibration, const SourceOptions& options,
+                     std::vector<std::string>& facts) {
+  add_fact(facts, "times of the points",
+           find_files(scans, folder / "point_times", {".bin"}, &ScanFiles::times), scans.size());
+  const fs::path images = folder / "image_2";
+  if (!calibration.camera) {
+    if (fs::is_directory(images)) {
+      facts.emplace_back("images: not used, as calibration.yaml has no camera");
+    }
+    return;
+  }
+  add_fact(facts, "images", find_files(scans, images, {".jpg", ".jpeg", ".png"}, &ScanFiles::color),
+           scans.size());
+  if (options.load_masks) find_masks(scans, folder, options, facts);
+}
+
+Frame read_scan_frame(const ScanFiles& files,
+                      const std::shared_ptr<const Calibration>& calibration) {
+  Frame frame;
+  frame.calibration = calibration;
+  frame.scan = read_kitti_scan(files.scan);
+  if (!files.times.empty()) {
+    frame.scan.time_offset = read_point_times(files.times);
+    if (frame.scan.time_offset.size() != frame.scan.points.size()) {
+      throw DataError(files.times.string(),
+                      "has " + std::to_string(frame.scan.time_offset.size()) + " times for " +
+                          std::to_string(frame.scan.points.size()) + " points");
+    }
+  }
+  if (!files.color.empty()) {
+    frame.color = read_color(files.color);
+    check_size(frame.color, *calibration->camera, files.color);
+  }
+  if (!files.mask.empty()) {
+    frame.mask = read_mask(files.mask);
+    check_size(frame.mask, *calibration->camera, files.mask);
+  }
+  return frame;
+}
+
+}  // namespace mms

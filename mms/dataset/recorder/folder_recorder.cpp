@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/recorder/frame_recorder.hpp"
+#include "mms/dataset/recorder/recorded_frame.hpp"
+#include "mms/dataset/recorder/recording_folder.hpp"
+#include "mms/io/cloud/kitti_io.hpp"
+#include "mms/io/config/calibration_io.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+/// Units per metre of the depth images there are, the usual ones first.
+constexpr double kDepthScales[] = {1000.0, 5000.0, 4000.0, 10000.0};
+
+/// Whether depth images in that unit keep the depth to the bit.
+bool keeps(const Image<float>& depth, double scale) {
+  const Image<std::uint16_t> raw = recorded_depth(depth, scale);
+  const auto units = static_cast<float>(scale);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    if (depth[i] > 0.0F && static_cast<float>(raw[i]) / units != depth[i]) return false;
+  }
+  return true;
+}
+
+/// Bags have depth in metres, and do not say what units they were made of. Where no unit keeps it,
+/// 16 bits reach 13 m in steps of 0.2 mm.
+double depth_scale_of(const Frame& frame) {
+  const double said = frame.calibration->depth_scale;
+  if (keeps(frame.depth, said)) return said;
+  const auto* exact = std::find_if(std::begin(kDepthScales), std::end(kDepthScales),
+                                   [&](double scale) { return keeps(frame.depth, scale); });
+  return exact == std::end(kDepthScales) ? 5000.0 : *exact;
+}
+
+void add_line(std::string& list, Timestamp stamp, const std::string& file) {
+  list += stamp.to_string() + " " + file + "\n";
+}
+
+class FolderRecorder final : public FrameRecorder {
+ public:
+  explicit FolderRecorder(fs::path folder) : folder_(std::move(folder)) {
+    make_folder(folder_);
+    const auto names = list_folder(folder_);
+    if (names.empty()) return;
+    throw FileError(folder_.string(), "is not empty (it has " + names.front() + ")",
+                    "choose a new folder with -o");
+  }
+
+  void add(const Frame& frame) override {
+    if (count_ == 0) begin(frame);
+    frame.scan.points.empty() ? add_images(frame) : add_scan(frame);
+    ++count_;
+  }
+
+  void finish(const Trajectory& truth) override {
+    if (lidar_) {
+      write_file(folder_ / "times.txt", times_);
+      if (!truth.empty()) write_poses(truth);
+    } else {
+      write_file(folder_ / "rgb.txt", "# stamp file\n" + color_list_);
+      write_file(folder_ / "depth.txt", "# stamp file\n" + depth_list_);
+    }
+    if (!truth.empty()) write_trajectory_tum(folder_ / "groundtruth.txt", truth);
+  }
+
+ private:
+  void begin(const Frame& frame) {
+    lidar_ = !frame.scan.points.empty();
+    calibration_ = *frame.calibration;
+    if (frame.has_depth()) calibration_.depth_scale = depth_scale_of(frame);
+    write_calibration(folder_ / "calibration.yaml", calibration_);
+  }
+
+  template <class Pixel>
+  void write_image(const std::string& file, const Image<Pixel>& image) {
+    make_folder((folder_ / file).parent_path());
+    write_png(folder_ / file, image);
+  }
+
+  void add_images(const Frame& frame) {
+    const std::string name = frame.stamp.to_string() + ".png";
+    const Timestamp depth_stamp = frame.stamp + frame.depth_offset;
+    const std::string depth_file = "depth/" + depth_stamp.to_string() + ".png";
+    write_image("rgb/" + name, frame.color);
+    write_image(depth_file, recorded_depth(frame.depth, calibration_.depth_scale));
+    if (!frame.mask.empty()) write_image("masks/" + name, frame.mask);
+    add_line(color_list_, frame.stamp, "rgb/" + name);
+    add_line(depth_list_, depth_stamp, depth_file);
+  }
+
+  void add_scan(const Frame& frame) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%06zu", count_);
+    make_folder(folder_ / "velodyne");
+    write_kitti_scan(folder_ / "velodyne" / (std::string(name) + ".bin"), frame.scan);
+    if (!frame.scan.time_offset.empty()) {
+      make_folder(folder_ / "point_times");
+      write_point_times(folder_ / "point_times" / (std::string(name) + ".bin"),
+                        frame.scan.time_offset);
+    }
+    if (!frame.color.empty()) write_image("image_2/" + std::string(name) + ".png", frame.color);
+    if (!frame.mask.empty()) write_image("masks/" + std::string(name) + ".png", frame.mask);
+    times_ += frame.stamp.to_string() + "\n";
+    stamps_.push_back(frame.stamp);
+  }
+
+  /// KITTI's poses are those of the camera, one a scan: only where every scan has one.
+  void write_poses(const Trajectory& truth) {
+    const Eigen::Isometry3d T_lidar_camera = calibration_.T_camera_lidar.isometry().inverse();
+    Trajectory camera;
+    for (const Timestamp stamp : stamps_) {
+      for (const StampedPose& pose : truth) {
+        if (pose.stamp != stamp) continue;
+        camera.push_back(
+            {stamp, Transform<World, Sensor>(pose.T_world_sensor.isometry() * T_lidar_camera)});
+        break;
+      }
+    }
+    if (camera.size() == stamps_.size()) write_trajectory_kitti(folder_ / "poses.txt", camera);
+  }
+
+  fs::path folder_;
+  Calibration calibration_;
+  bool lidar_ = false;
+  std::size_t count_ = 0;
+  std::string color_list_;
+  std::string depth_list_;
+  std::string times_;
+  std::vector<Timestamp> stamps_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameRecorder> record_folder(const fs::path& folder) {
+  return std::make_unique<FolderRecorder>(folder);
+}
+
+}  // namespace mms

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "mms/dataset/recorder/recording_layout.hpp"
+#include "mms/dataset/simulated/instance_annotations.hpp"
+#include "mms/dataset/simulated/map_truth.hpp"
+#include "mms/dataset/simulated/objects_truth.hpp"
+
+namespace mms {
+
+/// Writes a simulated recording with its truth, frame by frame. The folder then has, besides the
+/// recording itself (RecordingLayout), groundtruth.txt, objects_truth.json, instances.json (COCO),
+/// map_truth.ply (for depth cameras) and scene.yaml. Every file appears whole or not at all.
+class SimulationWriter {
+ public:
+  /// @throws FileError when the folder cannot be written to, or holds something else already
+  ///         (prepare_recording_folder).
+  SimulationWriter(const std::filesystem::path& folder, const SceneConfig& config,
+                   const SensorPreset& sensor);
+
+  /// Writes a frame; stamps have to grow. @throws FileError
+  void add(const SimulatedFrame& frame, const StampedPose& pose);
+
+  /// Writes what is made of all frames. @throws FileError, DataError when there was none.
+  void finish();
+
+  std::size_t annotations() const { return annotations_.annotations.size(); }
+  std::size_t map_points() const { return map_points_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::unique_ptr<RecordingLayout> layout_;
+  Trajectory truth_;
+  ObjectsTruth objects_;
+  CocoDataset annotations_ = empty_annotations();
+  MapTruth map_;
+  std::size_t map_points_ = 0;
+};
+
+/// How `write_simulation` goes about it.
+struct WriteOptions {
+  double pose_rate = 200.0;      ///< of the poses in groundtruth_dense.txt [Hz]
+  double static_spacing = 0.04;  ///< of the points in static_truth.ply [m]
+  /// Called after every frame; the recording ends early when it returns false.
+  std::function<bool(int done, int total)> progress = {};
+};
+
+/// What was written.
+struct WrittenRecording {
+  int frames = 0;
+  std::size_t annotations = 0;    ///< instances in all frames
+  std::size_t static_points = 0;  ///< of static_truth.ply
+  std::size_t map_points = 0;     ///< of map_truth.ply
+};
+
+/// Renders a scene into a folder: what SimulationWriter writes, groundtruth_dense.txt with poses
+/// between the frames, and static_truth.ply with all static surfaces.
+/// @throws FileError, DataError as SimulationWriter does.
+WrittenRecording write_simulation(SimulatedScene& scene, const std::filesystem::path& folder,
+                                  const WriteOptions& options = {});
+
+}  // namespace mms

@@ -1,0 +1,105 @@
+#include "mms/dataset/source/image_list.hpp"
+
+#include <optional>
+#include <set>
+
+#include "mms/core/error.hpp"
+#include "mms/io/text/numbers.hpp"
+#include "mms/io/text/text_table.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+/// What was wrong with the lines of one list: the first of a kind and how many there are.
+class LineFaults {
+ public:
+  explicit LineFaults(std::string what) : what_(std::move(what)) {}
+
+  void add(const std::string& where) {
+    if (count_++ == 0) first_ = where;
+  }
+
+  void report(std::vector<std::string>& warnings) const {
+    if (count_ == 0) return;
+    const std::string more = count_ == 1 ? "" : " (" + std::to_string(count_) + " such lines)";
+    warnings.push_back(first_ + ": " + what_ + more);
+  }
+
+ private:
+  std::string what_;
+  std::string first_;
+  std::size_t count_ = 0;
+};
+
+std::optional<ListedImage> parse_image(const fs::path& folder, const TextLine& line,
+                                       std::size_t column) {
+  const auto stamp = parse_stamp(line.fields[column]);
+  if (!stamp) return std::nullopt;
+  return ListedImage{*stamp, folder / line.fields[column + 1]};
+}
+
+/// "depth/1.png 2 rgb/2.png": some data sets list the depth image first.
+bool depth_comes_first(const TextLine& line) {
+  constexpr auto kNone = std::string_view::npos;
+  return line.fields[1].find("depth") != kNone && line.fields[3].find("depth") == kNone;
+}
+
+std::optional<ListedPair> parse_pair(const fs::path& folder, const TextLine& line) {
+  auto first = parse_image(folder, line, 0);
+  auto second = parse_image(folder, line, 2);
+  if (!first || !second) return std::nullopt;
+  if (depth_comes_first(line)) std::swap(first, second);
+  return ListedPair{*first, *second};
+}
+
+Timestamp stamp_of(const ListedImage& image) {
+  return image.stamp;
+}
+Timestamp stamp_of(const ListedPair& pair) {
+  return pair.color.stamp;
+}
+
+/// The lines of `columns` columns that `parse` can read, with no stamp twice.
+template <class Parse>
+auto read_list(const fs::path& list, std::size_t columns, const std::string& form, Parse parse,
+               std::vector<std::string>& warnings) {
+  const TextTable table(list);
+  const fs::path folder = list.parent_path();
+  LineFaults damaged("line left out, '" + form + "' is wanted");
+  LineFaults duplicate("line left out, its stamp was there before");
+  std::vector<typename decltype(parse(folder, table.lines()[0]))::value_type> entries;
+  std::set<Timestamp> seen;
+  for (const TextLine& line : table.lines()) {
+    const auto entry = line.fields.size() == columns ? parse(folder, line) : std::nullopt;
+    if (!entry) {
+      damaged.add(table.where(line));
+    } else if (!seen.insert(stamp_of(*entry)).second) {
+      duplicate.add(table.where(line));
+    } else {
+      entries.push_back(*entry);
+    }
+  }
+  if (entries.empty()) {
+    throw DataError(list.string(), "lists no images", "lines of '" + form + "' are wanted");
+  }
+  damaged.report(warnings);
+  duplicate.report(warnings);
+  return entries;
+}
+
+}  // namespace
+
+std::vector<ListedImage> read_image_list(const fs::path& list, std::vector<std::string>& warnings) {
+  const auto parse = [](const fs::path& folder, const TextLine& line) {
+    return parse_image(folder, line, 0);
+  };
+  return read_list(list, 2, "stamp path", parse, warnings);
+}
+
+std::vector<ListedPair> read_associations(const fs::path& list,
+                                          std::vector<std::string>& warnings) {
+  return read_list(list, 4, "stamp path stamp path", parse_pair, warnings);
+}
+
+}  // namespace mms

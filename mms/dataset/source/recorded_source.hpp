@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+
+#include "mms/dataset/source/frame_source.hpp"
+
+namespace mms {
+
+/// What every recording on disk has in common: frames in order, damaged ones and those whose stamp
+/// is not later than that of the frame before are skipped with a warning.
+class RecordedSource : public FrameSource {
+ public:
+  std::optional<Frame> next() final;
+  std::size_t skipped() const final { return skipped_; }
+  void skip(std::size_t count) final;
+  bool has_masks() const override { return false; }
+  const Trajectory& ground_truth() const final { return ground_truth_; }
+  std::optional<TruthCloud> map_truth() const final;
+  ObjectHistory objects_truth() const final;
+  std::vector<std::string> describe() const final;
+
+  /// The handler also receives what was found wrong before it was set.
+  void on_warning(WarningHandler handler) final;
+
+ protected:
+  /// Stamp and name of a frame, known without reading it.
+  virtual Timestamp stamp_at(std::size_t index) const = 0;
+  virtual std::string name_at(std::size_t index) const = 0;
+
+  /// The frame but for its index, stamp and name, which `next` fills in.
+  /// @throws Error when it cannot be read.
+  virtual Frame read(std::size_t index) const = 0;
+
+  /// Facts about the recording that `describe` puts before those it knows itself.
+  virtual std::vector<std::string> facts() const = 0;
+
+  void warn(const std::string& message);
+  void set_ground_truth(Trajectory trajectory) { ground_truth_ = std::move(trajectory); }
+
+  /// The truth of all frames, read when it is asked for; the files may not be there.
+  void set_map_truth(std::filesystem::path file) { map_truth_ = std::move(file); }
+  void set_objects_truth(std::filesystem::path file) { objects_truth_ = std::move(file); }
+
+ private:
+  std::optional<Frame> try_read(std::size_t index);
+
+  std::size_t position_ = 0;
+  std::size_t skipped_ = 0;
+  bool passed_over_ = false;  ///< frames, by `skip`
+  std::optional<Timestamp> last_stamp_;
+  Trajectory ground_truth_;
+  std::filesystem::path map_truth_;
+  std::filesystem::path objects_truth_;
+  WarningHandler handler_;
+  std::vector<std::string> pending_warnings_;
+};
+
+}  // namespace mms

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "mms/dataset/source/bag_topic_names.hpp"
+
+namespace mms {
+
+/// What to read of a recording besides its images and scans.
+struct SourceOptions {
+  std::filesystem::path masks{};  ///< folder of label images in place of the recording's own masks/
+  bool load_masks = true;         ///< false: frames come without masks
+  bool map_truth = true;          ///< false: a simulation does not keep FrameSource::map_truth and
+                                  ///< objects_truth, which grow with its frames
+  BagTopicNames topics{};         ///< of a bag
+};
+
+}  // namespace mms

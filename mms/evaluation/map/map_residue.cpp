@@ -1,0 +1,91 @@
+#include "mms/evaluation/map/map_residue.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mms/core/error.hpp"
+#include "mms/geometry/camera.hpp"
+
+namespace mms {
+namespace {
+
+constexpr double kMaxGap = 0.05;    ///< share of the depth that separates two modes
+constexpr double kMinShare = 0.10;  ///< of a pixel's returns that make a mode
+
+/// Median of the farthest run of sorted depths that is long enough; 0 without any.
+double far_mode_of(const std::vector<std::uint16_t>& sorted) {
+  const auto least =
+      static_cast<std::size_t>(std::max(2.0, kMinShare * static_cast<double>(sorted.size())));
+  std::size_t end = sorted.size();
+  while (end > 0) {
+    std::size_t begin = end - 1;
+    while (begin > 0 && sorted[begin] - sorted[begin - 1] <= kMaxGap * sorted[begin]) --begin;
+    if (end - begin >= least) return 1e-3 * sorted[begin + (end - begin) / 2];
+    end = begin;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+void RoomDepth::add(const Image<float>& depth) {
+  if (!millimetres_.empty() && !millimetres_.front().same_size(depth)) {
+    throw DataError("depth image", "is " + std::to_string(depth.width()) + "x" +
+                                       std::to_string(depth.height()) +
+                                       " pixels, those before were " +
+                                       std::to_string(millimetres_.front().width()) + "x" +
+                                       std::to_string(millimetres_.front().height()));
+  }
+  Image<std::uint16_t> raw(depth.width(), depth.height());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const float mm = 1000.0F * depth[i];
+    raw[i] = mm > 0.0F && mm < 65535.0F ? static_cast<std::uint16_t>(mm + 0.5F) : std::uint16_t{0};
+  }
+  millimetres_.push_back(std::move(raw));
+}
+
+Image<float> RoomDepth::far_mode() const {
+  if (millimetres_.empty()) return {};
+  Image<float> room(millimetres_.front().width(), millimetres_.front().height(), 0.0F);
+  std::vector<std::uint16_t> depths;
+  for (std::size_t i = 0; i < room.size(); ++i) {
+    depths.clear();
+    for (const Image<std::uint16_t>& image : millimetres_) {
+      if (image[i] > 0) depths.push_back(image[i]);
+    }
+    std::sort(depths.begin(), depths.end());
+    room[i] = static_cast<float>(far_mode_of(depths));
+  }
+  return room;
+}
+
+MapResidue evaluate_residue(std::span<const Eigen::Vector3f> map, const Image<float>& room_depth,
+                            const CameraIntrinsics& camera, double margin) {
+  const CameraModel model(camera);
+  MapResidue result;
+  result.points = map.size();
+  for (const Eigen::Vector3f& point : map) {
+    const Eigen::Vector3d p = point.cast<double>();
+    if (!p.allFinite() || !model.in_lens_range(p)) continue;
+    const Eigen::Vector2d pixel = model.project(p);
+    const int x = static_cast<int>(std::lround(pixel.x()));
+    const int y = static_cast<int>(std::lround(pixel.y()));
+    if (!room_depth.contains(x, y) || room_depth(x, y) <= 0.0F) continue;
+    ++result.seen;
+    if (p.z() < static_cast<double>(room_depth(x, y)) - margin) ++result.residue;
+  }
+  if (result.points > 0) {
+    result.percent =
+        100.0 * static_cast<double>(result.residue) / static_cast<double>(result.points);
+  }
+  return result;
+}
+
+std::vector<MetricValue> metric_values(const MapResidue& residue) {
+  return {{"points", "map points", static_cast<double>(residue.points), "", 0},
+          {"seen", "seen by the camera", static_cast<double>(residue.seen), "", 0},
+          {"residue", "in front of the room", static_cast<double>(residue.residue), "", 0},
+          {"residue_percent", "share of the map", residue.percent, "%", 3}};
+}
+
+}  // namespace mms

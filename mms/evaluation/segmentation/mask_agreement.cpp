@@ -1,0 +1,46 @@
+#include "mms/evaluation/segmentation/mask_agreement.hpp"
+
+#include <limits>
+
+namespace mms {
+namespace {
+
+double share(std::int64_t part, std::int64_t rest) {
+  const std::int64_t whole = part + rest;
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole)
+                   : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+void MaskAgreement::add(const Image<std::uint8_t>& mask, const LabeledCloud& cloud) {
+  if (mask.empty() || cloud.width == 0) return;
+  const int stride = mask.width() / cloud.width;  // mask pixels a side of a point's block
+  if (stride < 1 || mask.height() / stride != cloud.height) return;
+  for (int y = 0; y < cloud.height; ++y) {
+    for (int x = 0; x < cloud.width; ++x) {
+      const PointLabel label = cloud.labels[static_cast<std::size_t>(y * cloud.width + x)];
+      if (label == PointLabel::kInvalid) continue;
+      const bool dynamic = label == PointLabel::kDynamic;
+      const bool masked = mask(stride * x + stride / 2, stride * y + stride / 2) != 0;
+      hits += masked && dynamic ? 1 : 0;
+      missed += masked && !dynamic ? 1 : 0;
+      extra += !masked && dynamic ? 1 : 0;
+    }
+  }
+}
+
+double MaskAgreement::recall() const {
+  return share(hits, missed);
+}
+
+double MaskAgreement::precision() const {
+  return share(hits, extra);
+}
+
+std::vector<MetricValue> metric_values(const MaskAgreement& agreement) {
+  return {{"recall", "given masks found dynamic", 100.0 * agreement.recall(), "%", 1},
+          {"precision", "dynamic points in given masks", 100.0 * agreement.precision(), "%", 1}};
+}
+
+}  // namespace mms

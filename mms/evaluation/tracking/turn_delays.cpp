@@ -1,0 +1,41 @@
+#include "mms/evaluation/tracking/turn_delays.hpp"
+
+namespace mms {
+namespace {
+
+/// Turns that pass unrecognised count when they could be seen for so long [s].
+constexpr double kLongEnough = 1.0;
+
+}  // namespace
+
+void TurnDelays::see(int id, Timestamp stamp, bool moving, bool recognised) {
+  const auto [place, is_new] = objects_.try_emplace(id, Object{moving, false, stamp, stamp});
+  Object& object = place->second;
+  if (!is_new && moving != object.moving) {
+    if (object.pending) give_up(object);
+    object = {moving, true, stamp, stamp};
+  }
+  object.seen = stamp;
+  if (!object.pending || !recognised) return;
+  settle(to_seconds(stamp - object.since));
+  object.pending = false;
+}
+
+void TurnDelays::lose(int id) {
+  const auto place = objects_.find(id);
+  if (place == objects_.end()) return;
+  if (place->second.pending) give_up(place->second);
+  objects_.erase(place);
+}
+
+void TurnDelays::settle(double delay) {
+  ++count_;
+  if (!(delay <= longest_)) longest_ = delay;
+}
+
+void TurnDelays::give_up(const Object& object) {
+  const double waited = to_seconds(object.seen - object.since);
+  if (waited >= kLongEnough) settle(waited);
+}
+
+}  // namespace mms

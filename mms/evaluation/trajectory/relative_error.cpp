@@ -1,0 +1,110 @@
+#include "mms/evaluation/trajectory/relative_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "mms/core/error.hpp"
+#include "mms/evaluation/scores/metric_value.hpp"
+#include "mms/evaluation/scores/statistics.hpp"
+#include "mms/geometry/se3.hpp"
+
+namespace mms {
+namespace {
+
+/// Of delta: how far the later pose of a pair may be from where it should be.
+constexpr double kTimeTolerance = 0.1;
+
+/// Places in the list of matches where a pair begins and ends.
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+Pairs pairs_by_time(const std::vector<Timestamp>& stamps, double seconds) {
+  const auto delta = std::chrono::round<Duration>(std::chrono::duration<double>(seconds));
+  const auto tolerance = std::chrono::round<Duration>(kTimeTolerance * delta);
+  Pairs pairs;
+  for (std::size_t i = 0; i + 1 < stamps.size() && stamps[i] + delta <= stamps.back(); ++i) {
+    const Timestamp target = stamps[i] + delta;
+    const auto from = stamps.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    auto j = std::lower_bound(from, stamps.end(), target);
+    if (j != from && target - *(j - 1) < *j - target) --j;
+    if (std::chrono::abs(*j - target) > tolerance) continue;
+    pairs.emplace_back(i, static_cast<std::size_t>(j - stamps.begin()));
+  }
+  return pairs;
+}
+
+Pairs consecutive(const std::vector<std::size_t>& places) {
+  Pairs pairs;
+  for (std::size_t i = 1; i < places.size(); ++i) pairs.emplace_back(places[i - 1], places[i]);
+  return pairs;
+}
+
+/// evo's rule: a pair ends, and the next begins, where the path since the last end reaches delta.
+Pairs pairs_by_path(const std::vector<Eigen::Vector3d>& positions, double delta) {
+  std::vector<std::size_t> places;
+  double path = 0.0;
+  for (std::size_t i = 1; i < positions.size(); ++i) {
+    path += (positions[i] - positions[i - 1]).norm();
+    if (path < delta) continue;
+    places.push_back(i);
+    path = 0.0;
+  }
+  return consecutive(places);
+}
+
+Pairs pairs_by_frames(std::size_t count, std::size_t step) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < count; i += step) places.push_back(i);
+  return consecutive(places);
+}
+
+Pairs choose_pairs(const Trajectory& estimate, const std::vector<PoseMatch>& matches,
+                   const RelativeDelta& delta) {
+  if (delta.unit == DeltaUnit::kFrames) {
+    return pairs_by_frames(matches.size(), static_cast<std::size_t>(delta.value));
+  }
+  std::vector<Timestamp> stamps;
+  std::vector<Eigen::Vector3d> positions;
+  for (const PoseMatch& match : matches) {
+    const StampedPose& pose = estimate[match.estimate];
+    stamps.push_back(pose.stamp);
+    positions.push_back(pose.T_world_sensor.translation());
+  }
+  return delta.unit == DeltaUnit::kSeconds ? pairs_by_time(stamps, delta.value)
+                                           : pairs_by_path(positions, delta.value);
+}
+
+/// Allowed deltas: from a nanosecond, or a frame, to numbers that every type used here can hold.
+void check(const RelativeDelta& delta) {
+  constexpr double kMax = 1e9;
+  const double min = delta.unit == DeltaUnit::kFrames ? 1.0 : 1e-9;
+  if (delta.value >= min && delta.value <= kMax) return;
+  throw DataError("relative pose error",
+                  "delta " + to_fixed(delta.value, 9) +
+                      (delta.unit == DeltaUnit::kFrames ? " frames is not in 1..1e9"
+                                                        : " is not in 1e-9..1e9 s or m"));
+}
+
+Eigen::Isometry3d motion(const Trajectory& trajectory, std::size_t from, std::size_t to) {
+  return (trajectory[from].T_world_sensor.inverse() * trajectory[to].T_world_sensor).isometry();
+}
+
+}  // namespace
+
+RelativeError relative_error(const Trajectory& reference, const Trajectory& estimate,
+                             const std::vector<PoseMatch>& matches, const RelativeDelta& delta) {
+  check(delta);
+  std::vector<double> distances;
+  std::vector<double> angles;
+  for (const auto& [i, j] : choose_pairs(estimate, matches, delta)) {
+    const Eigen::Isometry3d truth = motion(reference, matches[i].reference, matches[j].reference);
+    const Eigen::Isometry3d error =
+        truth.inverse() * motion(estimate, matches[i].estimate, matches[j].estimate);
+    distances.push_back(error.translation().norm());
+    angles.push_back(se3::angle(error) * 180.0 / std::numbers::pi);
+  }
+  return {distances.size(), root_mean_square(distances), root_mean_square(angles)};
+}
+
+}  // namespace mms

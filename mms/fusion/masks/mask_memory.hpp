@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mms/core/image.hpp"
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/core/segmentation.hpp"
+#include "mms/fusion/clouds/mask_image.hpp"
+#include "mms/fusion/clusters/dynamic_objects.hpp"
+#include "mms/fusion/config/fusion_config.hpp"
+
+namespace mms {
+
+/// Carries dynamic objects over frames in which their masks are missing (beyond the paper, whose
+/// clusters need a mask in every frame). What was dynamic in the last frame and still has the same
+/// depth stands for a mask; the clusters then complete it, so that it follows an object that moves.
+class MaskMemory {
+ public:
+  explicit MaskMemory(const FusionConfig& config) : config_(config) {}
+
+  /// Adds the remembered objects that no mask covers now to `mask` and `instances`, with a score of
+  /// 0: nothing in this frame says that they are there.
+  void recall(const LabeledCloud& cloud, MaskImage& mask, std::vector<Instance>& instances);
+
+  /// Keeps the objects found with the instances that `recall` left.
+  void remember(const LabeledCloud& cloud, const std::vector<DynamicObjects::Object>& objects);
+
+ private:
+  struct Object {
+    ObjectClass object_class;
+    Timestamp masked;  ///< when it last had a mask
+  };
+
+  bool is_still_there(const LabeledCloud& cloud, std::size_t pixel) const;
+  std::vector<std::uint8_t> find_missing(const LabeledCloud& cloud, const MaskImage& mask) const;
+
+  FusionConfig config_;
+  std::vector<Object> objects_;
+  std::vector<std::int16_t> object_of_;  ///< of every pixel, -1 for none
+  std::vector<float> depth_;             ///< of every pixel [m]
+  std::vector<Timestamp> masked_;        ///< of the frame's instances
+};
+
+}  // namespace mms

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+
+#include "mms/geometry/voxels/voxel_key.hpp"
+
+namespace mms {
+
+/// How voxels are numbered within the cubic blocks of kSide^3 of them that the maps store.
+struct BlockCells {
+  static constexpr int kBits = 3;
+  static constexpr int kSide = 1 << kBits;
+  static constexpr int kCount = kSide * kSide * kSide;
+
+  /// The block that holds a voxel, in units of the block's side.
+  static VoxelKey block_of(const VoxelKey& voxel) {
+    return {voxel.x >> kBits, voxel.y >> kBits, voxel.z >> kBits};
+  }
+
+  /// The voxel's number in its block, in [0, kCount).
+  static std::uint16_t cell_of(const VoxelKey& voxel) {
+    constexpr int kMask = kSide - 1;
+    return static_cast<std::uint16_t>((voxel.x & kMask) | ((voxel.y & kMask) << kBits) |
+                                      ((voxel.z & kMask) << (2 * kBits)));
+  }
+
+  /// The voxel with that number.
+  static VoxelKey voxel_of(const VoxelKey& block, int cell) {
+    constexpr int kMask = kSide - 1;
+    return {block.x * kSide + (cell & kMask), block.y * kSide + ((cell >> kBits) & kMask),
+            block.z * kSide + (cell >> (2 * kBits))};
+  }
+};
+
+}  // namespace mms

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "mms/geometry/voxels/voxel_key.hpp"
+
+namespace mms {
+
+/// One axis of a walk through voxels.
+struct VoxelStep {
+  std::int32_t direction;
+  std::int32_t left;  ///< steps to take; counted, so that rounding cannot lead past the end
+  float next;         ///< share of the segment at which the next voxel begins
+  float pitch;        ///< share of it that a voxel takes
+
+  VoxelStep(float from, float to) {
+    const auto at = static_cast<std::int32_t>(std::floor(from));
+    const auto end = static_cast<std::int32_t>(std::floor(to));
+    direction = end < at ? -1 : 1;
+    left = std::abs(end - at);
+    pitch = 1.0F / std::abs(to - from);
+    const auto border = static_cast<float>(end < at ? at : at + 1);
+    next = left > 0 ? std::abs(border - from) * pitch : kNever;
+  }
+
+  void take(std::int32_t& coordinate) {
+    coordinate += direction;
+    next = --left > 0 ? next + pitch : kNever;
+  }
+
+ private:
+  static constexpr float kNever = std::numeric_limits<float>::infinity();
+};
+
+/// Calls `visit(key)` for the voxels that the segment passes through, in its order, both ends
+/// included; each shares a face with the one before (Amanatides and Woo, 1987).
+/// @param from, to  in units of the voxel's side; finite and within 2^30 of the origin
+template <class Visit>
+void for_each_voxel(const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Visit& visit) {
+  VoxelKey key = voxel_key(from, 1.0F);
+  VoxelStep x(from.x(), to.x());
+  VoxelStep y(from.y(), to.y());
+  VoxelStep z(from.z(), to.z());
+  visit(key);
+  for (int steps = x.left + y.left + z.left; steps > 0; --steps) {
+    if (x.next <= y.next && x.next <= z.next) {
+      x.take(key.x);
+    } else if (y.next <= z.next) {
+      y.take(key.y);
+    } else {
+      z.take(key.z);
+    }
+    visit(key);
+  }
+}
+
+}  // namespace mms

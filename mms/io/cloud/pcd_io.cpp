@@ -1,0 +1,118 @@
+#include "mms/io/cloud/pcd_io.hpp"
+
+#include <map>
+
+#include "mms/core/error.hpp"
+#include "mms/io/cloud/point_record.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/io/text/header_text.hpp"
+
+namespace mms {
+namespace {
+
+const std::map<std::string, ScalarType> kTypes = {
+    {"I1", ScalarType::kInt8},    {"U1", ScalarType::kUint8},  {"I2", ScalarType::kInt16},
+    {"U2", ScalarType::kUint16},  {"I4", ScalarType::kInt32},  {"U4", ScalarType::kUint32},
+    {"F4", ScalarType::kFloat32}, {"F8", ScalarType::kFloat64}};
+
+const std::map<std::string, Channel> kChannels = {{"x", Channel::kX},
+                                                  {"y", Channel::kY},
+                                                  {"z", Channel::kZ},
+                                                  {"normal_x", Channel::kNormalX},
+                                                  {"normal_y", Channel::kNormalY},
+                                                  {"normal_z", Channel::kNormalZ},
+                                                  {"rgb", Channel::kPackedRgb},
+                                                  {"label", Channel::kLabel},
+                                                  {"observations", Channel::kObservations}};
+
+/// Header lines by their first word, up to and with DATA.
+using PcdHeader = std::map<std::string, std::vector<std::string>>;
+
+PcdHeader read_header(HeaderText& header) {
+  PcdHeader lines;
+  while (!lines.contains("DATA")) {
+    std::vector<std::string> words = header.next_line();
+    const std::string key = words.front();
+    words.erase(words.begin());
+    if (!lines.emplace(key, std::move(words)).second) header.fail(key + " is there twice");
+  }
+  for (const char* key : {"FIELDS", "SIZE", "TYPE", "POINTS"}) {
+    if (!lines.contains(key)) header.fail(std::string("is no PCD header: it has no ") + key);
+  }
+  return lines;
+}
+
+PointRecord read_record(const HeaderText& header, PcdHeader& lines) {
+  constexpr std::uint64_t kMaxColumns = 4096;
+  const std::vector<std::string>& fields = lines["FIELDS"];
+  const std::vector<std::string>& sizes = lines["SIZE"];
+  const std::vector<std::string>& types = lines["TYPE"];
+  std::vector<std::string>& counts = lines["COUNT"];
+  if (counts.empty()) counts.assign(fields.size(), "1");
+  if (sizes.size() != fields.size() || types.size() != fields.size() ||
+      counts.size() != fields.size()) {
+    header.fail("FIELDS, SIZE, TYPE and COUNT are of different lengths");
+  }
+  PointRecord record;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto type = kTypes.find(types[i] + sizes[i]);
+    if (type == kTypes.end()) header.fail("unknown TYPE and SIZE '" + types[i] + sizes[i] + "'");
+    const auto known = kChannels.find(fields[i]);
+    const std::uint64_t count = header.count(counts[i]);
+    if (count > kMaxColumns) header.fail("COUNT is " + counts[i] + ", allowed is up to 4096");
+    const bool single = known != kChannels.end() && count == 1;
+    record.insert(record.end(), count, {single ? known->second : Channel::kOther, type->second});
+  }
+  check_record(record, header.where());
+  return record;
+}
+
+std::string_view name_of(Channel channel) {
+  for (const auto& [name, known] : kChannels) {
+    if (known == channel) return name;
+  }
+  return "";
+}
+
+}  // namespace
+
+PointCloudFile read_pcd(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  HeaderText text(bytes, path.string());
+  PcdHeader lines = read_header(text);
+  const PointRecord record = read_record(text, lines);
+  const auto word = [&](const std::string& key) { return lines[key].empty() ? "" : lines[key][0]; };
+  const std::string data = word("DATA");
+  if (data != "ascii" && data != "binary") {
+    text.fail("unsupported DATA '" + data + "'", "ascii and binary can be read");
+  }
+  const auto decode = data == "ascii" ? decode_ascii : decode_binary;
+  return decode(text.rest(), text.count(word("POINTS")), record, path.string());
+}
+
+void write_pcd(const std::filesystem::path& path, const PointCloudFile& cloud) {
+  const PointRecord record = record_of(cloud, true);
+  std::string fields = "FIELDS";
+  std::string sizes = "SIZE";
+  std::string types = "TYPE";
+  std::string counts = "COUNT";
+  for (const PointColumn& column : record) {
+    fields.append(" ").append(name_of(column.channel));
+    sizes += " 4";
+    types += column.type == ScalarType::kFloat32 ? " F" : " I";
+    counts += " 1";
+  }
+  const std::string points = std::to_string(cloud.points.size());
+  AtomicFile file(path);
+  file.stream() << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+                << fields << '\n'
+                << sizes << '\n'
+                << types << '\n'
+                << counts << "\nWIDTH " << points << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS "
+                << points << "\nDATA binary\n"
+                << encode_binary(cloud, record);
+  file.commit();
+}
+
+}  // namespace mms

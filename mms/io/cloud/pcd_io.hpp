@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "mms/io/cloud/point_cloud_file.hpp"
+
+namespace mms {
+
+/// Reads a PCD file, DATA ascii or binary, with the fields x y z, normal_x normal_y normal_z, rgb
+/// (packed), label and observations; others are passed over.
+/// @throws FileError, DataError as `read_ply` does.
+PointCloudFile read_pcd(const std::filesystem::path& path);
+
+/// Writes PCD 0.7 with binary data. @throws FileError, DataError as `write_ply` does.
+void write_pcd(const std::filesystem::path& path, const PointCloudFile& cloud);
+
+}  // namespace mms

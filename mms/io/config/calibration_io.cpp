@@ -1,0 +1,134 @@
+#include "mms/io/config/calibration_io.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "mms/core/error.hpp"
+#include "mms/io/config/yaml_map.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/numbers.hpp"
+#include "mms/io/text/pose_text.hpp"
+
+namespace mms {
+namespace {
+
+constexpr Range kFocal{1e-3, 1e5};
+constexpr Range kCentre{-1e5, 1e5};
+constexpr Range kSide{1, 16384};
+constexpr Range kLens{-1e4, 1e4};
+constexpr Range kDepthScale{1e-3, 1e6};
+constexpr Range kMaxDepth{0.1, 1000.0};
+constexpr std::string_view kCameraKeys[] = {
+    "fx", "fy", "cx", "cy", "width", "height", "distortion", "depth_scale", "max_depth"};
+
+YAML::Node required(YamlMap& map, const std::string& file, std::string_view key) {
+  const auto node = map.find(key);
+  if (node) return *node;
+  throw ConfigError(file, "key '" + std::string(key) + "' is missing",
+                    "a camera needs fx fy cx cy width height depth_scale");
+}
+
+/// The numbers of a list, or of a list of rows.
+std::vector<double> matrix_numbers(const YamlMap& map, const YAML::Node& node,
+                                   std::string_view key) {
+  if (!node.IsSequence()) map.fail(node, key, "is " + shown(node) + ", a matrix is wanted");
+  std::vector<double> numbers;
+  for (const YAML::Node& element : node) {
+    if (element.IsSequence()) {
+      for (const YAML::Node& number : element) numbers.push_back(map.number(number, key, kCentre));
+    } else {
+      numbers.push_back(map.number(element, key, kCentre));
+    }
+  }
+  return numbers;
+}
+
+std::array<double, 5> read_distortion(const YamlMap& map, const YAML::Node& node) {
+  constexpr std::string_view kKey = "distortion";
+  const bool list = node.IsSequence() && (node.size() == 4 || node.size() == 5);
+  if (!list) map.fail(node, kKey, "is no list of 4 or 5 numbers", "k1 k2 p1 p2 and perhaps k3");
+  std::array<double, 5> distortion{};
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    distortion[i] = map.number(node[i], kKey, kLens);
+  }
+  return distortion;
+}
+
+CameraIntrinsics read_camera(YamlMap& map, const std::string& file) {
+  const auto number = [&](std::string_view key, Range range) {
+    return map.number(required(map, file, key), key, range);
+  };
+  const auto integer = [&](std::string_view key) {
+    return map.integer(required(map, file, key), key, kSide);
+  };
+  CameraIntrinsics camera;
+  camera.fx = number("fx", kFocal);
+  camera.fy = number("fy", kFocal);
+  camera.cx = number("cx", kCentre);
+  camera.cy = number("cy", kCentre);
+  camera.width = integer("width");
+  camera.height = integer("height");
+  if (const auto node = map.find("distortion")) camera.distortion = read_distortion(map, *node);
+  return camera;
+}
+
+Eigen::Isometry3d read_transform(const YamlMap& map, const YAML::Node& node) {
+  constexpr std::string_view kKey = "T_camera_lidar";
+  try {
+    return isometry_from_rows(matrix_numbers(map, node, kKey), std::string(kKey));
+  } catch (const DataError& error) {
+    map.fail(node, kKey, std::string("makes no rigid transform: ") + error.what());
+  }
+}
+
+std::string list(std::span<const double> numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "[" : ", ") + format_number(number);
+  return text + "]";
+}
+
+}  // namespace
+
+Calibration read_calibration(const std::filesystem::path& path) {
+  YamlMap map = YamlMap::load(path);
+  Calibration calibration;
+  if (const auto node = map.find("T_camera_lidar")) {
+    calibration.T_camera_lidar = Transform<Camera, Lidar>(read_transform(map, *node));
+  }
+  const auto camera =
+      std::count_if(std::begin(kCameraKeys), std::end(kCameraKeys),
+                    [&](std::string_view key) { return map.find(key).has_value(); });
+  map.reject_unknown();
+  if (camera == 0) return calibration;
+  calibration.camera = read_camera(map, path.string());
+  calibration.depth_scale =
+      map.number(required(map, path.string(), "depth_scale"), "depth_scale", kDepthScale);
+  if (const auto node = map.find("max_depth")) {
+    calibration.max_depth = map.number(*node, "max_depth", kMaxDepth);
+  }
+  return calibration;
+}
+
+void write_calibration(const std::filesystem::path& path, const Calibration& calibration) {
+  std::string text;
+  if (calibration.camera) {
+    const CameraIntrinsics& camera = *calibration.camera;
+    text += "fx: " + format_number(camera.fx) + "  # [px]\n";
+    text += "fy: " + format_number(camera.fy) + "\n";
+    text += "cx: " + format_number(camera.cx) + "\n";
+    text += "cy: " + format_number(camera.cy) + "\n";
+    text += "width: " + std::to_string(camera.width) + "\n";
+    text += "height: " + std::to_string(camera.height) + "\n";
+    text += "distortion: " + list(camera.distortion) + "  # k1 k2 p1 p2 k3\n";
+    text += "depth_scale: " + format_number(calibration.depth_scale) + "  # units per metre\n";
+    if (calibration.max_depth) {
+      text += "max_depth: " + format_number(*calibration.max_depth) + "  # [m]\n";
+    }
+  }
+  const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows =
+      calibration.T_camera_lidar.isometry().matrix().topRows<3>();
+  text += "T_camera_lidar: " + list(std::span(rows.data(), 12)) + "  # 3x4, row by row [m]\n";
+  write_file(path, text);
+}
+
+}  // namespace mms

@@ -1,0 +1,169 @@
+#include "mms/io/config/config_yaml.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mms/io/config/yaml_map.hpp"
+#include "mms/io/text/nearest_word.hpp"
+#include "mms/io/text/numbers.hpp"
+
+namespace mms {
+namespace {
+
+/// Sets fields from a file. The stack holds the group being visited and those around it.
+class ConfigLoader final : public ConfigVisitor {
+ public:
+  explicit ConfigLoader(const std::filesystem::path& path) {
+    groups_.push_back(YamlMap::load(path));
+  }
+
+  void finish() const { groups_.back().reject_unknown(); }
+
+  void number(const FieldInfo& info, double& value, Range range) override {
+    if (const auto node = groups_.back().find(info.key)) {
+      value = groups_.back().number(*node, info.key, range);
+    }
+  }
+
+  void integer(const FieldInfo& info, int& value, Range range) override {
+    if (const auto node = groups_.back().find(info.key)) {
+      value = groups_.back().integer(*node, info.key, range);
+    }
+  }
+
+  void boolean(const FieldInfo& info, bool& value) override {
+    const auto node = groups_.back().find(info.key);
+    if (!node) return;
+    const std::string text = plain_scalar(*node);
+    if (text != "true" && text != "false") {
+      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", allowed is true or false");
+    }
+    value = text == "true";
+  }
+
+  void choice(const FieldInfo& info, int& index,
+              std::span<const std::string_view> choices) override {
+    const auto node = groups_.back().find(info.key);
+    if (!node) return;
+    const std::string word = node->IsScalar() ? node->Scalar() : "";
+    const auto found = std::find(choices.begin(), choices.end(), word);
+    if (found == choices.end()) {
+      const std::vector<std::string> words(choices.begin(), choices.end());
+      std::string allowed;
+      for (const std::string& known : words) allowed += (allowed.empty() ? "" : ", ") + known;
+      const std::string hint = suggestion(word, words);
+      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", allowed is one of " + allowed,
+                          hint.starts_with("did") ? hint : "");
+    }
+    index = static_cast<int>(found - choices.begin());
+  }
+
+  void text(const FieldInfo& info, std::string& value) override {
+    const auto node = groups_.back().find(info.key);
+    if (!node) return;
+    if (!node->IsScalar()) {
+      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", a text is wanted");
+    }
+    value = node->Scalar();
+  }
+
+ private:
+  std::size_t begin_list(const FieldInfo& info, std::size_t size) override {
+    std::optional<std::vector<YamlMap>> items = groups_.back().children(info.key);
+    lists_.push_back(items ? std::move(*items) : std::vector<YamlMap>());
+    if (!items) lists_.back().resize(size, groups_.back().child(info.key));
+    std::reverse(lists_.back().begin(), lists_.back().end());
+    return lists_.back().size();
+  }
+  void begin_item(const FieldInfo&) override {
+    groups_.push_back(std::move(lists_.back().back()));
+    lists_.back().pop_back();
+  }
+  void end_list() override { lists_.pop_back(); }
+  void begin_group(const FieldInfo& info) override {
+    groups_.push_back(groups_.back().child(info.key));
+  }
+  void end_group() override {
+    groups_.back().reject_unknown();
+    groups_.pop_back();
+  }
+
+  std::vector<YamlMap> groups_;
+  std::vector<std::vector<YamlMap>> lists_;  ///< items still to come, the next one last
+};
+
+/// Writes a line a field: "key: value  # doc [unit], allowed values".
+class ConfigWriter final : public ConfigVisitor {
+ public:
+  const std::string& text() const { return text_; }
+
+  void number(const FieldInfo& info, double& value, Range range) override {
+    const std::string infinity = value > 0.0 ? ".inf" : "-.inf";
+    field(info, std::isinf(value) ? infinity : format_number(value), to_string(range));
+  }
+  void integer(const FieldInfo& info, int& value, Range range) override {
+    field(info, std::to_string(value), to_string(range));
+  }
+  void boolean(const FieldInfo& info, bool& value) override {
+    field(info, value ? "true" : "false", "true or false");
+  }
+  void choice(const FieldInfo& info, int& index,
+              std::span<const std::string_view> choices) override {
+    std::string words;
+    for (const std::string_view word : choices) {
+      words += (words.empty() ? "" : " | ") + std::string(word);
+    }
+    field(info, std::string(choices[static_cast<std::size_t>(index)]), words);
+  }
+  void text(const FieldInfo& info, std::string& value) override {
+    field(info, YAML::Dump(YAML::Node(value)), "a text");
+  }
+
+ private:
+  void begin_group(const FieldInfo& info) override {
+    if (!info.doc.empty()) text_ += indent_ + "# " + std::string(info.doc) + "\n";
+    text_ += indent_ + std::string(info.key) + ":\n";
+    indent_ += "  ";
+  }
+  void end_group() override { indent_.resize(indent_.size() - 2); }
+  std::size_t begin_list(const FieldInfo& info, std::size_t size) override {
+    if (!info.doc.empty()) text_ += indent_ + "# " + std::string(info.doc) + "\n";
+    text_ += indent_ + std::string(info.key) + ":" + (size == 0 ? " []" : "") + "\n";
+    return size;
+  }
+  void begin_item(const FieldInfo&) override {
+    dash_ = true;
+    indent_ += "    ";
+  }
+  void end_item() override { indent_.resize(indent_.size() - 4); }
+
+  void field(const FieldInfo& info, const std::string& value, const std::string& allowed) {
+    const std::string unit = info.unit.empty() ? "" : " [" + std::string(info.unit) + "]";
+    text_ += dash_ ? indent_.substr(0, indent_.size() - 2) + "- " : indent_;
+    dash_ = false;
+    text_ += std::string(info.key) + ": " + value + "  # " + std::string(info.doc) + unit + ", " +
+             allowed + "\n";
+  }
+
+  std::string text_;
+  std::string indent_;
+  bool dash_ = false;  ///< the next field is the first of a list's item
+};
+
+}  // namespace
+
+void load_config_fields(const std::filesystem::path& path,
+                        const std::function<void(ConfigVisitor&)>& visit) {
+  ConfigLoader loader(path);
+  visit(loader);
+  loader.finish();
+}
+
+std::string dump_config_fields(const std::function<void(ConfigVisitor&)>& visit) {
+  ConfigWriter writer;
+  visit(writer);
+  return writer.text();
+}
+
+}  // namespace mms

@@ -1,0 +1,103 @@
+#include "mms/io/journal/journal_map.hpp"
+
+#include <cmath>
+
+#include "mms/core/error.hpp"
+#include "mms/io/text/numbers.hpp"
+
+namespace mms {
+namespace {
+
+constexpr std::size_t kVoxelBytes = 13;
+constexpr std::size_t kBlockBytes = 18;
+constexpr std::size_t kKeyBytes = 12;
+constexpr int kCells = 512;                      // of a block
+constexpr std::int32_t kMaxKey = (1 << 28) - 1;  // of a block: its voxels' keys have 32 bits
+
+void append_key(std::string& bytes, const VoxelKey& key) {
+  append_bytes(bytes, key.x);
+  append_bytes(bytes, key.y);
+  append_bytes(bytes, key.z);
+}
+
+VoxelKey take_key(ByteReader& bytes) {
+  VoxelKey key;
+  key.x = bytes.take<std::int32_t>();
+  key.y = bytes.take<std::int32_t>();
+  key.z = bytes.take<std::int32_t>();
+  return key;
+}
+
+void append_voxel(std::string& bytes, const VoxelChange& voxel) {
+  append_bytes(bytes, voxel.cell);
+  append_bytes(bytes, voxel.hits);
+  append_bytes(bytes, voxel.offset);
+  append_bytes(bytes, voxel.normal);
+  append_bytes(bytes, voxel.color);
+}
+
+VoxelChange take_voxel(ByteReader& bytes) {
+  VoxelChange voxel;
+  voxel.cell = bytes.take<std::uint16_t>();
+  voxel.hits = bytes.take<std::uint16_t>();
+  voxel.offset = bytes.take<std::array<std::uint8_t, 3>>();
+  voxel.normal = bytes.take<std::array<std::int8_t, 3>>();
+  voxel.color = bytes.take<Rgb>();
+  if (voxel.cell < kCells) return voxel;
+  throw DataError(bytes.where(), "a voxel is at place " + std::to_string(voxel.cell) +
+                                     " of its block, allowed is 0 to " +
+                                     std::to_string(kCells - 1));
+}
+
+BlockChange take_block(ByteReader& bytes) {
+  BlockChange block;
+  block.key = take_key(bytes);
+  for (const std::int32_t side : {block.key.x, block.key.y, block.key.z}) {
+    if (side >= -kMaxKey && side <= kMaxKey) continue;
+    throw DataError(bytes.where(), "a block is at " + std::to_string(side) + ", allowed is up to " +
+                                       std::to_string(kMaxKey));
+  }
+  block.views = bytes.take<std::uint16_t>();
+  block.voxels.resize(bytes.take_count(kVoxelBytes));
+  for (VoxelChange& voxel : block.voxels) voxel = take_voxel(bytes);
+  return block;
+}
+
+}  // namespace
+
+void append_map(std::string& bytes, const MapChanges& changes) {
+  for (int axis = 0; axis < 3; ++axis) append_bytes(bytes, changes.viewpoint[axis]);
+  append_bytes(bytes, changes.voxel_size);
+  append_bytes(bytes, static_cast<std::uint8_t>(changes.whole));
+  append_bytes(bytes, static_cast<std::uint32_t>(changes.blocks.size()));
+  for (const BlockChange& block : changes.blocks) {
+    append_key(bytes, block.key);
+    append_bytes(bytes, block.views);
+    append_bytes(bytes, static_cast<std::uint32_t>(block.voxels.size()));
+    for (const VoxelChange& voxel : block.voxels) append_voxel(bytes, voxel);
+  }
+  append_bytes(bytes, static_cast<std::uint32_t>(changes.erased.size()));
+  for (const VoxelKey& key : changes.erased) append_key(bytes, key);
+}
+
+MapChanges take_map(ByteReader& bytes) {
+  MapChanges changes;
+  for (int axis = 0; axis < 3; ++axis) changes.viewpoint[axis] = bytes.take<float>();
+  changes.voxel_size = take_voxel_size(bytes);
+  changes.whole = bytes.take<std::uint8_t>() != 0;
+  changes.blocks.resize(bytes.take_count(kBlockBytes));
+  for (BlockChange& block : changes.blocks) block = take_block(bytes);
+  changes.erased.resize(bytes.take_count(kKeyBytes));
+  for (VoxelKey& key : changes.erased) key = take_key(bytes);
+  return changes;
+}
+
+double take_voxel_size(ByteReader& bytes) {
+  constexpr double kLargest = 1e6;
+  const auto size = bytes.take<double>();
+  if (size > 0.0 && size <= kLargest) return size;
+  throw DataError(bytes.where(), "the voxel size is " + format_number(size) +
+                                     " m, allowed is above 0 up to " + format_number(kLargest));
+}
+
+}  // namespace mms

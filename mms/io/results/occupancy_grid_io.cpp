@@ -1,0 +1,60 @@
+#include "mms/io/results/occupancy_grid_io.hpp"
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/numbers.hpp"
+
+namespace mms {
+namespace {
+
+char grey_of(Occupancy state) {
+  constexpr unsigned char kGreys[] = {205, 254, 0};  // unknown, free, occupied
+  return static_cast<char>(kGreys[static_cast<std::size_t>(state)]);
+}
+
+std::string pgm_of(const Image<Occupancy>& cells) {
+  if (cells.empty()) return std::string("P5\n1 1\n255\n") + grey_of(Occupancy::kUnknown);
+  std::string text =
+      "P5\n" + std::to_string(cells.width()) + ' ' + std::to_string(cells.height()) + "\n255\n";
+  text.reserve(text.size() + cells.size());
+  for (int y = cells.height() - 1; y >= 0; --y) {
+    for (int x = 0; x < cells.width(); ++x) text += grey_of(cells(x, y));
+  }
+  return text;
+}
+
+template <class Vector>
+std::string list_of(const Vector& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "[" : ", ") + format_number(value);
+  return text + "]";
+}
+
+/// 205 is 0.19608 occupied: above this free_thresh, so unknown to ROS 1 and nav2 alike. With
+/// nav2's own 0.25 it would be free.
+constexpr const char* kThresholds = "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+
+std::string yaml_of(const std::string& picture, const OccupancyGrid& grid) {
+  const Eigen::Quaterniond q(grid.T_world_map.rotation());
+  const Eigen::Vector3d origin(grid.origin.x(), grid.origin.y(), 0.0);
+  return "image: \"" + picture +
+         "\"\nmode: trinary\nresolution: " + format_number(grid.resolution) +
+         "\norigin: " + list_of(origin) + "  # of the lower left pixel: x y [m], yaw [rad]\n" +
+         "negate: 0\n" + kThresholds +
+         "# The map frame (z up, x forward at the start, origin on the floor) in that of the "
+         "trajectory:\n# p_world = R(quaternion) p_map + translation. Map servers ignore it.\n" +
+         "T_world_map:\n  translation: " + list_of(grid.T_world_map.translation()) +
+         "  # x y z [m]\n" + "  quaternion: " + list_of(q.coeffs()) + "  # x y z w\n";
+}
+
+}  // namespace
+
+void write_occupancy_grid(const std::filesystem::path& yaml, const OccupancyGrid& grid) {
+  const std::filesystem::path picture = std::filesystem::path(yaml).replace_extension(".pgm");
+  write_file(picture, pgm_of(grid.cells));
+  write_file(yaml, yaml_of(picture.filename().string(), grid));
+}
+
+}  // namespace mms

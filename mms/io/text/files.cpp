@@ -1,0 +1,41 @@
+#include "mms/io/text/files.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "mms/core/error.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) throw FileError(path.string(), "there is no such file");
+  if (!fs::is_regular_file(status)) throw FileError(path.string(), "is not a regular file");
+
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes(stream ? fs::file_size(path, error) : 0, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream || error) {
+    throw FileError(path.string(), std::string("cannot be read: ") + std::strerror(errno));
+  }
+  return bytes;
+}
+
+std::vector<std::string> list_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  std::vector<std::string> names;
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    names.push_back(entry->path().filename().string());
+  }
+  if (error) throw FileError(folder.string(), "cannot be listed: " + error.message());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace mms

@@ -1,0 +1,42 @@
+#include "mms/io/text/text_table.hpp"
+
+#include "mms/io/text/files.hpp"
+
+namespace mms {
+namespace {
+
+constexpr std::string_view kSeparators = " \t,\r";
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  std::size_t begin = line.find_first_not_of(kSeparators);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(kSeparators, begin), line.size());
+    fields.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kSeparators, end);
+  }
+  return fields;
+}
+
+}  // namespace
+
+TextTable::TextTable(const std::filesystem::path& path)
+    : file_(path.string()), text_(read_file(path)) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::string_view rest = text_;
+  if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
+  for (int number = 1; !rest.empty(); ++number) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    std::vector<std::string_view> fields = split(rest.substr(0, end));
+    if (!fields.empty() && !fields.front().starts_with('#')) {
+      lines_.push_back({number, std::move(fields)});
+    }
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+std::string TextTable::where(const TextLine& line) const {
+  return file_ + ":" + std::to_string(line.number);
+}
+
+}  // namespace mms

@@ -1,0 +1,177 @@
+#include "mms/localization/features/organised_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "mms/geometry/parallel.hpp"
+#include "mms/localization/features/local_surface.hpp"
+
+namespace mms {
+namespace {
+
+constexpr int kSmoothnessWindow = 4;  ///< half width of the neighbourhood of eq. (2) [px]
+constexpr int kSmoothnessStep = 2;    ///< spacing of its pixels [px]
+constexpr int kPlaneWindow = 4;       ///< half width of the plane fit's neighbourhood [px]
+constexpr int kCandidateStep = 2;     ///< spacing of the pixels looked at in a sector [px]
+constexpr int kMinPlanePoints = 30;
+
+struct Candidate {
+  int x;
+  int y;
+  float smoothness;  ///< magnitude of eq. (2) over range
+  bool complete;     ///< no neighbour is missing, so it is not at a border
+};
+
+/// Reads the static points of an organised cloud by pixel.
+class StaticGrid {
+ public:
+  StaticGrid(const LabeledCloud& cloud, const FeatureConfig& config)
+      : cloud_(cloud), noise_(config.noise) {}
+
+  int width() const { return cloud_.width; }
+  int height() const { return cloud_.height; }
+
+  /// The static point at a pixel, or null.
+  const Eigen::Vector3f* at(int x, int y) const {
+    return label(x, y) == PointLabel::kStatic ? &cloud_.points[index(x, y)] : nullptr;
+  }
+
+  /// Label of a pixel; invalid outside the image.
+  PointLabel label(int x, int y) const {
+    const bool inside = x >= 0 && y >= 0 && x < cloud_.width && y < cloud_.height;
+    return inside ? cloud_.labels[index(x, y)] : PointLabel::kInvalid;
+  }
+
+  /// Largest difference in depth [m] between points of one surface `pixels` apart.
+  float depth_gate(float depth, int pixels) const {
+    constexpr float kMaxSlope = 2.0F;  // about 63 degrees from frontal
+    const float spacing = depth / static_cast<float>(cloud_.camera.fx);
+    return 3.0F * noise_.sigma(depth) + kMaxSlope * spacing * static_cast<float>(pixels);
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud_.width) +
+           static_cast<std::size_t>(x);
+  }
+
+  const LabeledCloud& cloud_;
+  DepthNoise noise_;
+};
+
+/// The pixel as a candidate, or nothing where a neighbour is dynamic or on another surface, or more
+/// than a sixth of them are missing: occlusion borders, frame borders and the borders of the
+/// dynamic region. A few holes are what every depth camera leaves on dark or slanted surfaces.
+std::optional<Candidate> candidate_at(const StaticGrid& grid, int x, int y) {
+  constexpr int kSide = 2 * kSmoothnessWindow / kSmoothnessStep + 1;
+  constexpr int kNeighbours = kSide * kSide - 1;
+  const Eigen::Vector3f* centre = grid.at(x, y);
+  if (centre == nullptr) return std::nullopt;
+  const float range = centre->norm();
+  const float gate = grid.depth_gate(centre->z(), kSmoothnessWindow);
+  float sum = 0.0F;
+  int count = 0;
+  for (int dy = -kSmoothnessWindow; dy <= kSmoothnessWindow; dy += kSmoothnessStep) {
+    for (int dx = -kSmoothnessWindow; dx <= kSmoothnessWindow; dx += kSmoothnessStep) {
+      if (dx == 0 && dy == 0) continue;
+      const Eigen::Vector3f* p = grid.at(x + dx, y + dy);
+      if (p == nullptr) {
+        if (grid.label(x + dx, y + dy) == PointLabel::kDynamic) return std::nullopt;
+        continue;
+      }
+      if (std::abs(p->z() - centre->z()) > gate) return std::nullopt;
+      sum += range - p->norm();
+      ++count;
+    }
+  }
+  if (6 * count < 5 * kNeighbours) return std::nullopt;
+  return Candidate{x, y, std::abs(sum / static_cast<float>(count)) / range, count == kNeighbours};
+}
+
+std::optional<PlaneFeature> fit_plane(const StaticGrid& grid, const Candidate& candidate,
+                                      const FeatureConfig& config) {
+  const Eigen::Vector3f& centre = *grid.at(candidate.x, candidate.y);
+  const float gate = grid.depth_gate(centre.z(), kPlaneWindow);
+  PlaneFit fit(centre);
+  for (int dy = -kPlaneWindow; dy <= kPlaneWindow; ++dy) {
+    for (int dx = -kPlaneWindow; dx <= kPlaneWindow; ++dx) {
+      const Eigen::Vector3f* p = grid.at(candidate.x + dx, candidate.y + dy);
+      if (p != nullptr && std::abs(p->z() - centre.z()) <= gate) fit.add(*p);
+    }
+  }
+  if (fit.count() < kMinPlanePoints) return std::nullopt;
+  const PlaneFit::Plane plane = fit.solve();
+  const float noise = config.noise.sigma(centre.z());
+  const Eigen::Vector3f ray = centre / centre.z();
+  const float incidence = plane.normal.dot(ray);
+  if (plane.thickness > 2.0F * noise) return std::nullopt;
+  if (-incidence < static_cast<float>(config.min_incidence) * ray.norm()) return std::nullopt;
+  // The fitted plane's point on the ray: the neighbourhood's noise averaged.
+  return PlaneFeature{ray * (plane.normal.dot(plane.mean) / incidence), plane.normal, noise};
+}
+
+struct SectorFeatures {
+  std::vector<EdgeFeature> edges;
+  std::vector<PlaneFeature> planes;
+};
+
+/// Takes edges from the large end of the candidates sorted by smoothness, planes from the small.
+SectorFeatures choose(const StaticGrid& grid, const std::vector<Candidate>& sorted,
+                      const FeatureConfig& config) {
+  SectorFeatures chosen;
+  for (const Candidate& c : sorted) {
+    if (static_cast<int>(chosen.planes.size()) >= config.planes_per_sector) break;
+    if (c.smoothness > static_cast<float>(config.plane_smoothness)) break;
+    if (const auto plane = fit_plane(grid, c, config)) chosen.planes.push_back(*plane);
+  }
+  for (auto c = sorted.rbegin(); c != sorted.rend(); ++c) {
+    if (static_cast<int>(chosen.edges.size()) >= config.edges_per_sector) break;
+    if (!c->complete) continue;
+    const Eigen::Vector3f& point = *grid.at(c->x, c->y);
+    const float sigma = config.noise.sigma(point.z());
+    const float least =
+        std::max(static_cast<float>(config.edge_smoothness), 2.0F * sigma / point.norm());
+    if (c->smoothness < least) break;
+    chosen.edges.push_back({point, sigma});
+  }
+  return chosen;
+}
+
+std::vector<Candidate> sector_candidates(const StaticGrid& grid, int left, int top, int side) {
+  std::vector<Candidate> candidates;
+  for (int y = top; y < std::min(top + side, grid.height()); y += kCandidateStep) {
+    for (int x = left; x < std::min(left + side, grid.width()); x += kCandidateStep) {
+      if (const auto candidate = candidate_at(grid, x, y)) candidates.push_back(*candidate);
+    }
+  }
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.smoothness < b.smoothness; });
+  return candidates;
+}
+
+}  // namespace
+
+void extract_organised_features(const LabeledCloud& cloud, const FeatureConfig& config,
+                                FeatureCloud& features) {
+  const StaticGrid grid(cloud, config);
+  const int side = config.sector_px;
+  const auto columns = static_cast<std::size_t>((cloud.width + side - 1) / side);
+  const auto rows = static_cast<std::size_t>((cloud.height + side - 1) / side);
+  std::vector<SectorFeatures> sectors(columns * rows);
+  parallel_chunks(rows, 1, [&](std::size_t row, std::size_t) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const int left = static_cast<int>(column) * side;
+      const int top = static_cast<int>(row) * side;
+      sectors[row * columns + column] =
+          choose(grid, sector_candidates(grid, left, top, side), config);
+    }
+  });
+  for (const SectorFeatures& sector : sectors) {
+    features.edges.insert(features.edges.end(), sector.edges.begin(), sector.edges.end());
+    features.planes.insert(features.planes.end(), sector.planes.begin(), sector.planes.end());
+  }
+}
+
+}  // namespace mms

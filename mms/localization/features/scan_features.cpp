@@ -1,0 +1,187 @@
+#include "mms/localization/features/scan_features.hpp"
+
+#include <tsl/robin_set.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "mms/geometry/parallel.hpp"
+#include "mms/geometry/voxels/point_map.hpp"
+#include "mms/localization/features/local_surface.hpp"
+
+namespace mms {
+namespace {
+
+constexpr float kRadiusInVoxels = 2.5F;  ///< neighbourhood of eq. (2) and of the plane fit
+constexpr std::size_t kMinNeighbors = 6;
+constexpr int kSectors = 36;  ///< of direction around each of two axes
+constexpr std::size_t kEdgesPerSector = 8;
+constexpr float kPlaneFlatness = 0.2F;   ///< thickness over width of a plane
+constexpr float kMinPlaneWidth = 0.25F;  ///< share of the radius: a single ring is no plane
+constexpr double kMinVoxel = 0.05;       ///< [m]
+constexpr double kMaxVoxel = 1.0;        ///< [m]
+
+using Indices = std::vector<std::size_t>;
+
+Indices static_points(const LabeledCloud& cloud) {
+  Indices indices;
+  indices.reserve(cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.labels[i] == PointLabel::kStatic) indices.push_back(i);
+  }
+  return indices;
+}
+
+std::vector<Eigen::Vector3f> points_of(const LabeledCloud& cloud, const Indices& indices) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(indices.size());
+  for (const std::size_t i : indices) points.push_back(cloud.points[i]);
+  return points;
+}
+
+/// One point a voxel, the first: a mean would lie off thin structures.
+Indices thinned(const LabeledCloud& cloud, const Indices& indices, double voxel) {
+  const auto inverse_size = static_cast<float>(1.0 / voxel);
+  tsl::robin_set<VoxelKey, VoxelKeyHash> taken;
+  Indices kept;
+  for (const std::size_t i : indices) {
+    if (taken.insert(voxel_key(cloud.points[i], inverse_size)).second) kept.push_back(i);
+  }
+  return kept;
+}
+
+/// When the points of a scan were measured, about the middle between the first and the last.
+class PointTimes {
+ public:
+  explicit PointTimes(const std::vector<float>& time_offset) : time_offset_(time_offset) {
+    if (time_offset.empty()) return;
+    const auto [first, last] = std::minmax_element(time_offset.begin(), time_offset.end());
+    middle_ = 0.5F * (*first + *last);
+  }
+
+  /// Since the middle [s].
+  float of(std::size_t i) const { return time_offset_.empty() ? 0.0F : time_offset_[i] - middle_; }
+
+  /// Since the scan's stamp.
+  Duration middle() const {
+    return Timestamp::from_seconds(static_cast<double>(middle_)) - Timestamp();
+  }
+
+ private:
+  const std::vector<float>& time_offset_;
+  float middle_ = 0.0F;
+};
+
+struct Analysis {
+  float smoothness = 0.0F;  ///< magnitude of eq. (2) over range
+  std::optional<PlaneFeature> plane;
+};
+
+/// Eq. (2) and the plane through the neighbourhood; nothing with too few neighbours.
+std::optional<Analysis> analyse(const Eigen::Vector3f& point, const PointMap& map, float radius,
+                                const FeatureConfig& config, std::vector<Neighbor>& neighbors) {
+  map.within(point, radius, neighbors);
+  if (neighbors.size() < kMinNeighbors) return std::nullopt;
+  const float range = point.norm();
+  float sum = 0.0F;
+  PlaneFit fit(point);
+  for (const Neighbor& n : neighbors) {
+    sum += range - n.point.norm();
+    fit.add(n.point);
+  }
+  Analysis result;
+  result.smoothness = std::abs(sum) / static_cast<float>(neighbors.size()) / range;
+  const PlaneFit::Plane plane = fit.solve();
+  const float incidence = -plane.normal.dot(point) / range;
+  const bool flat =
+      plane.thickness < kPlaneFlatness * plane.width && plane.width > kMinPlaneWidth * radius;
+  // A scan's own geometry makes floors grazing far away; only the plainly degenerate go.
+  if (flat && incidence > 0.02F) {
+    result.plane = PlaneFeature{point, plane.normal, static_cast<float>(config.lidar_noise)};
+  }
+  return result;
+}
+
+/// Index of the direction sector of a point, by azimuth around two axes so that any mounting works.
+std::size_t direction_sector(const Eigen::Vector3f& p) {
+  const auto sector = [](float a, float b) {
+    const float turn = (std::atan2(a, b) / static_cast<float>(M_PI) + 1.0F) * 0.5F;
+    return std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1);
+  };
+  return static_cast<std::size_t>(sector(p.y(), p.x()) * kSectors +
+                                  sector(p.z(), p.head<2>().norm()));
+}
+
+struct EdgeCandidate {
+  std::size_t sector;
+  float smoothness;
+  std::size_t index;  ///< in the cloud
+};
+
+void choose_edges(std::vector<EdgeCandidate>& candidates, const LabeledCloud& cloud,
+                  const PointTimes& times, const FeatureConfig& config,
+                  std::vector<EdgeFeature>& edges) {
+  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.sector, b.smoothness, a.index) < std::tie(b.sector, a.smoothness, b.index);
+  });
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (i > 0 && candidates[i].sector != candidates[i - 1].sector) taken = 0;
+    if (taken++ >= kEdgesPerSector) continue;
+    const std::size_t index = candidates[i].index;
+    edges.push_back({cloud.points[index], static_cast<float>(config.lidar_noise), times.of(index),
+                     static_cast<int>(index)});
+  }
+}
+
+}  // namespace
+
+double automatic_scan_voxel(const std::vector<Eigen::Vector3f>& points) {
+  if (points.empty()) return kMinVoxel;
+  std::vector<float> ranges;
+  ranges.reserve(points.size());
+  for (const Eigen::Vector3f& p : points) ranges.push_back(p.norm());
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return std::clamp(static_cast<double>(*middle) / 25.0, kMinVoxel, kMaxVoxel);
+}
+
+void extract_scan_features(const LabeledCloud& cloud, const FeatureConfig& config,
+                           FeatureCloud& features) {
+  const PointTimes times(cloud.time_offset);
+  features.points_offset = times.middle();
+  const Indices all = static_points(cloud);
+  const double voxel =
+      config.scan_voxel > 0.0 ? config.scan_voxel : automatic_scan_voxel(points_of(cloud, all));
+  const Indices dense = thinned(cloud, all, 0.5 * voxel);
+  const Indices chosen = thinned(cloud, dense, voxel);
+  const std::vector<Eigen::Vector3f> points = points_of(cloud, chosen);
+  const float radius = kRadiusInVoxels * 0.5F * static_cast<float>(voxel);
+  PointMap map(radius, {.max_points_per_voxel = 64});
+  map.insert(points_of(cloud, dense));
+
+  std::vector<std::optional<Analysis>> analyses(points.size());
+  parallel_chunks(points.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> neighbors;
+    for (std::size_t i = begin; i < end; ++i) {
+      analyses[i] = analyse(points[i], map, radius, config, neighbors);
+    }
+  });
+
+  std::vector<EdgeCandidate> candidates;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!analyses[i]) continue;
+    if (analyses[i]->plane) {
+      features.planes.push_back(*analyses[i]->plane);
+      features.planes.back().time_offset = times.of(chosen[i]);
+      features.planes.back().index = static_cast<int>(chosen[i]);
+    } else if (analyses[i]->smoothness > static_cast<float>(config.edge_smoothness)) {
+      candidates.push_back({direction_sector(points[i]), analyses[i]->smoothness, chosen[i]});
+    }
+  }
+  choose_edges(candidates, cloud, times, config, features.edges);
+}
+
+}  // namespace mms

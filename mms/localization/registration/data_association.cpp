@@ -1,0 +1,145 @@
+#include "mms/localization/registration/data_association.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "mms/geometry/parallel.hpp"
+#include "mms/localization/features/local_surface.hpp"
+
+namespace mms {
+namespace {
+
+constexpr std::size_t kChunk = 256;
+constexpr float kMaxLineAspect = 0.6F;  ///< second over first principal deviation of a line
+constexpr std::size_t kMinLineSupport = 5;
+constexpr float kSeparationVoxels = 0.1F;
+
+struct Line {
+  Eigen::Vector3f point;
+  Eigen::Vector3f direction;  ///< unit
+  float sigma = 0.0F;         ///< spread of its points across it [m]
+};
+
+struct Plane {
+  Eigen::Vector3f point;
+  Eigen::Vector3f normal;  ///< unit
+  float sigma = 0.0F;      ///< of the plane along its normal [m]
+};
+
+std::optional<Line> line_of_two(const std::vector<Neighbor>& n, float min_separation) {
+  if (n.size() < 2) return std::nullopt;
+  const Eigen::Vector3f along = n[1].point - n[0].point;
+  if (along.norm() < min_separation) return std::nullopt;
+  return Line{n[0].point, along.normalized()};
+}
+
+std::optional<Line> principal_line(const std::vector<Neighbor>& n) {
+  if (n.size() < kMinLineSupport) return std::nullopt;
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  for (const Neighbor& neighbor : n) mean += neighbor.point;
+  mean /= static_cast<float>(n.size());
+  Eigen::Matrix3f scatter = Eigen::Matrix3f::Zero();
+  for (const Neighbor& neighbor : n) {
+    const Eigen::Vector3f d = neighbor.point - mean;
+    scatter += d * d.transpose();
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen;
+  eigen.computeDirect(scatter);
+  const Eigen::Vector3f& values = eigen.eigenvalues();
+  if (values(1) > kMaxLineAspect * kMaxLineAspect * values(2)) return std::nullopt;
+  return Line{mean, eigen.eigenvectors().col(2),
+              std::sqrt(values(1) / static_cast<float>(n.size()))};
+}
+
+std::optional<Plane> plane_of_three(const std::vector<Neighbor>& n, float min_separation) {
+  if (n.size() < 3) return std::nullopt;
+  const Eigen::Vector3f cross = (n[0].point - n[1].point).cross(n[0].point - n[2].point);
+  if (cross.norm() < min_separation * min_separation) return std::nullopt;
+  return Plane{n[0].point, cross.normalized()};
+}
+
+/// Finds counterparts one by one; holds what is the same for all of them.
+class Matcher {
+ public:
+  Matcher(const LocalMaps& maps, const Eigen::Isometry3d& T, Association association, double gate)
+      : maps_(maps),
+        T_(T.cast<float>()),
+        paper_(association == Association::kPaper),
+        gate_(static_cast<float>(gate)) {}
+
+  std::optional<EdgeMatch> match(const EdgeFeature& edge) {
+    const auto line = line_at(T_ * edge.point);
+    if (!line) return std::nullopt;
+    return EdgeMatch{edge.point.cast<double>(), line->point.cast<double>(),
+                     line->direction.cast<double>(),
+                     std::hypot(static_cast<double>(edge.sigma), static_cast<double>(line->sigma))};
+  }
+
+  std::optional<PlaneMatch> match(const PlaneFeature& feature) {
+    const Eigen::Vector3f target = T_ * feature.point;
+    const auto plane = plane_at(target, T_.linear() * feature.normal);
+    if (!plane || std::abs(plane->normal.dot(target - plane->point)) > gate_) return std::nullopt;
+    // Depth noise acts along the ray; the residual sees its part along the normal.
+    const float incidence = feature.normal.dot(feature.point) / feature.point.norm();
+    const double sigma = std::hypot(feature.sigma * incidence, plane->sigma);
+    return PlaneMatch{feature.point.cast<double>(), plane->point.cast<double>(),
+                      plane->normal.cast<double>(), sigma};
+  }
+
+ private:
+  float min_separation() const { return kSeparationVoxels * maps_.voxel_size(); }
+
+  std::optional<Line> line_at(const Eigen::Vector3f& target) {
+    if (paper_) {
+      maps_.edges.nearest(target, 2, gate_, neighbors_);
+      return line_of_two(neighbors_, min_separation());
+    }
+    maps_.edges.within(target, std::min(gate_, maps_.voxel_size()), neighbors_);
+    return principal_line(neighbors_);
+  }
+
+  std::optional<Plane> plane_at(const Eigen::Vector3f& target, const Eigen::Vector3f& normal) {
+    if (paper_) {
+      maps_.plane_points.nearest(target, 3, gate_, neighbors_);
+      return plane_of_three(neighbors_, min_separation());
+    }
+    const auto surface = maps_.surfaces.match(target, normal);
+    if (!surface) return std::nullopt;
+    return Plane{surface->mean, surface->normal, surface->sigma};
+  }
+
+  const LocalMaps& maps_;
+  Eigen::Isometry3f T_;
+  bool paper_;
+  float gate_;
+  std::vector<Neighbor> neighbors_;
+};
+
+/// Matches of all features that have one, in the order of the features.
+template <class Match, class Feature, class MakeMatcher>
+std::vector<Match> match_all(const std::vector<Feature>& features, const MakeMatcher& matcher) {
+  std::vector<std::optional<Match>> found(features.size());
+  parallel_chunks(features.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    Matcher local = matcher();
+    for (std::size_t i = begin; i < end; ++i) found[i] = local.match(features[i]);
+  });
+  std::vector<Match> matches;
+  matches.reserve(features.size());
+  for (const auto& match : found) {
+    if (match) matches.push_back(*match);
+  }
+  return matches;
+}
+
+}  // namespace
+
+Matches associate(const FeatureCloud& features, const LocalMaps& maps,
+                  const Eigen::Isometry3d& T_world_sensor, Association association, double gate) {
+  const auto matcher = [&] { return Matcher(maps, T_world_sensor, association, gate); };
+  return {match_all<EdgeMatch>(features.edges, matcher),
+          match_all<PlaneMatch>(features.planes, matcher)};
+}
+
+}  // namespace mms

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "mms/core/config.hpp"
+#include "mms/geometry/normal_equations.hpp"
+#include "mms/localization/registration/data_association.hpp"
+
+namespace mms {
+
+struct GeometricConfig {
+  Association association = Association::kSurface;
+  bool edges = true;
+  bool planes = true;
+  double gate = 2.0;         ///< [voxels]
+  double slack = 0.5;        ///< [voxels]
+  double map_sigma = 0.004;  ///< [m]
+  double robust_scale = 2.0;
+  double weight = 0.5;
+
+  void visit(ConfigVisitor& v);
+};
+
+struct GeometricEquations {
+  NormalEquations edges;
+  NormalEquations planes;
+  double plane_square_sum = 0.0;  ///< of the inlying point-to-plane distances [m^2]
+
+  int inliers() const { return edges.inliers + planes.inliers; }
+  GeometricEquations& operator+=(const GeometricEquations& other);
+};
+
+/// Normal equations of eqs. (3) and (4) at a pose: every residual weighted by the inverse variance
+/// of the measurement and the map, and by Cauchy's robust weight. Inliers lie within three sigma.
+/// @param slack  standard deviation [m] the pose error adds to the residuals; widens the robust
+///               weight while the pose is still far off
+GeometricEquations geometric_equations(const Matches& matches,
+                                       const Eigen::Isometry3d& T_world_sensor,
+                                       const GeometricConfig& config, double slack = 0.0);
+
+}  // namespace mms

@@ -1,0 +1,218 @@
+#include "mms/localization/registration/registration.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "mms/geometry/se3.hpp"
+
+namespace mms {
+namespace {
+
+/// Share of a voxel the pose may move before features are associated anew.
+constexpr double kReassociationShift = 0.1;
+
+/// Errors of neighbouring pixels go together: so many residuals of an image say as much as one.
+constexpr double kResidualsPerMeasurement = 10.0;
+
+constexpr double kSlackDecay = 0.5;
+constexpr double kSettledShare = 0.1;  ///< step over slack at which the slack is tightened
+
+/// Residuals within three sigma of a photometric term; t-weights are never zero.
+int count_inliers(const PhotometricEquations& equations, double sigma) {
+  const auto limit =
+      std::min(equations.histogram.size(), static_cast<std::size_t>(3.0 * sigma) + 1);
+  std::uint32_t inliers = 0;
+  for (std::size_t bin = 0; bin < limit; ++bin) inliers += equations.histogram[bin];
+  return static_cast<int>(inliers);
+}
+
+struct Step {
+  Vector6d tangent = Vector6d::Zero();
+  int degenerate_directions = 0;
+};
+
+/// Gauss-Newton step in the eigenvectors of the information matrix; those along which the pose's
+/// standard deviation would exceed `max_sigma` [m, rad] get none.
+Step solve(const NormalEquations& equations, double max_sigma) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(equations.information);
+  const double least = 1.0 / (max_sigma * max_sigma);
+  const Vector6d along = eigen.eigenvectors().transpose() * equations.gradient;
+  Step step;
+  for (int i = 0; i < 6; ++i) {
+    if (eigen.eigenvalues()(i) < least) {
+      ++step.degenerate_directions;
+    } else {
+      step.tangent -= eigen.eigenvectors().col(i) * (along(i) / eigen.eigenvalues()(i));
+    }
+  }
+  return step;
+}
+
+/// With a prediction that tells how sure it is and weighs as much as `weight` residuals.
+Step solve(const NormalEquations& equations, const NormalEquations& prior, double weight,
+           double max_sigma) {
+  Step step = solve(equations, max_sigma);
+  const Matrix6d information = equations.information + weight * prior.information;
+  const Vector6d gradient = equations.gradient + weight * prior.gradient;
+  step.tangent = -information.ldlt().solve(gradient);
+  return step;
+}
+
+/// The iterations of one frame.
+class GaussNewton {
+ public:
+  GaussNewton(const FeatureCloud& features, const RegistrationTarget& target,
+              const PosePrediction& prediction, const RegistrationConfig& config,
+              const DepthNoise& noise)
+      : features_(features),
+        target_(target),
+        prediction_(prediction),
+        config_(config),
+        noise_(noise),
+        states_(target.keyframes.size()),
+        scale_(median_range(features)) {
+    result_.T_world_sensor = prediction.T_world_sensor;
+  }
+
+  RegistrationResult run() {
+    const bool photometric =
+        config_.photometric.enabled && !features_.intensity.empty() && !target_.keyframes.empty();
+    slack_ = config_.geometric.slack * target_.maps.voxel_size();
+    if (photometric) {
+      run_pyramid();
+    } else {
+      run_geometry();
+    }
+    return result_;
+  }
+
+ private:
+  /// From the coarsest level of the intensity pyramid to the finest.
+  void run_pyramid() {
+    for (int level = static_cast<int>(features_.intensity.size()) - 1; level >= 0; --level) {
+      for (PhotometricState& state : states_) state.sigma = PhotometricState{}.sigma;
+      if (level == 0) slack_ = 0.0;
+      iterate(level, config_.iterations_per_level);
+      tighten();
+    }
+  }
+
+  /// From residuals of the size of a first guess's error to those of the noise.
+  void run_geometry() {
+    while (slack_ > 0.0 && result_.iterations < config_.max_iterations) {
+      iterate(-1, config_.max_iterations - result_.iterations);
+      tighten();
+    }
+    slack_ = 0.0;
+    iterate(-1, std::max(1, config_.max_iterations - result_.iterations));
+  }
+
+  void tighten() {
+    slack_ *= kSlackDecay;
+    if (slack_ < config_.geometric.map_sigma) slack_ = 0.0;
+  }
+
+  /// @param level  of the intensity pyramid, -1 for none
+  void iterate(int level, int max_iterations) {
+    result_.converged = false;
+    // While the slack is larger than the noise, a step well below it changes nothing.
+    const double settled_translation =
+        std::max(config_.converged_translation, kSettledShare * slack_);
+    const double settled_rotation =
+        std::max(config_.converged_rotation, kSettledShare * slack_ / std::max(scale_, 1.0));
+    for (int i = 0; i < max_iterations && !result_.converged; ++i) {
+      const NormalEquations equations = linearize(level);
+      const Step step = next_step(equations);
+      result_.information = equations.information;
+      result_.degenerate_directions = step.degenerate_directions;
+      result_.T_world_sensor = result_.T_world_sensor * se3::exp(step.tangent);
+      ++result_.iterations;
+      result_.converged = step.tangent.head<3>().norm() < settled_translation &&
+                          step.tangent.tail<3>().norm() < settled_rotation;
+    }
+    result_.T_world_sensor = se3::normalized(result_.T_world_sensor);
+  }
+
+  Step next_step(const NormalEquations& equations) const {
+    const double max_sigma = std::hypot(config_.degenerate_sigma, slack_);
+    if (!prediction_.is_informative()) return solve(equations, max_sigma);
+    const double weight = features_.intensity.empty() ? 1.0 : kResidualsPerMeasurement;
+    return solve(equations, prediction_.equations(result_.T_world_sensor), weight, max_sigma);
+  }
+
+  NormalEquations linearize(int level) {
+    refresh_matches();
+    result_.geometric =
+        geometric_equations(matches_, result_.T_world_sensor, config_.geometric, slack_);
+    NormalEquations sum = result_.geometric.edges;
+    sum += result_.geometric.planes;
+    if (level >= 0) add_photometric(static_cast<std::size_t>(level), sum);
+    return sum;
+  }
+
+  /// Associates anew once the pose has moved enough for another counterpart to be nearer.
+  void refresh_matches() {
+    const Eigen::Isometry3d moved = matched_at_.inverse() * result_.T_world_sensor;
+    const double voxel = target_.maps.voxel_size();
+    const double shift = moved.translation().norm() + scale_ * se3::angle(moved);
+    if (associated_ && shift < kReassociationShift * voxel) return;
+    matches_ = associate(features_, target_.maps, result_.T_world_sensor,
+                         config_.geometric.association, config_.geometric.gate * voxel);
+    matched_at_ = result_.T_world_sensor;
+    associated_ = true;
+  }
+
+  void add_photometric(std::size_t level, NormalEquations& sum) {
+    result_.intensity_inliers = 0;
+    for (std::size_t k = 0; k < target_.keyframes.size(); ++k) {
+      const IntensityKeyframe& keyframe = *target_.keyframes[k];
+      if (level >= keyframe.levels.size()) continue;
+      const PhotometricEquations photometric =
+          photometric_equations(keyframe, level, features_.intensity[level], result_.T_world_sensor,
+                                states_[k], config_.photometric, noise_);
+      sum += photometric.equations;
+      result_.intensity_inliers += count_inliers(photometric, states_[k].sigma);
+      states_[k] = photometric.next(states_[k], config_.photometric.min_sigma);
+    }
+  }
+
+  const FeatureCloud& features_;
+  const RegistrationTarget& target_;
+  const PosePrediction& prediction_;
+  const RegistrationConfig& config_;
+  DepthNoise noise_;
+  std::vector<PhotometricState> states_;
+  RegistrationResult result_;
+  Matches matches_;
+  Eigen::Isometry3d matched_at_ = Eigen::Isometry3d::Identity();
+  bool associated_ = false;
+  double slack_ = 0.0;  ///< standard deviation the pose's error adds to residuals [m]
+  double scale_;        ///< distance at which a rotation is felt [m]
+};
+
+}  // namespace
+
+void RegistrationConfig::visit(ConfigVisitor& v) {
+  v.integer({"max_iterations", "", "Gauss-Newton iterations of a frame without a photometric term"},
+            max_iterations, {1, 200});
+  v.integer({"iterations_per_level", "", "Gauss-Newton iterations per level of the pyramid"},
+            iterations_per_level, {1, 100});
+  v.number({"converged_translation", "m", "step below which the iteration ends"},
+           converged_translation, {1e-9, 0.1});
+  v.number({"converged_rotation", "rad", "step below which the iteration ends"}, converged_rotation,
+           {1e-9, 0.1});
+  v.number({"degenerate_sigma", "m, rad",
+            "standard deviation of the pose along a direction above which it keeps its prediction"},
+           degenerate_sigma, {1e-5, 10.0});
+  v.group({"geometric", "", "edge and plane residuals"}, geometric);
+  v.group({"photometric", "", "intensity residuals against keyframes (beyond the paper)"},
+          photometric);
+}
+
+RegistrationResult register_frame(const FeatureCloud& features, const RegistrationTarget& target,
+                                  const PosePrediction& prediction,
+                                  const RegistrationConfig& config, const DepthNoise& noise) {
+  return GaussNewton(features, target, prediction, config, noise).run();
+}
+
+}  // namespace mms

@@ -1,0 +1,53 @@
+#include "mms/localization/registration/surface_map.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace mms {
+namespace {
+
+constexpr float kMinNormalCosine = 0.7F;
+
+}  // namespace
+
+void SurfaceMap::insert(const std::vector<PlaneFeature>& planes,
+                        const Eigen::Isometry3d& T_world_sensor) {
+  const Eigen::Isometry3f T = T_world_sensor.cast<float>();
+  for (const PlaneFeature& plane : planes) {
+    const Eigen::Vector3f point = T * plane.point;
+    const Eigen::Vector3f normal = T.linear() * plane.normal;
+    const float weight = 1.0F / (plane.sigma * plane.sigma);
+    Cell& cell = voxels_.touch(voxels_.key(point));
+    // The other side of a thin board, or a corner: a mean of both would be neither.
+    const bool other_surface = cell.normal.dot(normal) < kMinNormalCosine * cell.normal.norm();
+    if (cell.weight > 0.0F && other_surface) continue;
+    cell.weight += weight;
+    cell.mean += (point - cell.mean) * (weight / cell.weight);
+    cell.normal += weight * normal;
+  }
+  voxels_.enforce_bound();
+}
+
+std::optional<SurfaceMap::Surface> SurfaceMap::match(const Eigen::Vector3f& point,
+                                                     const Eigen::Vector3f& normal) const {
+  const VoxelKey centre = voxels_.key(point);
+  const Cell* best = nullptr;
+  float best_distance2 = std::numeric_limits<float>::max();
+  for (int dz = -1; dz <= 1; ++dz) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const Cell* cell = voxels_.find({centre.x + dx, centre.y + dy, centre.z + dz});
+        if (cell == nullptr) continue;
+        const float distance2 = (cell->mean - point).squaredNorm();
+        if (distance2 >= best_distance2) continue;
+        if (cell->normal.dot(normal) < kMinNormalCosine * cell->normal.norm()) continue;
+        best = cell;
+        best_distance2 = distance2;
+      }
+    }
+  }
+  if (best == nullptr) return std::nullopt;
+  return Surface{best->mean, best->normal.normalized(), 1.0F / std::sqrt(best->weight)};
+}
+
+}  // namespace mms

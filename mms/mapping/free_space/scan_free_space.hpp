@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/mapping/free_space/cube_pixel.hpp"
+
+namespace mms {
+
+/// The space one LiDAR scan sees to be empty: in front of its points, static or dynamic alike. Its
+/// directions are the pixels, about a degree wide, of a cube about the sensor, so that any mounting
+/// and any pattern works. A direction is free as far as the nearest point in it and the eight
+/// around it, of which sparse scans leave some without any.
+class ScanFreeSpace {
+ public:
+  /// @param margin  by which a point has to lie behind another, noise included [m]
+  ScanFreeSpace(const LabeledCloud& cloud, double margin);
+
+  /// True where what was measured is clearly behind `point` (sensor frame [m]).
+  bool sees_through(const Eigen::Vector3f& point) const;
+
+  /// True where something was measured at `point` (sensor frame [m]), or nearer and farther.
+  bool touches(const Eigen::Vector3f& point) const;
+
+  /// True where nothing was measured in the direction of `point` (sensor frame [m]).
+  bool is_blank(const Eigen::Vector3f& point) const;
+
+ private:
+  /// Of the points in a direction, by their distance [m]; none where `farthest` is 0.
+  struct Span {
+    float nearest = 0.0F;
+    float farthest = 0.0F;
+
+    void extend(float low, float high);
+  };
+
+  const Span& span_of(const Eigen::Vector3f& point) const;
+
+  CubeImage<Span> faces_;
+  float margin_;
+};
+
+}  // namespace mms

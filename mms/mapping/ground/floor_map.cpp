@@ -1,0 +1,152 @@
+#include "mms/mapping/ground/floor_map.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace mms {
+namespace {
+
+/// Calls `visit(key)` for the voxels of the map frame whose centres may lie in the block.
+template <class Visit>
+void for_each_near(const OccupancyBlock& block, double voxel_size,
+                   const Eigen::Isometry3d& T_map_world, const Visit& visit) {
+  const Eigen::Array3d corner(block.key.x, block.key.y, block.key.z);
+  const Eigen::Vector3d center =
+      T_map_world * ((corner + 0.5) * BlockCells::kSide * voxel_size).matrix();
+  const Eigen::Array3d reach = T_map_world.linear().cwiseAbs() *
+                               Eigen::Vector3d::Constant(0.5 * BlockCells::kSide * voxel_size);
+  const Eigen::Array3i low = ((center.array() - reach) / voxel_size - 0.5).ceil().cast<int>();
+  const Eigen::Array3i high = ((center.array() + reach) / voxel_size - 0.5).floor().cast<int>();
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) visit(VoxelKey{x, y, z});
+    }
+  }
+}
+
+Eigen::Vector3d center_of(const VoxelKey& key, double voxel_size) {
+  return (Eigen::Array3d(key.x, key.y, key.z) + 0.5).matrix() * voxel_size;
+}
+
+/// The columns between the corners that some voxel is in.
+struct Bounds {
+  std::int32_t min_x = std::numeric_limits<std::int32_t>::max();
+  std::int32_t min_y = std::numeric_limits<std::int32_t>::max();
+  std::int32_t max_x = std::numeric_limits<std::int32_t>::min();
+  std::int32_t max_y = std::numeric_limits<std::int32_t>::min();
+
+  void add(const VoxelKey& key) {
+    min_x = std::min(min_x, key.x);
+    min_y = std::min(min_y, key.y);
+    max_x = std::max(max_x, key.x);
+    max_y = std::max(max_y, key.y);
+  }
+  bool empty() const { return min_x > max_x; }
+  std::int64_t cells(int bits) const { return width(bits) * height(bits); }
+  std::int64_t width(int bits) const { return (max_x >> bits) - (min_x >> bits) + 1; }
+  std::int64_t height(int bits) const { return (max_y >> bits) - (min_y >> bits) + 1; }
+};
+
+/// What a voxel says about the cell it is over.
+class Verdict {
+ public:
+  Verdict(double voxel_size, const GridConfig& config) : size_(voxel_size), config_(config) {}
+
+  Occupancy of(const VoxelKey& key, Occupancy state) const {
+    constexpr double kBelow = 0.3;  // the floor may lie a bit lower than its plane [m]
+    const double height = (key.z + 0.5) * size_;
+    if (height < -kBelow) return Occupancy::kUnknown;
+    if (state == Occupancy::kFree) {
+      return height < config_.free_height ? Occupancy::kFree : Occupancy::kUnknown;
+    }
+    if (height < config_.min_height) return Occupancy::kFree;
+    return height < config_.max_height ? Occupancy::kOccupied : Occupancy::kUnknown;
+  }
+
+ private:
+  double size_;
+  GridConfig config_;
+};
+
+/// Whether none of the 26 voxels around one is an obstacle: a speck of noise or of a walker's shoe.
+/// Things have neighbours, a pole above and below. The floor does not count as one.
+bool is_alone(const std::vector<VoxelKey>& obstacles, const VoxelKey& key) {
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      const auto first = std::lower_bound(obstacles.begin(), obstacles.end(),
+                                          VoxelKey{key.x + x, key.y + y, key.z - 1});
+      for (auto next = first; next != obstacles.end(); ++next) {
+        if (*next > VoxelKey{key.x + x, key.y + y, key.z + 1}) break;
+        if (*next != key) return false;
+      }
+    }
+  }
+  return true;
+}
+
+template <class Visit>
+void for_each_verdict(const OccupancyVoxels& voxels, const GridConfig& config, const Visit& visit) {
+  const Verdict verdict(voxels.voxel_size, config);
+  std::vector<VoxelKey> obstacles;
+  for (const VoxelKey& key : voxels.free) {
+    if (verdict.of(key, Occupancy::kFree) == Occupancy::kFree) visit(key, Occupancy::kFree);
+  }
+  for (const VoxelKey& key : voxels.occupied) {
+    const Occupancy result = verdict.of(key, Occupancy::kOccupied);
+    if (result == Occupancy::kFree) visit(key, result);
+    if (result == Occupancy::kOccupied) obstacles.push_back(key);
+  }
+  for (const VoxelKey& key : obstacles) {
+    if (!is_alone(obstacles, key)) visit(key, Occupancy::kOccupied);
+  }
+}
+
+}  // namespace
+
+OccupancyVoxels voxels_in_map_frame(const OccupancyMap& map,
+                                    const Transform<World, Map>& T_world_map) {
+  const double size = map.voxel_size();
+  const Eigen::Isometry3d T_map_world = T_world_map.isometry().inverse();
+  OccupancyVoxels voxels{size, {}, {}};
+  for (const OccupancyBlock& block : map.blocks().all()) {
+    for_each_near(block, size, T_map_world, [&](const VoxelKey& key) {
+      const Eigen::Vector3d center = T_world_map * center_of(key, size);
+      const VoxelKey source = voxel_key(center.cast<float>(), static_cast<float>(1.0 / size));
+      if (BlockCells::block_of(source) != block.key) return;
+      const Occupancy state = occupancy_of(block.log_odds[BlockCells::cell_of(source)]);
+      if (state == Occupancy::kOccupied) voxels.occupied.push_back(key);
+      if (state == Occupancy::kFree) voxels.free.push_back(key);
+    });
+  }
+  std::sort(voxels.occupied.begin(), voxels.occupied.end());
+  std::sort(voxels.free.begin(), voxels.free.end());
+  return voxels;
+}
+
+OccupancyGrid floor_grid(const OccupancyVoxels& voxels, const Transform<World, Map>& T_world_map,
+                         const GridConfig& config) {
+  constexpr std::int64_t kMostCells = 100'000'000;
+  Bounds bounds;
+  for_each_verdict(voxels, config, [&](const VoxelKey& key, Occupancy) { bounds.add(key); });
+  int bits = 0;  // a cell has 2^bits voxels a side
+  while (!bounds.empty() && bounds.cells(bits) > kMostCells) ++bits;
+  OccupancyGrid grid;
+  grid.resolution = voxels.voxel_size * (1 << bits);
+  grid.T_world_map = T_world_map;
+  if (bounds.empty()) return grid;
+  const std::int32_t left = bounds.min_x >> bits;
+  const std::int32_t bottom = bounds.min_y >> bits;
+  grid.origin = grid.resolution * Eigen::Vector2d(left, bottom);
+  grid.cells = Image<Occupancy>(static_cast<int>(bounds.width(bits)),
+                                static_cast<int>(bounds.height(bits)), Occupancy::kUnknown);
+  for_each_verdict(voxels, config, [&](const VoxelKey& key, Occupancy verdict) {
+    Occupancy& cell = grid.cells((key.x >> bits) - left, (key.y >> bits) - bottom);
+    cell = std::max(cell, verdict);
+  });
+  return grid;
+}
+
+}  // namespace mms

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mms/mapping/occupancy/occupancy_blocks.hpp"
+
+namespace mms {
+
+/// A bit a voxel of a block.
+class CellBits {
+ public:
+  /// Sets the bit; true if it was set before.
+  bool test_and_set(std::uint16_t cell) {
+    std::uint64_t& word = words_[cell >> 6];
+    const std::uint64_t bit = std::uint64_t{1} << (cell & 63);
+    const bool before = (word & bit) != 0;
+    word |= bit;
+    return before;
+  }
+
+  std::uint64_t word(std::size_t i) const { return words_[i]; }
+  static constexpr std::size_t kWords = BlockCells::kCount / 64;
+
+ private:
+  std::array<std::uint64_t, kWords> words_{};
+};
+
+/// What one keyframe saw of a block.
+struct BlockMarks {
+  OccupancyBlock* block = nullptr;
+  CellBits hit;   ///< holds a static point
+  CellBits free;  ///< a ray passed through
+  CellBits keep;  ///< holds a static point unfit for a hit: neither hit nor free
+  CellBits end;   ///< a ray to it has been followed
+};
+
+/// The blocks that one keyframe looks into, each with its marks; so that a voxel counts once a
+/// keyframe, however many rays meet in it.
+class KeyframeMarks {
+ public:
+  explicit KeyframeMarks(OccupancyBlocks& blocks, std::uint32_t keyframe,
+                         std::vector<BlockMarks>& marks)
+      : blocks_(blocks), keyframe_(keyframe), marks_(marks) {
+    marks_.clear();
+  }
+
+  /// Marks of the block that holds `voxel`; valid until the next call.
+  BlockMarks& of(const VoxelKey& voxel) {
+    const VoxelKey key = BlockCells::block_of(voxel);
+    if (!marks_.empty() && marks_[last_].block->key == key) return marks_[last_];
+    OccupancyBlock& block = blocks_.at(key);
+    if (block.touched != keyframe_) {
+      block.touched = keyframe_;
+      block.marks = static_cast<std::uint32_t>(marks_.size());
+      marks_.emplace_back().block = &block;
+    }
+    return marks_[last_ = block.marks];
+  }
+
+ private:
+  OccupancyBlocks& blocks_;
+  std::uint32_t keyframe_;
+  std::vector<BlockMarks>& marks_;
+  std::size_t last_ = 0;  // voxels along a ray mostly share a block
+};
+
+}  // namespace mms

@@ -1,0 +1,137 @@
+#include "mms/mapping/occupancy/occupancy_map.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "mms/geometry/voxels/voxel_ray.hpp"
+
+namespace mms {
+namespace {
+
+LogOdds log_odds_of(double probability) {
+  return static_cast<LogOdds>(
+      std::lround(kLogOddsScale * std::log(probability / (1.0 - probability))));
+}
+
+/// Adds `step` to the log odds of the voxels whose bits are set in the `word`-th 64 of a block.
+void add(std::uint64_t bits, std::size_t word, int step, LogOdds least, LogOdds most,
+         OccupancyBlock& block) {
+  for (; bits != 0; bits &= bits - 1) {
+    LogOdds& value = block.log_odds[64 * word + static_cast<std::size_t>(std::countr_zero(bits))];
+    const int before = value == kNeverSeen ? 0 : value;
+    value = static_cast<LogOdds>(std::clamp<int>(before + step, least, most));
+  }
+}
+
+}  // namespace
+
+OccupancyMap::OccupancyMap(const OccupancyConfig& config, const SurfaceConfig& surface)
+    : config_(config), surface_(surface), blocks_(config.voxel_size) {}
+
+void OccupancyMap::integrate(const LabeledCloud& cloud,
+                             const Transform<World, Sensor>& T_world_sensor) {
+  if (!config_.enabled || !T_world_sensor.is_finite()) return;
+  constexpr double kFarthest = 1 << 28;  // [voxels]
+  if (T_world_sensor.translation().cwiseAbs().maxCoeff() > kFarthest * voxel_size()) return;
+  const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
+  const int step = step_of(cloud);
+  KeyframeMarks marks(blocks_, ++keyframes_, marks_);
+  mark_hits(cloud, T, step, marks);
+  mark_rays(cloud, T, step, marks);
+  apply();
+  keep_to_budget();
+}
+
+/// At the farthest depth a voxel still has two pixels a side.
+int OccupancyMap::step_of(const LabeledCloud& cloud) const {
+  if (!cloud.organised()) return 1;
+  const double pixels = cloud.camera.fx * voxel_size() / surface_.max_depth;
+  return std::clamp(static_cast<int>(0.5 * std::min(pixels, 1e3)), 1, 64);
+}
+
+void OccupancyMap::mark_hits(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor,
+                             int step, KeyframeMarks& marks) const {
+  const auto inverse_size = static_cast<float>(1.0 / voxel_size());
+  const auto farthest = static_cast<float>(config_.max_range);
+  for (const SurfacePoint& surface : surface_points(cloud, surface_, step)) {
+    const float range = surface.point.norm();
+    if (!(range > 0.0F && range <= farthest)) continue;
+    const VoxelKey key = voxel_key(T_world_sensor * surface.point, inverse_size);
+    marks.of(key).hit.test_and_set(BlockCells::cell_of(key));
+  }
+}
+
+/// The point, or the farthest place before it that is within range.
+Eigen::Vector3f OccupancyMap::reach(const Eigen::Vector3f& point, bool is_depth) const {
+  float share = std::min(1.0F, static_cast<float>(config_.max_range) / point.norm());
+  if (is_depth) share = std::min(share, static_cast<float>(surface_.max_depth) / point.z());
+  return share * point;
+}
+
+/// How far before a point a ray ends [m].
+float OccupancyMap::clearance(const Eigen::Vector3f& point, bool is_depth) const {
+  const auto half_voxel = static_cast<float>(0.5 * voxel_size());
+  return is_depth ? half_voxel + 2.0F * surface_.noise.sigma(point.z()) : half_voxel;
+}
+
+void OccupancyMap::mark_rays(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor,
+                             int step, KeyframeMarks& marks) const {
+  const bool is_depth = cloud.organised();
+  const auto inverse_size = static_cast<float>(1.0 / voxel_size());
+  for (int y = 0; y < cloud.height; y += step) {
+    for (int x = 0; x < cloud.width; x += step) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
+                     static_cast<std::size_t>(x);
+      const Eigen::Vector3f& point = cloud.points[i];
+      if (cloud.labels[i] == PointLabel::kInvalid || !std::isfinite(point.norm())) continue;
+      if (point.isZero(0.0F) || (is_depth && !(point.z() > 0.0F))) continue;
+      const Eigen::Vector3f target = reach(point, is_depth);
+      const VoxelKey end = voxel_key(T_world_sensor * target, inverse_size);
+      BlockMarks& there = marks.of(end);
+      if (cloud.labels[i] == PointLabel::kStatic) there.keep.test_and_set(BlockCells::cell_of(end));
+      if (there.end.test_and_set(BlockCells::cell_of(end))) continue;
+      mark_ray(target, is_depth, T_world_sensor, marks);
+    }
+  }
+}
+
+void OccupancyMap::mark_ray(const Eigen::Vector3f& target, bool is_depth,
+                            const Eigen::Isometry3f& T_world_sensor, KeyframeMarks& marks) const {
+  const auto inverse_size = static_cast<float>(1.0 / voxel_size());
+  const float share = 1.0F - clearance(target, is_depth) / target.norm();
+  if (!(share > 0.0F)) return;
+  const Eigen::Vector3f last = T_world_sensor * Eigen::Vector3f(share * target);
+  for_each_voxel(
+      inverse_size * T_world_sensor.translation(), inverse_size * last,
+      [&](const VoxelKey& key) { marks.of(key).free.test_and_set(BlockCells::cell_of(key)); });
+}
+
+void OccupancyMap::apply() {
+  const int hit = log_odds_of(config_.hit);
+  const int miss = log_odds_of(config_.miss);
+  const LogOdds least = log_odds_of(config_.min_probability);
+  const LogOdds most = log_odds_of(config_.max_probability);
+  for (const BlockMarks& marks : marks_) {
+    for (std::size_t i = 0; i < CellBits::kWords; ++i) {
+      add(marks.hit.word(i), i, hit, least, most, *marks.block);
+      add(marks.free.word(i) & ~marks.hit.word(i) & ~marks.keep.word(i), i, miss, least, most,
+          *marks.block);
+    }
+  }
+}
+
+void OccupancyMap::keep_to_budget() {
+  // The coarser copy is built beside the finer map and takes about an eighth of its memory.
+  const double limit = 0.85 * config_.memory * 1e6;
+  while (static_cast<double>(blocks_.memory_bytes()) > limit && blocks_.all().size() > 1) {
+    blocks_ = blocks_.coarsened();
+    marks_.clear();
+  }
+}
+
+Occupancy OccupancyMap::at(const Eigen::Vector3d& point) const {
+  return at(voxel_key(point.cast<float>(), static_cast<float>(1.0 / voxel_size())));
+}
+
+}  // namespace mms

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <vector>
+
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/core/transform.hpp"
+#include "mms/mapping/occupancy/keyframe_marks.hpp"
+#include "mms/mapping/occupancy/occupancy_blocks.hpp"
+#include "mms/mapping/occupancy/occupancy_config.hpp"
+#include "mms/mapping/static_map/surface_points.hpp"
+
+namespace mms {
+
+/// Free, occupied and unknown space in voxels of the world frame, as OctoMap keeps it (Hornung et
+/// al., 2013): clamped log odds, a keyframe's hits at its static points, misses along the rays
+/// before its points. Rays to people and vehicles free what lies before them and hit nothing, so
+/// that who walks through a room leaves no obstacle.
+///
+/// A voxel that a keyframe hits is not freed by the same keyframe, and rays end short of their
+/// points, so that rays that graze a wall do not eat it. One ray a voxel is followed: what a
+/// keyframe costs depends on what it sees, not on how long the run has been.
+class OccupancyMap {
+ public:
+  /// @param surface  which of a depth image's points are fit for hits, and the noise of all
+  explicit OccupancyMap(const OccupancyConfig& config = {}, const SurfaceConfig& surface = {});
+
+  /// Adds a keyframe. A pose that is not finite, or too far for voxels to be numbered, changes
+  /// nothing; nor does any keyframe where the map is not `enabled`.
+  void integrate(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
+
+  /// @param point  world frame [m]
+  Occupancy at(const Eigen::Vector3d& point) const;
+
+  /// State of a voxel by its key in the world frame.
+  Occupancy at(const VoxelKey& key) const { return occupancy_of(blocks_.log_odds(key)); }
+
+  const OccupancyBlocks& blocks() const { return blocks_; }
+  const OccupancyConfig& config() const { return config_; }
+  double voxel_size() const { return blocks_.voxel_size(); }  ///< current one [m]
+
+ private:
+  void mark_hits(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor, int step,
+                 KeyframeMarks& marks) const;
+  void mark_rays(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor, int step,
+                 KeyframeMarks& marks) const;
+  void mark_ray(const Eigen::Vector3f& target, bool is_depth,
+                const Eigen::Isometry3f& T_world_sensor, KeyframeMarks& marks) const;
+  void apply();
+  void keep_to_budget();
+  int step_of(const LabeledCloud& cloud) const;
+  Eigen::Vector3f reach(const Eigen::Vector3f& point, bool is_depth) const;
+  float clearance(const Eigen::Vector3f& point, bool is_depth) const;
+
+  OccupancyConfig config_;
+  SurfaceConfig surface_;
+  OccupancyBlocks blocks_;
+  std::uint32_t keyframes_ = 0;
+  std::vector<BlockMarks> marks_;  // of the last keyframe
+};
+
+}  // namespace mms

@@ -1,0 +1,166 @@
+#include "mms/mapping/static_map/static_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "mms/mapping/free_space/scan_sight.hpp"
+#include "mms/mapping/static_map/voxel_normals.hpp"
+
+namespace mms {
+namespace {
+
+void increment(std::uint16_t& counter) {
+  if (counter < std::numeric_limits<std::uint16_t>::max()) ++counter;
+}
+
+/// Adds a point to the voxel's means.
+void average_in(const SurfacePoint& surface, const Eigen::Isometry3f& T_world_sensor,
+                Voxel& voxel) {
+  voxel.weight += surface.weight;
+  const float share = surface.weight / voxel.weight;
+  const Eigen::Vector3f color(surface.color.r, surface.color.g, surface.color.b);
+  voxel.position += share * (T_world_sensor * surface.point - voxel.position);
+  voxel.normal += share * (T_world_sensor.linear() * surface.normal - voxel.normal);
+  voxel.color += share * (color - voxel.color);
+}
+
+}  // namespace
+
+StaticMap::StaticMap(const StaticMapConfig& config) : config_(config), grid_(config.voxel_size) {}
+
+std::size_t StaticMap::add(const LabeledCloud& cloud,
+                           const Transform<World, Sensor>& T_world_sensor) {
+  if (!T_world_sensor.is_finite()) return 0;
+  const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
+  viewpoints_.emplace_back(T.translation());
+  const std::vector<SurfacePoint> points = surface_points(cloud, config_.surface);
+  insert(points, T);
+  return points.size();
+}
+
+MapUpdate StaticMap::integrate(const LabeledCloud& cloud,
+                               const Transform<World, Sensor>& T_world_sensor) {
+  MapUpdate update;
+  if (!T_world_sensor.is_finite()) return update;
+  update.points = add(cloud, T_world_sensor);
+  carved_.clear();
+  if (config_.carving.enabled) {
+    update.carved = carve(cloud, T_world_sensor.isometry().cast<float>().inverse());
+  }
+  count_look();
+  update.coarsened = coarsened_;
+  return update;
+}
+
+bool StaticMap::end_look() {
+  if (last_look_ == last_frame()) return false;
+  carved_.clear();
+  count_look();
+  return true;
+}
+
+void StaticMap::count_look() {
+  coarsened_ = keep_to_budget();
+  ++looks_;
+  previous_look_ = std::exchange(last_look_, last_frame());
+}
+
+void StaticMap::insert(const std::vector<SurfacePoint>& points,
+                       const Eigen::Isometry3f& T_world_sensor) {
+  // From farther off a surface falls now into one block, now into the next: no views to count.
+  const float sharp = std::min(
+      1.0F, noise_weight(static_cast<float>(0.5 * grid_.block_size()), config_.surface.noise));
+  const auto is_first_look = [&](std::uint32_t& frame) {
+    return std::exchange(frame, last_frame()) <= last_look_;
+  };
+  // A large map lies in main memory: half the time went into waiting for one voxel after the other.
+  constexpr std::size_t kBatch = 32;
+  std::array<VoxelGrid::Place, kBatch> places;
+  for (std::size_t begin = 0; begin < points.size(); begin += kBatch) {
+    const std::size_t size = std::min(kBatch, points.size() - begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      places[i] = grid_.place(Eigen::Vector3f(T_world_sensor * points[begin + i].point));
+      __builtin_prefetch(&places[i].voxel());
+      __builtin_prefetch(&places[i].voxel().cell);
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      const SurfacePoint& point = points[begin + i];
+      VoxelBlock& block = *places[i].block;
+      Voxel& voxel = places[i].voxel();
+      if (is_first_look(block.last_frame) && point.weight >= sharp) increment(block.views);
+      if (is_first_look(voxel.last_frame)) increment(voxel.hits);
+      average_in(point, T_world_sensor, voxel);
+    }
+  }
+}
+
+std::size_t StaticMap::carve(const LabeledCloud& cloud, const Eigen::Isometry3f& T_sensor_world) {
+  const CarvingConfig& carving = config_.carving;
+  if (cloud.organised()) {
+    const FreeSpace free_space(cloud, carving.margin, config_.surface.noise);
+    return carve(free_space, carving.ratio, T_sensor_world);
+  }
+  return carve(ScanSight(cloud, carving.scan_margin), carving.scan_ratio, T_sensor_world);
+}
+
+template <class Space>
+std::size_t StaticMap::carve(const Space& free_space, double looks_per_hit,
+                             const Eigen::Isometry3f& T_sensor_world) {
+  const auto ratio = static_cast<float>(looks_per_hit);
+  const auto side = static_cast<float>(grid_.block_size());
+  const float radius = 0.5F * std::sqrt(3.0F) * side;
+  const auto gone = [&](Voxel& voxel) {
+    if (voxel.last_frame == last_frame()) return false;
+    if (!free_space.sees_through(T_sensor_world * voxel.position)) return false;
+    increment(voxel.seen_through);
+    return voxel.seen_through > ratio * voxel.hits;
+  };
+  for (VoxelBlock& block : grid_.blocks()) {
+    const Eigen::Vector3f corner(static_cast<float>(block.key.x), static_cast<float>(block.key.y),
+                                 static_cast<float>(block.key.z));
+    const Eigen::Vector3f center = (corner.array() + 0.5F).matrix() * side;
+    if (!free_space.may_see_into(T_sensor_world * center, radius)) continue;
+    grid_.erase_if(block, [&](Voxel& voxel) {
+      if (!gone(voxel)) return false;
+      carved_.push_back(block.voxel_key(voxel));
+      return true;
+    });
+  }
+  return carved_.size();
+}
+
+bool StaticMap::keep_to_budget() {
+  // The coarser copy is built beside the finer map and takes about a third of its memory.
+  const double limit = 0.75 * config_.memory * 1e6;
+  bool coarsened = false;
+  while (static_cast<double>(grid_.memory_bytes()) > limit && grid_.blocks().size() > 1) {
+    grid_ = grid_.coarsened();
+    coarsened = true;
+  }
+  return coarsened;
+}
+
+Eigen::Vector3f StaticMap::normal_of(const VoxelBlock& block, const Voxel& voxel) const {
+  if (has_normal(voxel)) return voxel.normal.normalized();
+  return neighbourhood_normal(grid_, block, voxel, viewpoints_[voxel.last_frame - 1]);
+}
+
+MapCloud StaticMap::cloud() const {
+  const std::size_t needed = std::min(static_cast<std::size_t>(config_.min_observations), looks());
+  MapCloud cloud;
+  for (const VoxelBlock& block : grid_.blocks()) {
+    for (const Voxel& voxel : block.voxels) {
+      if (!is_voxel_shown(voxel.hits, block.views, needed)) continue;
+      cloud.points.push_back(voxel.position);
+      cloud.colors.push_back(to_rgb(voxel.color));
+      cloud.normals.push_back(normal_of(block, voxel));
+      cloud.observations.push_back(voxel.hits);
+    }
+  }
+  return cloud;
+}
+
+}  // namespace mms

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "mms/core/config.hpp"
+#include "mms/core/labeled_cloud.hpp"
+#include "mms/core/transform.hpp"
+#include "mms/geometry/voxels/map_changes.hpp"
+#include "mms/mapping/free_space/free_space.hpp"
+#include "mms/mapping/static_map/map_cloud.hpp"
+#include "mms/mapping/static_map/surface_points.hpp"
+#include "mms/mapping/static_map/surface_voxels.hpp"
+
+namespace mms {
+
+struct StaticMapConfig {
+  double voxel_size = 0.02;  ///< [m]
+  double memory = 200.0;     ///< [MB]
+  int min_observations = 2;
+  SurfaceConfig surface{};
+  CarvingConfig carving{};
+
+  void visit(ConfigVisitor& v) {
+    v.number({"voxel_size", "m", "side of a voxel, doubled whenever the memory is used up"},
+             voxel_size, {0.001, 10.0});
+    v.number({"memory", "MB", "budget of the map"}, memory, {1.0, 1e6});
+    v.integer({"min_observations", "",
+               "looks, from keyframe to keyframe, that have to see a voxel before it is shown"},
+              min_observations, {1.0, 1000.0});
+    v.group({"surface", "", "points that are fit for the map"}, surface);
+    v.group({"carving", "", "removal of what is seen to be gone"}, carving);
+  }
+};
+
+/// What one keyframe did to the static map.
+struct MapUpdate {
+  std::size_t points = 0;  ///< that went in
+  std::size_t carved = 0;  ///< voxels removed because they are seen through
+  bool coarsened = false;  ///< the voxel size grew to keep to the memory budget
+};
+
+/// The dense coloured static map (III-D): static points, down-sampled by a voxel grid to running
+/// means of position, colour and normal. A keyframe and the frames since the one before it are one
+/// look: whatever they measured of a voxel is one observation.
+///
+/// Beyond the paper: frames between keyframes add to the map, since depth images have holes that
+/// come and go. Points that a mask missed leave ghosts of people in the map; a voxel is dropped
+/// once keyframes that measure something behind it outnumber those that measured it
+/// (`FreeSpace` of images, `ScanSight` of LiDAR scans). And the memory is bounded: when the budget
+/// is used up, voxels are merged to twice their size, so that the map stays whole.
+class StaticMap {
+ public:
+  explicit StaticMap(const StaticMapConfig& config = {});
+
+  /// Adds a keyframe's static points and removes what it sees through. A pose that is not finite
+  /// changes nothing.
+  /// @throws DataError when an organised cloud's `camera` makes no camera.
+  MapUpdate integrate(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
+
+  /// Adds the static points of a frame between two keyframes, to the coming one's look. A pose that
+  /// is not finite changes nothing.
+  /// @return  points that went in
+  std::size_t add(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
+
+  /// Ends the look of the frames since the last keyframe, when no other comes, so that `changes`
+  /// tells what they added. @return  false where there are none
+  bool end_look();
+
+  /// The voxels that `is_voxel_shown` for `min_observations` looks (or for all, while there are
+  /// fewer), in the order in which they came into the map.
+  MapCloud cloud() const;
+
+  /// What the last look did, so that `apply` of all looks' changes, in order, makes a map that
+  /// shows the same voxels; their means and counts are those of when the count last doubled.
+  MapChanges changes() const;
+
+  /// Repeats what a look did to another map of the same settings. Such a map is for `cloud`
+  /// alone: it knows no weights, so keyframes cannot be integrated into it.
+  /// @throws DataError when a voxel has no place in a block.
+  void apply(const MapChanges& changes);
+
+  std::size_t size() const { return grid_.size(); }  ///< voxels, those with few observations too
+  std::size_t memory_bytes() const { return grid_.memory_bytes(); }
+  double voxel_size() const { return grid_.voxel_size(); }  ///< current one [m]
+  std::size_t looks() const { return looks_; }              ///< that were ended
+
+ private:
+  void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor);
+  std::size_t carve(const LabeledCloud& cloud, const Eigen::Isometry3f& T_sensor_world);
+  template <class Space>
+  std::size_t carve(const Space& free_space, double looks_per_hit,
+                    const Eigen::Isometry3f& T_sensor_world);
+  void count_look();
+  bool keep_to_budget();
+  std::uint32_t last_frame() const { return static_cast<std::uint32_t>(viewpoints_.size()); }
+  Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
+
+  StaticMapConfig config_;
+  VoxelGrid grid_;
+  std::vector<Eigen::Vector3f> viewpoints_;  // of all frames; frame n is at n - 1
+  std::size_t looks_ = 0;
+  std::uint32_t last_look_ = 0;      // the frame that ended it
+  std::uint32_t previous_look_ = 0;  // the frame that ended the one before
+  std::vector<VoxelKey> carved_;     // by the last look
+  bool coarsened_ = false;           // by the last look
+};
+
+}  // namespace mms

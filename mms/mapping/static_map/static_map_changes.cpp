@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "mms/core/error.hpp"
+#include "mms/mapping/static_map/static_map.hpp"
+
+namespace mms {
+namespace {
+
+constexpr float kOffsetSteps = 256.0F;
+constexpr float kNormalSteps = 127.0F;
+
+Eigen::Vector3f corner_of(const VoxelKey& key, double voxel_size) {
+  return (Eigen::Vector3d(key.x, key.y, key.z) * voxel_size).cast<float>();
+}
+
+VoxelChange told(const VoxelBlock& block, const Voxel& voxel, double voxel_size) {
+  VoxelChange change{voxel.cell, voxel.hits, {}, {}, to_rgb(voxel.color)};
+  const Eigen::Vector3f offset = (voxel.position - corner_of(block.voxel_key(voxel), voxel_size)) *
+                                 (kOffsetSteps / static_cast<float>(voxel_size));
+  const float length = voxel.normal.norm();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    change.offset[i] = static_cast<std::uint8_t>(std::clamp(offset[axis], 0.0F, 255.0F));
+    if (!has_normal(voxel)) continue;
+    change.normal[i] =
+        static_cast<std::int8_t>(std::lround(kNormalSteps * voxel.normal[axis] / length));
+  }
+  return change;
+}
+
+void take_over(const VoxelChange& change, const VoxelKey& key, double voxel_size, Voxel& voxel) {
+  voxel.hits = change.hits;
+  voxel.color = Eigen::Vector3f(change.color.r, change.color.g, change.color.b);
+  voxel.position = corner_of(key, voxel_size);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    voxel.position[axis] += (static_cast<float>(change.offset[i]) + 0.5F) *
+                            static_cast<float>(voxel_size) / kOffsetSteps;
+    voxel.normal[axis] = static_cast<float>(change.normal[i]) / kNormalSteps;
+  }
+}
+
+/// A mean of n points moves little with the next one, so it is told again when n has doubled; and
+/// when the voxel begins to be shown.
+bool is_news(const Voxel& voxel, int min_observations) {
+  return std::has_single_bit(voxel.hits) || voxel.hits == min_observations;
+}
+
+void check(const VoxelChange& change) {
+  if (change.cell < BlockCells::kCount) return;
+  throw DataError("map changes", "a voxel is at place " + std::to_string(change.cell) +
+                                     " of its block, allowed is 0 to " +
+                                     std::to_string(BlockCells::kCount - 1));
+}
+
+}  // namespace
+
+MapChanges StaticMap::changes() const {
+  MapChanges changes;
+  changes.voxel_size = grid_.voxel_size();
+  if (looks_ == 0) return changes;
+  changes.viewpoint = viewpoints_[last_look_ - 1];
+  changes.whole = coarsened_;
+  if (!coarsened_) changes.erased = carved_;
+  for (const VoxelBlock& block : grid_.blocks()) {
+    if (!coarsened_ && block.last_frame <= previous_look_) continue;
+    BlockChange change{block.key, block.views, {}};
+    for (const Voxel& voxel : block.voxels) {
+      const bool news =
+          voxel.last_frame > previous_look_ && is_news(voxel, config_.min_observations);
+      if (coarsened_ || news) change.voxels.push_back(told(block, voxel, grid_.voxel_size()));
+    }
+    // Further views show the same voxels as those before.
+    const auto needed = static_cast<std::size_t>(config_.min_observations);
+    const bool matters = block.views <= kViewsPerObservation * needed + 1;
+    if (matters || !change.voxels.empty()) changes.blocks.push_back(std::move(change));
+  }
+  return changes;
+}
+
+void StaticMap::apply(const MapChanges& changes) {
+  if (changes.whole) grid_ = VoxelGrid(changes.voxel_size);
+  viewpoints_.push_back(changes.viewpoint);
+  ++looks_;
+  last_look_ = last_frame();
+  for (const BlockChange& change : changes.blocks) {
+    for (const VoxelChange& voxel_change : change.voxels) {
+      check(voxel_change);
+      const VoxelKey key = BlockCells::voxel_of(change.key, voxel_change.cell);
+      Voxel& voxel = grid_.place(key).voxel();
+      take_over(voxel_change, key, grid_.voxel_size(), voxel);
+      voxel.last_frame = last_look_;
+    }
+    if (VoxelBlock* block = grid_.find_block(change.key)) block->views = change.views;
+  }
+  for (const VoxelKey& key : changes.erased) grid_.erase(key);
+}
+
+}  // namespace mms

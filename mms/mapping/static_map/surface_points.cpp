@@ -1,0 +1,163 @@
+#include "mms/mapping/static_map/surface_points.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace mms {
+namespace {
+
+/// The organised cloud as an image of inverse depth, which is linear on any plane, so that its
+/// second difference finds jumps without taking a floor at a grazing angle for one.
+class Grid {
+ public:
+  Grid(const LabeledCloud& cloud, const SurfaceConfig& config)
+      : cloud_(cloud), config_(config), inverse_(cloud.width, cloud.height) {
+    for (std::size_t i = 0; i < inverse_.size(); ++i) {
+      const float z = cloud.points[i].z();
+      inverse_[i] = z > 0.0F ? 1.0F / z : 0.0F;
+    }
+  }
+
+  /// Largest difference of inverse depth at depth `z` that noise and `max_jump` explain.
+  float tolerance(float z) const {
+    // 3 sigma of the second difference, whose variance is 1 + 1 + 2^2 of a depth's.
+    return (static_cast<float>(config_.max_jump) + 7.3F * config_.noise.sigma(z)) / (z * z);
+  }
+
+  /// Whether the pixel lies inside a surface: it has neighbours with depths on every side, and no
+  /// jump goes through it or those beside it. On the rims of things depth and colour wobble by a
+  /// pixel. Far away single dropouts are many, but seldom make a whole side.
+  bool inside_surface(int x, int y, float tolerance) const {
+    for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      if (is_side_missing(x, y, dx, dy)) return false;
+    }
+    for (int d = -1; d <= 1; ++d) {
+      if (inverse(x + d, y) > 0.0F && !smooth(x + d, y, 1, 0, tolerance)) return false;
+      if (inverse(x, y + d) > 0.0F && !smooth(x, y + d, 0, 1, tolerance)) return false;
+    }
+    return true;
+  }
+
+  /// Normal from central differences; zero where a neighbour is missing or across a jump.
+  Eigen::Vector3f normal(int x, int y, float tolerance) const {
+    constexpr int kStep = 3;  // wide enough that noise turns it by about ten degrees at 2 m
+    const bool whole = inverse(x - kStep, y) > 0.0F && inverse(x + kStep, y) > 0.0F &&
+                       inverse(x, y - kStep) > 0.0F && inverse(x, y + kStep) > 0.0F &&
+                       smooth(x, y, kStep, 0, tolerance) && smooth(x, y, 0, kStep, tolerance);
+    if (!whole) return Eigen::Vector3f::Zero();
+    const Eigen::Vector3f along_x = point(x + kStep, y) - point(x - kStep, y);
+    const Eigen::Vector3f along_y = point(x, y + kStep) - point(x, y - kStep);
+    const Eigen::Vector3f normal = along_y.cross(along_x);  // towards the camera
+    const float length = normal.norm();
+    return length > 1e-12F ? Eigen::Vector3f(normal / length) : Eigen::Vector3f::Zero();
+  }
+
+ private:
+  const Eigen::Vector3f& point(int x, int y) const {
+    return cloud_.points[static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud_.width) +
+                         static_cast<std::size_t>(x)];
+  }
+
+  bool is_missing(int x, int y) const { return inverse_.contains(x, y) && inverse_(x, y) <= 0.0F; }
+
+  /// Whether all three neighbours on the side of (dx, dy) have no depth.
+  bool is_side_missing(int x, int y, int dx, int dy) const {
+    return is_missing(x + dx, y + dy) && is_missing(x + dx - dy, y + dy - dx) &&
+           is_missing(x + dx + dy, y + dy + dx);
+  }
+
+  float inverse(int x, int y) const { return inverse_.contains(x, y) ? inverse_(x, y) : 0.0F; }
+
+  /// No jump at (x, y) along one axis. Beside a hole only the first difference is left.
+  bool smooth(int x, int y, int dx, int dy, float tolerance) const {
+    const float here = inverse_(x, y);
+    const float before = inverse(x - dx, y - dy);
+    const float after = inverse(x + dx, y + dy);
+    if (before > 0.0F && after > 0.0F) return std::abs(2.0F * here - before - after) <= tolerance;
+    const float single = std::max(before, after);
+    return single == 0.0F || std::abs(here - single) <= tolerance;
+  }
+
+  const LabeledCloud& cloud_;
+  const SurfaceConfig& config_;
+  Image<float> inverse_;  // [1/m], 0 for no return
+};
+
+/// Sets what lies within `radius` pixels of what is set, along a row or a column.
+void grow(const std::uint8_t* from, std::size_t step, int count, int radius, std::uint8_t* to) {
+  for (int i = 0, next = 0; i < count; ++i) {
+    if (from[static_cast<std::size_t>(i) * step] == 0) continue;
+    next = std::max(next, i - radius);
+    for (; next <= std::min(i + radius, count - 1); ++next) {
+      to[static_cast<std::size_t>(next) * step] = 1;
+    }
+  }
+}
+
+/// Non-zero where something dynamic is within `radius` pixels; empty where nothing is dynamic.
+Image<std::uint8_t> near_dynamic(const Image<std::uint8_t>& dynamic, int radius) {
+  const auto& pixels = dynamic.pixels();
+  const bool any = std::any_of(pixels.begin(), pixels.end(), [](auto p) { return p != 0; });
+  if (!any || radius == 0) return any ? dynamic : Image<std::uint8_t>();
+  Image<std::uint8_t> rows(dynamic.width(), dynamic.height());
+  for (int y = 0; y < dynamic.height(); ++y) {
+    grow(dynamic.row(y), 1, dynamic.width(), radius, rows.row(y));
+  }
+  Image<std::uint8_t> grown(dynamic.width(), dynamic.height());
+  const auto width = static_cast<std::size_t>(dynamic.width());
+  for (int x = 0; x < dynamic.width(); ++x) {
+    grow(rows.row(0) + x, width, dynamic.height(), radius, grown.row(0) + x);
+  }
+  return grown;
+}
+
+Rgb color_of(const LabeledCloud& cloud, std::size_t i) {
+  return cloud.colors.empty() ? SurfacePoint{}.color : cloud.colors[i];
+}
+
+std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const SurfaceConfig& config,
+                                           int step) {
+  const Grid grid(cloud, config);
+  const Image<std::uint8_t> rim =
+      near_dynamic(cloud.dynamic_pixels, static_cast<int>(std::lround(config.rim * cloud.width)));
+  std::vector<SurfacePoint> result;
+  result.reserve(cloud.points.size() / static_cast<std::size_t>(step * step));
+  for (int y = 0; y < cloud.height; y += step) {
+    for (int x = 0; x < cloud.width; x += step) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
+                     static_cast<std::size_t>(x);
+      const float z = cloud.points[i].z();
+      if (cloud.labels[i] != PointLabel::kStatic || !(z > 0.0F)) continue;
+      if (z > static_cast<float>(config.max_depth)) continue;
+      if (!rim.empty() && rim[i] != 0) continue;
+      const float tolerance = grid.tolerance(z);
+      if (!grid.inside_surface(x, y, tolerance)) continue;
+      const float weight = noise_weight(config.noise.sigma(z), config.noise);
+      result.push_back({cloud.points[i], grid.normal(x, y, tolerance), weight, color_of(cloud, i)});
+    }
+  }
+  return result;
+}
+
+std::vector<SurfacePoint> scan_points(const LabeledCloud& cloud, const SurfaceConfig& config) {
+  const auto limit = static_cast<float>(config.max_range);
+  std::vector<SurfacePoint> result;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.labels[i] != PointLabel::kStatic) continue;
+    if (!(cloud.points[i].norm() <= limit)) continue;
+    result.push_back({cloud.points[i], Eigen::Vector3f::Zero(), 1.0F, color_of(cloud, i)});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> surface_points(const LabeledCloud& cloud, const SurfaceConfig& config,
+                                         int step) {
+  return cloud.organised() ? organised_points(cloud, config, step) : scan_points(cloud, config);
+}
+
+}  // namespace mms

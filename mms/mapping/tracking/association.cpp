@@ -1,0 +1,65 @@
+#include "mms/mapping/tracking/association.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "mms/geometry/assignment.hpp"
+
+namespace mms {
+namespace {
+
+constexpr double kGateSigmas = 2.0;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+double gate_of(const Track& track, const AssociationConfig& config) {
+  if (!track.confirmed()) return config.gate_radius;  // may be nothing, and is lost quickly
+  const double sigma = std::sqrt(track.position_covariance().diagonal().maxCoeff());
+  return std::clamp(kGateSigmas * sigma, config.gate_radius,
+                    std::max(config.gate_radius, config.max_gate));
+}
+
+double cost_of(const Track& track, const ObjectMeasurement& object,
+               const AssociationConfig& config) {
+  const double distance = (track.fit(object).center - track.position()).norm();
+  const bool is_near = distance <= gate_of(track, config);
+  if (!is_near && !track.contains(object.centroid, 0.0)) return kNever;
+  double cost = distance / config.gate_radius;
+  if (!may_be_one(track.object_class(), object.object_class)) cost += config.class_penalty;
+  const std::optional<double> difference = track.appearance().difference(object.appearance);
+  const bool is_back = distance > config.gate_radius;
+  const double allowed = is_back ? config.returning_color_difference : config.max_color_difference;
+  if (difference && *difference > allowed) return kNever;
+  return cost + config.color_penalty * difference.value_or(0.0);
+}
+
+/// Of what one mask covers, the rest follows no track where the largest follows one.
+void leave_out_rest(const std::vector<ObjectMeasurement>& objects, std::vector<int>& track_of) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].largest) continue;
+    for (std::size_t j = 0; j < objects.size(); ++j) {
+      const bool is_its_largest = objects[j].largest && objects[j].instance == objects[i].instance;
+      if (is_its_largest && track_of[j] >= 0) track_of[i] = -1;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<int> associate(const std::vector<Track>& tracks,
+                           const std::vector<ObjectMeasurement>& objects,
+                           const AssociationConfig& config) {
+  Eigen::MatrixXd cost(objects.size(), tracks.size());
+  for (Eigen::Index i = 0; i < cost.rows(); ++i) {
+    for (Eigen::Index j = 0; j < cost.cols(); ++j) {
+      cost(i, j) = cost_of(tracks[static_cast<std::size_t>(j)],
+                           objects[static_cast<std::size_t>(i)], config);
+    }
+  }
+  std::vector<int> track_of = assign_least_cost(cost);
+  leave_out_rest(objects, track_of);
+  return track_of;
+}
+
+}  // namespace mms

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "mms/core/config.hpp"
+#include "mms/mapping/tracking/track.hpp"
+
+namespace mms {
+
+struct AssociationConfig {
+  double gate_radius = 0.8;    ///< [m]
+  double max_gate = 2.0;       ///< [m]
+  double class_penalty = 0.4;  ///< in gate radii
+  double color_penalty = 1.0;  ///< in gate radii
+  double max_color_difference = 0.7;
+  double returning_color_difference = 0.5;
+
+  void visit(ConfigVisitor& v) {
+    v.number({"gate_radius", "m", "farthest an object may be from where its track expects it"},
+             gate_radius, {0.01, 100.0});
+    v.number({"max_gate", "m", "the same for one that was long unseen"}, max_gate, {0.01, 100.0});
+    v.number({"class_penalty", "", "cost of another class, in gate radii"}, class_penalty,
+             {0.0, 10.0});
+    v.number({"color_penalty", "", "cost of no colour in common, in gate radii"}, color_penalty,
+             {0.0, 10.0});
+    v.number({"max_color_difference", "",
+              "largest one of an object, from the same (0) to none in common (1)"},
+             max_color_difference, {0.0, 1.0});
+    v.number({"returning_color_difference", "", "the same of one that is out of gate_radius"},
+             returning_color_difference, {0.0, 1.0});
+  }
+};
+
+/// Index of the track each object continues, -1 for none: the one-to-one assignment of least cost
+/// (distance to where the track expects it, class, colour). A pair has to be within the gate, which
+/// grows with the track's uncertainty, or the object's middle inside the track's box. Of what one
+/// mask covers the largest continues a track, or else the rest.
+std::vector<int> associate(const std::vector<Track>& tracks,
+                           const std::vector<ObjectMeasurement>& objects,
+                           const AssociationConfig& config);
+
+}  // namespace mms

@@ -1,0 +1,165 @@
+#include "mms/mapping/tracking/dynamic_map.hpp"
+
+#include <algorithm>
+
+namespace mms {
+namespace {
+
+/// By which a track's box is grown to tell parts of its object, and others beside it [m].
+constexpr double kPartMargin = 0.1;
+constexpr double kLoosePartMargin = 0.3;  // of what moves without a mask, as an arm may
+
+/// Share of a cluster's points in another object's box that makes it a cluster of both.
+constexpr double kSharedPart = 0.25;
+
+/// Up in the first sensor's frame, which is the world's: a camera is held level, a LiDAR upright.
+Eigen::Vector3d nominal_up(const LabeledCloud& cloud) {
+  return cloud.organised() ? Eigen::Vector3d(0.0, -1.0, 0.0) : Eigen::Vector3d(0.0, 0.0, 1.0);
+}
+
+}  // namespace
+
+void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odometry) {
+  if (cloud.stamp <= last_stamp_ || !odometry.T_world_sensor.is_finite()) return;
+  last_stamp_ = cloud.stamp;
+  let_go();
+  watch_ground(cloud, odometry.T_world_sensor);
+  for (Track& track : tracks_) {
+    track.set_ground(*ground_);
+    track.predict(cloud.stamp);
+  }
+  const std::vector<ObjectMeasurement> objects =
+      measure_objects(cloud, odometry.T_world_sensor, *ground_, config_.track);
+  const std::vector<int> track_of = associate(tracks_, objects, config_.association);
+  extend(objects, track_of);
+  begin_new(objects, track_of);
+  confirm_seen();
+}
+
+void DynamicMap::let_go() {
+  for (const Track& track : tracks_) {
+    if (track.confirmed() && is_over(track)) lost_.add(track);
+  }
+  std::erase_if(tracks_, [&](const Track& track) { return is_over(track); });
+  lost_.forget(last_stamp_);
+}
+
+bool DynamicMap::is_over(const Track& track) const {
+  return track.confirmed() ? to_seconds(last_stamp_ - track.last_seen()) > config_.max_missed
+                           : to_seconds(last_stamp_ - track.last_told()) > config_.max_tentative;
+}
+
+void DynamicMap::watch_ground(const LabeledCloud& cloud,
+                              const Transform<World, Sensor>& T_world_sensor) {
+  if (!ground_) ground_.emplace(nominal_up(cloud));
+  floor_watch_.update(cloud, T_world_sensor, ground_->up());
+  const std::optional<Floor>& floor = floor_watch_.floor();
+  if (floor) ground_.emplace(floor->up, floor->height);
+}
+
+void DynamicMap::extend(const std::vector<ObjectMeasurement>& objects,
+                        const std::vector<int>& track_of) {
+  std::vector<bool> has_own(tracks_.size(), false);
+  for (const int t : track_of) {
+    if (t >= 0) has_own[static_cast<std::size_t>(t)] = true;
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (track_of[i] < 0) continue;
+    const auto t = static_cast<std::size_t>(track_of[i]);
+    tracks_[t].update(objects[i], is_shared(objects[i], has_own));
+  }
+}
+
+void DynamicMap::begin_new(const std::vector<ObjectMeasurement>& objects,
+                           const std::vector<int>& track_of) {
+  std::vector<int> followed;  // masks of which another part than the largest has a track
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (!objects[i].largest && track_of[i] >= 0) followed.push_back(objects[i].instance);
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const bool is_spilled =
+        std::find(followed.begin(), followed.end(), objects[i].instance) != followed.end();
+    if (!objects[i].largest || is_spilled) continue;
+    // What follows an object without a mask of its own begins none.
+    const bool is_told =
+        objects[i].score > 0.0F || objects[i].object_class == ObjectClass::kUnknown;
+    if (track_of[i] >= 0 || !is_told || is_part_of_a_track(objects[i])) continue;
+    tracks_.emplace_back(next_id_++, objects[i], *ground_, config_.track);
+  }
+}
+
+void DynamicMap::confirm_seen() {
+  std::vector<int> back;
+  for (Track& track : tracks_) {
+    if (track.confirmed() || track.last_seen() != last_stamp_ || !is_sure(track)) continue;
+    if (const std::optional<Track> lost = take_lost(track)) {
+      track.continue_as(*lost);
+      back.push_back(track.id());
+    } else {
+      track.confirm();
+      ++confirmed_;
+    }
+  }
+  std::erase_if(tracks_, [&](const Track& track) {
+    return track.last_seen() != last_stamp_ &&
+           std::find(back.begin(), back.end(), track.id()) != back.end();
+  });
+}
+
+bool DynamicMap::is_sure(const Track& track) const {
+  const auto& prior = config_.track.classes[static_cast<std::size_t>(track.object_class())];
+  const bool is_named =
+      track.observations() >= config_.confirm_after && track.score() >= prior.min_score;
+  return is_named || track.movements() >= config_.confirm_unknown_after;
+}
+
+/// What `track` continues of what was lost, or is out of view but still expected elsewhere.
+std::optional<Track> DynamicMap::take_lost(const Track& track) {
+  LostTracks away = lost_;
+  for (const Track& other : tracks_) {
+    if (other.confirmed() && other.last_seen() != last_stamp_) away.add(other);
+  }
+  std::optional<Track> taken = away.take(track);
+  if (taken) lost_.drop(taken->id());
+  return taken;
+}
+
+bool DynamicMap::is_part_of_a_track(const ObjectMeasurement& object) const {
+  const bool is_named = object.object_class != ObjectClass::kUnknown;
+  return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
+    return (track.confirmed() || !is_named) && track.last_seen() == object.stamp &&
+           track.contains(object.centroid, is_named ? kPartMargin : kLoosePartMargin);
+  });
+}
+
+/// Whether the points also cover where another object, which has none of its own, is expected.
+bool DynamicMap::is_shared(const ObjectMeasurement& object,
+                           const std::vector<bool>& has_own) const {
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    if (has_own[t] || !tracks_[t].confirmed()) continue;
+    const auto inside = std::count_if(
+        object.points.begin(), object.points.end(),
+        [&](const Eigen::Vector3d& point) { return tracks_[t].contains(point, 0.0); });
+    if (kSharedPart * static_cast<double>(object.points.size()) < static_cast<double>(inside)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<TrackedObject> DynamicMap::objects() const {
+  std::vector<TrackedObject> objects;
+  for (const Track& track : tracks_) {
+    if (!track.confirmed()) continue;
+    // What was hardly seen is not given for long when it is gone.
+    const double known = to_seconds(track.last_seen() - track.first_seen());
+    const double unseen = to_seconds(last_stamp_ - track.last_seen());
+    if (unseen > std::min(config_.max_shown, known)) continue;
+    const bool seen = track.last_seen() == last_stamp_;
+    objects.push_back({track.box(), seen ? TrackState::kActive : TrackState::kCoasting,
+                       track.motion(), track.first_seen(), track.last_seen()});
+  }
+  return objects;
+}
+
+}  // namespace mms

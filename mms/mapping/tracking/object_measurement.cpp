@@ -1,0 +1,112 @@
+#include "mms/mapping/tracking/object_measurement.hpp"
+
+#include <algorithm>
+
+#include "mms/mapping/tracking/cluster_cuts.hpp"
+
+namespace mms {
+namespace {
+
+constexpr std::size_t kMaxPoints = 400;
+
+/// Every so many of a cluster's points are looked at.
+std::size_t stride_of(std::size_t points) {
+  return 1 + (points - 1) / kMaxPoints;
+}
+
+/// Indices of every part's points.
+std::vector<std::vector<std::size_t>> members(const ClusterParts& parts) {
+  std::vector<std::vector<std::size_t>> lists(parts.cluster.size());
+  for (std::size_t i = 0; i < parts.part.size(); ++i) {
+    const int p = parts.part[i];
+    if (p >= 0) lists[static_cast<std::size_t>(p)].push_back(i);
+  }
+  return lists;
+}
+
+/// Whether no cluster before it is under the same mask.
+bool is_largest(const LabeledCloud& cloud, std::size_t cluster) {
+  const int instance = cloud.clusters[cluster].instance;
+  const auto begin = cloud.clusters.begin();
+  return instance < 0 ||
+         std::none_of(begin, begin + static_cast<std::ptrdiff_t>(cluster),
+                      [&](const DynamicCluster& other) { return other.instance == instance; });
+}
+
+std::vector<Eigen::Vector3d> corners(const DynamicCluster& cluster) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Array3f high(static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1),
+                              static_cast<float>(i >> 2));
+    const Eigen::Vector3f corner =
+        cluster.box_min.array() + high * (cluster.box_max - cluster.box_min).array();
+    points.emplace_back(corner.cast<double>());
+  }
+  return points;
+}
+
+/// Points and middle in the world frame.
+void measure_points(const LabeledCloud& cloud, const std::vector<std::size_t>& indices,
+                    const Transform<World, Sensor>& T_world_sensor, ObjectMeasurement& object) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const std::size_t stride = stride_of(indices.size());
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const Eigen::Vector3d point = cloud.points[indices[k]].cast<double>();
+    sum += point;
+    if (k % stride == 0) object.points.emplace_back(T_world_sensor * point);
+  }
+  object.centroid = T_world_sensor * (sum / static_cast<double>(indices.size()));
+}
+
+void measure_colors(const LabeledCloud& cloud, const std::vector<std::size_t>& indices,
+                    const GroundFrame& ground, ObjectMeasurement& object) {
+  if (cloud.colors.empty()) return;
+  std::vector<double> heights;
+  for (const Eigen::Vector3d& point : object.points) heights.push_back(ground.up().dot(point));
+  const double floor = ground.floor().value_or(*std::min_element(heights.begin(), heights.end()));
+  const std::size_t stride = stride_of(indices.size());
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    const Rgb& color = cloud.colors[indices[k * stride]];
+    object.appearance.add(heights[k] - floor, Eigen::Vector3f(color.r, color.g, color.b));
+  }
+}
+
+}  // namespace
+
+std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
+                                               const Transform<World, Sensor>& T_world_sensor,
+                                               const GroundFrame& ground,
+                                               const TrackConfig& config) {
+  const ClusterParts parts = divide_groups(cloud, T_world_sensor, ground, config);
+  const auto indices = members(parts);
+  std::vector<ObjectMeasurement::Cut> cuts(parts.cluster.size());
+  if (cloud.organised()) cuts = find_cuts(cloud, parts);
+  std::vector<ObjectMeasurement> objects;
+  for (std::size_t p = 0; p < parts.cluster.size(); ++p) {
+    const DynamicCluster& cluster = cloud.clusters[parts.cluster[p]];
+    const bool has_place =
+        !indices[p].empty() || (cluster.box_min.allFinite() && cluster.box_max.allFinite());
+    if (!has_place) continue;
+    ObjectMeasurement& object = objects.emplace_back();
+    object.stamp = cloud.stamp;
+    object.object_class = cluster.object_class;
+    object.score = cluster.score;
+    object.instance = cluster.instance;
+    object.largest = is_largest(cloud, parts.cluster[p]);
+    object.sensor = T_world_sensor.translation();
+    object.right = T_world_sensor.rotation().col(0);
+    object.cut = cuts[p];
+    if (indices[p].empty()) {
+      for (const Eigen::Vector3d& corner : corners(cluster)) {
+        object.points.push_back(T_world_sensor * corner);
+      }
+      object.centroid = 0.5 * (object.points.front() + object.points.back());
+    } else {
+      measure_points(cloud, indices[p], T_world_sensor, object);
+      measure_colors(cloud, indices[p], ground, object);
+    }
+  }
+  return objects;
+}
+
+}  // namespace mms

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "mms/core/object_box.hpp"
+#include "mms/mapping/tracking/box_fit.hpp"
+#include "mms/mapping/tracking/motion_filter.hpp"
+#include "mms/mapping/tracking/object_measurement.hpp"
+#include "mms/mapping/tracking/track_config.hpp"
+
+namespace mms {
+
+/// Whether an object of the dynamic map was seen in the last frame.
+enum class TrackState {
+  kActive,
+  kCoasting,  ///< not seen; expected where its velocity takes it
+};
+
+/// One dynamic object over time, in the world frame: a box with heading and size learned from all
+/// views, and a motion.
+class Track {
+ public:
+  Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
+        const TrackConfig& config);
+
+  /// Takes what is known of the ground now.
+  void set_ground(const GroundFrame& ground);
+
+  /// Moves the expectation on to a stamp, not earlier than the last.
+  void predict(Timestamp stamp);
+
+  /// The box that a measurement gives, if it is of this object.
+  BoxFit fit(const ObjectMeasurement& object) const { return fit(object, motion_.position()); }
+
+  /// Takes in a measurement that is of this object.
+  /// @param shared  whether it is of another object too: it then tells little of place and size
+  void update(const ObjectMeasurement& object, bool shared);
+
+  /// Makes it an object for as long as it lives.
+  void confirm() { confirmed_ = true; }
+
+  /// Goes on with the id and the size of an object that was lost and is this one.
+  void continue_as(const Track& lost);
+  bool confirmed() const { return confirmed_; }
+
+  int id() const { return id_; }
+  int observations() const { return observations_; }  ///< with a mask of their own
+  int movements() const { return movements_; }        ///< told by nothing but its movement
+  Timestamp first_seen() const { return first_seen_; }
+  Timestamp last_seen() const { return last_seen_; }
+  Eigen::Vector3d last_position() const { return last_position_; }  ///< at last_seen
+  Timestamp last_told() const { return last_told_; }  ///< seen with a mask of its own, or to move
+  Eigen::Vector3d position() const { return motion_.position(); }
+  Eigen::Matrix3d position_covariance() const { return motion_.position_covariance(); }
+  const MotionFilter& motion() const { return motion_; }
+  const Eigen::Vector3d& size() const { return size_; }
+  const Appearance& appearance() const { return appearance_; }
+  double score() const { return score_; }  ///< mean over the last observations, in [0, 1]
+  ObjectClass object_class() const;        ///< the one that most masks have
+
+  ObjectBox box() const;
+
+  /// True for a point of the world in the box grown by `margin` [m] on every side.
+  bool contains(const Eigen::Vector3d& point, double margin) const;
+
+ private:
+  BoxFit fit(const ObjectMeasurement& object, const std::optional<Eigen::Vector3d>& expected) const;
+  void take_name(const ObjectMeasurement& object);
+  PositionError error_of(const ObjectMeasurement& object, bool is_loose) const;
+  void learn_shape(const ObjectMeasurement& object);
+  void learn_size(const BoxFit& fit);
+  void learn_heading(const ObjectMeasurement& object);
+
+  TrackConfig config_;
+  GroundFrame ground_;
+  int id_;
+  int observations_ = 0;
+  int movements_ = 0;
+  double score_ = 0.0;
+  bool confirmed_ = false;
+  Timestamp first_seen_;
+  Timestamp last_seen_;
+  Timestamp last_told_;
+  Timestamp predicted_;
+  Eigen::Vector3d last_position_;
+  std::array<int, kObjectClassCount> votes_{};
+  MotionFilter motion_;
+  double heading_ = 0.0;
+  bool has_heading_ = false;
+  bool moving_ = false;
+  Eigen::Vector3d size_;
+  std::array<int, 3> whole_views_{};  ///< by axis: measurements with both ends in view
+  Appearance appearance_;
+};
+
+}  // namespace mms

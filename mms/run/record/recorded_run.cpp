@@ -1,0 +1,111 @@
+#include "mms/run/record/recorded_run.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "mms/core/error.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/io/journal/journal.hpp"
+#include "mms/io/results/objects_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/numbers.hpp"
+#include "mms/io/text/text_table.hpp"
+#include "mms/run/record/recovered_run.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t kTimes = 1 + kStageCount;  ///< columns of milliseconds: read and the stages
+
+/// Lines of timing.csv: stamp, read, the stages, and more.
+std::map<Timestamp, std::vector<float>> read_times(const fs::path& file) {
+  const TextTable table(file);
+  std::map<Timestamp, std::vector<float>> times;
+  for (const TextLine& line : table.lines()) {
+    if (line.fields[0] == "stamp") continue;
+    const auto stamp = parse_stamp(line.fields[0]);
+    std::vector<float> values;
+    for (std::size_t i = 1; i < line.fields.size() && i <= kTimes; ++i) {
+      values.push_back(static_cast<float>(parse_double(line.fields[i]).value_or(kUnknown)));
+    }
+    if (!stamp || values.size() != kTimes) {
+      throw DataError(table.where(line), "is no line of a run's timing.csv");
+    }
+    times[*stamp] = std::move(values);
+  }
+  return times;
+}
+
+MapCloud read_map(const fs::path& file) {
+  PointCloudFile cloud = read_ply(file);
+  MapCloud map;
+  map.points = std::move(cloud.points);
+  map.colors = std::move(cloud.colors);
+  map.normals = std::move(cloud.normals);
+  map.colors.resize(map.points.size(), Rgb{128, 128, 128});
+  map.normals.resize(map.points.size(), Eigen::Vector3f::Zero());
+  return map;
+}
+
+/// Settings of another version of the program are no reason to show nothing.
+SystemConfig read_settings(const fs::path& file) {
+  SystemConfig config;
+  try {
+    if (fs::exists(file)) load_config(file, config);
+  } catch (const ConfigError&) {
+    return SystemConfig();
+  }
+  return config;
+}
+
+RunFiles read_finished(const fs::path& folder) {
+  RunFiles files;
+  files.trajectory = read_trajectory_tum(folder / "trajectory.tum");
+  const auto there = [&](const char* name) { return fs::exists(folder / name); };
+  if (there("static_map.ply")) files.map = read_map(folder / "static_map.ply");
+  if (there("objects.json")) files.objects = read_objects(folder / "objects.json");
+  if (there("truth.tum")) files.truth = read_trajectory_tum(folder / "truth.tum");
+  if (there("timing.csv")) files.times = read_times(folder / "timing.csv");
+  if (there("frames.csv")) {
+    for (const FrameRecord& frame : read_frame_records(folder / "frames.csv")) {
+      files.frames[frame.stamp] = frame;
+    }
+  }
+  if (there("run.json")) files.record = read_run_record(folder / "run.json");
+  files.config = read_settings(folder / "config.yaml");
+  if (files.record) files.data = files.record->data;
+  return files;
+}
+
+RunFiles read_killed(const fs::path& journal) {
+  RecoveredRun run = recover_run(journal);
+  RunFiles files;
+  files.trajectory = std::move(run.trajectory);
+  files.map = std::move(run.map);
+  files.config.static_map.voxel_size = run.header.voxel_size;
+  files.data = run.header.data;
+  return files;
+}
+
+}  // namespace
+
+RunFiles read_run_files(const fs::path& folder) {
+  if (!fs::exists(folder)) {
+    throw FileError(folder.string(), "is not there", "give the folder that mms run wrote to");
+  }
+  if (!fs::is_directory(folder)) {
+    throw FileError(folder.string(), "is no folder", "give the folder that mms run wrote to");
+  }
+  if (fs::exists(folder / "trajectory.tum")) return read_finished(folder);
+  if (fs::exists(folder / kJournalName)) return read_killed(folder / kJournalName);
+  throw DataError(
+      folder.string(),
+      "holds no results of a run: neither trajectory.tum nor " + std::string(kJournalName),
+      "give the folder that mms run wrote to; mms run --view shows a recording");
+}
+
+}  // namespace mms

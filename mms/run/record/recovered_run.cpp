@@ -1,0 +1,44 @@
+#include "mms/run/record/recovered_run.hpp"
+
+#include "mms/core/error.hpp"
+#include "mms/io/journal/journal_reader.hpp"
+#include "mms/mapping/static_map/static_map.hpp"
+
+namespace mms {
+namespace {
+
+StaticMap empty_map(const JournalHeader& header) {
+  StaticMapConfig config;
+  config.voxel_size = header.voxel_size;
+  config.min_observations = header.min_observations;
+  return StaticMap(config);
+}
+
+}  // namespace
+
+RecoveredRun recover_run(const std::filesystem::path& journal) {
+  JournalReader reader(journal);
+  RecoveredRun run;
+  run.header = reader.header();
+  StaticMap map = empty_map(run.header);
+  while (const std::optional<JournalFrame> frame = reader.next()) {
+    if (frame->map) map.apply(*frame->map);
+    const bool is_told_again =
+        !run.trajectory.empty() && run.trajectory.back().stamp == frame->stamp;
+    if (is_told_again) continue;
+    const StampedPose pose{frame->stamp, frame->T_world_sensor};
+    run.trajectory.push_back(pose);
+    if (frame->keyframe) run.keyframes.push_back(pose);
+    run.written = frame->written;
+    run.organised = frame->organised;
+  }
+  run.damage = reader.damage();
+  if (run.trajectory.empty()) {
+    throw DataError(run.damage.empty() ? journal.string() : run.damage, "holds no whole frame",
+                    "the run was ended before its first frame was done");
+  }
+  run.map = map.cloud();
+  return run;
+}
+
+}  // namespace mms

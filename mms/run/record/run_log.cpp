@@ -1,0 +1,155 @@
+#include "mms/run/record/run_log.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "mms/evaluation/scores/statistics.hpp"
+#include "mms/evaluation/trajectory/truth_frame.hpp"
+#include "mms/run/record/overlay.hpp"
+#include "mms/run/record/peak_memory.hpp"
+
+namespace mms {
+namespace {
+
+constexpr std::size_t kMaxPictures = 8;
+constexpr std::size_t kMinPosesForError = 3;
+constexpr double kStandsStill = 1.0;  ///< largest movement of a sensor that stands still [cm]
+
+template <class Value>
+std::vector<double> column(const std::vector<LoggedFrame>& frames, const Value& value) {
+  std::vector<double> values;
+  values.reserve(frames.size());
+  for (const LoggedFrame& frame : frames) values.push_back(value(frame));
+  return values;
+}
+
+}  // namespace
+
+double LoggedFrame::stages_ms() const {
+  return std::accumulate(stage_ms.begin(), stage_ms.end(), read_ms);
+}
+
+RunLog::RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects)
+    : truth_(std::move(truth)), smoother_(objects), compare_masks_(compare_masks) {}
+
+void RunLog::add(const Processed& processed) {
+  const FrameResult& result = processed.result;
+  const Clock::time_point now = Clock::now();
+  const std::chrono::duration<double, std::milli> interval = now - last_;
+  last_ = now;
+  frames_.push_back({processed.frame.name, processed.frame.stamp, processed.frame.index,
+                     result.odometry.T_world_sensor, result.odometry.status, result.keyframe,
+                     result.dynamic_share, processed.read_ms, interval.count(), result.stage_ms,
+                     processed.latency_ms});
+  smoother_.add(processed.frame.stamp, result.objects);
+  ObjectFrame& seen = live_objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
+  for (const TrackedObject& object : result.objects) seen.objects.push_back(object.box);
+  has_image_ = has_image_ || result.cloud.organised();
+  keep_picture(processed);
+  if (!compare_masks_ || processed.frame.mask.empty()) return;
+  if (!metrics_.masks) metrics_.masks.emplace();
+  metrics_.masks->add(processed.frame.mask, result.cloud);
+}
+
+void RunLog::keep_picture(const Processed& processed) {
+  // Evenly spread over a run of unknown length: when there are too many, every other one goes.
+  if ((frames_.size() - 1) % picture_stride_ != 0 || !processed.result.cloud.organised()) return;
+  pictures_.push_back({fmt::format("{} ({:.0f} % dynamic)", processed.frame.name,
+                                   100.0 * processed.result.dynamic_share),
+                       draw_overlay(processed.result.cloud)});
+  if (pictures_.size() <= kMaxPictures) return;
+  std::vector<ReportPicture> kept;
+  for (std::size_t i = 0; i < pictures_.size(); i += 2) kept.push_back(std::move(pictures_[i]));
+  pictures_ = std::move(kept);
+  picture_stride_ *= 2;
+}
+
+void RunLog::finish(std::size_t skipped, const AsyncPipeline& pipeline, const SlamSystem& system) {
+  sum_up_times();
+  sum_up_latency(pipeline);
+  sum_up_accuracy();
+  metrics_.frames_skipped = static_cast<std::int64_t>(skipped + pipeline.dropped());
+  metrics_.peak_rss_mb = peak_memory_mb();
+  for (const LoggedFrame& frame : frames_) {
+    ++metrics_.status[static_cast<std::size_t>(frame.status)];
+    metrics_.dynamic_share += frame.dynamic_share / static_cast<double>(frames_.size());
+  }
+  metrics_.tracks = system.dynamic_map().confirmed();
+  objects_ = smoother_.history();
+}
+
+void RunLog::sum_up_times() {
+  const std::chrono::duration<double> elapsed = last_ - start_;
+  metrics_.frames = static_cast<std::int64_t>(frames_.size());
+  metrics_.hz = static_cast<double>(frames_.size()) / elapsed.count();
+  metrics_.ms_per_frame =
+      time_statistics(column(frames_, [](const LoggedFrame& f) { return f.interval_ms; }));
+  metrics_.stages.emplace_back(
+      "read", time_statistics(column(frames_, [](const LoggedFrame& f) { return f.read_ms; })));
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    metrics_.stages.emplace_back(
+        to_string(static_cast<Stage>(i)),
+        time_statistics(column(frames_, [i](const LoggedFrame& f) { return f.stage_ms[i]; })));
+  }
+}
+
+void RunLog::sum_up_latency(const AsyncPipeline& pipeline) {
+  std::vector<double> latencies;
+  for (const LoggedFrame& frame : frames_) {
+    if (frame.latency_ms) latencies.push_back(*frame.latency_ms);
+  }
+  if (latencies.empty()) return;
+  metrics_.realtime = {time_statistics(latencies), maximum(latencies),
+                       static_cast<std::int64_t>(pipeline.dropped()),
+                       static_cast<std::int64_t>(pipeline.without_masks())};
+}
+
+void RunLog::sum_up_accuracy() {
+  const Trajectory estimate = trajectory();
+  const auto matched = match_by_stamp(truth_, estimate, TrajectoryErrorOptions{}.max_difference);
+  if (matched.size() < kMinPosesForError) return;
+  metrics_.trajectory = evaluate_trajectory(truth_, estimate);
+  metrics_.drift = evaluate_drift(estimate);
+  metrics_.stood_still = evaluate_drift(truth_).mtde_cm < kStandsStill;
+}
+
+void RunLog::compare_objects(const ObjectHistory& truth) {
+  const auto T = align_truth(truth_, trajectory());
+  if (!T || truth.empty()) return;
+  const auto compare = [&](const ObjectHistory& objects) {
+    return evaluate_tracking(truth, transformed(objects, T->inverse()), truth_);
+  };
+  metrics_.objects = compare(objects_);
+  metrics_.live_objects = compare(live_objects_);
+}
+
+void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map) {
+  const auto T = align_truth(truth_, trajectory());
+  if (!T) return;
+  const Eigen::Isometry3f T_map_truth = T->cast<float>();
+  std::vector<Eigen::Vector3f> fixed;
+  std::vector<Eigen::Vector3f> dynamic;
+  for (std::size_t i = 0; i < truth.points.size(); ++i) {
+    (truth.labels[i] == 0 ? fixed : dynamic).push_back(T_map_truth * truth.points[i]);
+  }
+  metrics_.map = evaluate_map(fixed, dynamic, map);
+}
+
+Trajectory RunLog::trajectory() const {
+  Trajectory poses;
+  for (const LoggedFrame& frame : frames_) poses.push_back({frame.stamp, frame.T_world_sensor});
+  return poses;
+}
+
+Trajectory RunLog::keyframes() const {
+  Trajectory poses;
+  for (const LoggedFrame& frame : frames_) {
+    if (frame.keyframe) poses.push_back({frame.stamp, frame.T_world_sensor});
+  }
+  return poses;
+}
+
+}  // namespace mms

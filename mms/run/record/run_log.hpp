@@ -1,0 +1,91 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mms/core/trajectory.hpp"
+#include "mms/evaluation/metrics.hpp"
+#include "mms/mapping/tracking/object_smoother.hpp"
+#include "mms/pipeline/async_pipeline.hpp"
+#include "mms/pipeline/slam_system.hpp"
+#include "mms/report/report.hpp"
+#include "mms/simulation/truth/truth_cloud.hpp"
+
+namespace mms {
+
+/// What is kept of every frame of a run.
+struct LoggedFrame {
+  std::string name;
+  Timestamp stamp;
+  std::int64_t index = 0;  ///< in the recording
+  Transform<World, Sensor> T_world_sensor;
+  Status status = Status::kInitialized;
+  bool keyframe = false;
+  double dynamic_share = 0.0;
+  double read_ms = 0.0;
+  double interval_ms = 0.0;  ///< wall time since the frame before was done
+  StageTimes stage_ms{};
+  std::optional<double> latency_ms;  ///< in real time
+
+  double stages_ms() const;  ///< sum of reading and all stages
+};
+
+/// Collects what a run's files are written from.
+class RunLog {
+ public:
+  /// @param compare_masks  whether the frames' masks are truth, and not what the run went by
+  /// @param objects        of the system whose frames are added
+  RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects);
+
+  void add(const Processed& processed);
+
+  /// Sums the run up once all frames are in.
+  /// @param skipped  frames that could not be read
+  void finish(std::size_t skipped, const AsyncPipeline& pipeline, const SlamSystem& system);
+
+  /// Compares the tracked objects with the true ones, in the frame of the truth poses.
+  void compare_objects(const ObjectHistory& truth);
+
+  /// Compares the static map with the true one, which is taken to the map's frame by aligning the
+  /// poses of all frames that have a true one. Without such a frame there is no comparison.
+  /// @param truth  in the world frame of the truth poses
+  /// @throws DataError when the truth has no usable points.
+  void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
+
+  const std::vector<LoggedFrame>& frames() const { return frames_; }
+  /// As judged later (ObjectSmoother); empty until `finish`.
+  const ObjectHistory& objects() const { return objects_; }
+  std::size_t objects_now() const { return live_objects_.back().objects.size(); }
+  const std::vector<ReportPicture>& pictures() const { return pictures_; }
+  const RunMetrics& metrics() const { return metrics_; }
+  const Trajectory& truth() const { return truth_; }
+  bool has_image() const { return has_image_; }
+
+  Trajectory trajectory() const;
+  Trajectory keyframes() const;
+
+ private:
+  void keep_picture(const Processed& processed);
+  void sum_up_times();
+  void sum_up_latency(const AsyncPipeline& pipeline);
+  void sum_up_accuracy();
+
+  Trajectory truth_;
+  std::vector<LoggedFrame> frames_;
+  ObjectSmoother smoother_;
+  ObjectHistory objects_;
+  ObjectHistory live_objects_;  ///< as the dynamic map had them at once
+  std::vector<ReportPicture> pictures_;
+  std::size_t picture_stride_ = 1;
+  bool has_image_ = false;
+  bool compare_masks_ = false;
+  RunMetrics metrics_;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+}  // namespace mms

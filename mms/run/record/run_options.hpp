@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "mms/dataset/source/bag_topic_names.hpp"
+#include "mms/run/record/view_options.hpp"
+
+namespace mms {
+
+/// The words of `mms run`.
+struct RunOptions {
+  std::string data = "sim:warehouse_loop";
+  std::filesystem::path config;  ///< empty: the defaults
+  std::filesystem::path output;  ///< empty: results/<time>_<name>
+  std::string segmenter;         ///< "network", "masks" or "none"
+  std::filesystem::path masks;   ///< empty: the recording's own
+  std::string weights;           ///< of the network; empty: as the config says
+  BagTopicNames topics;          ///< of a bag
+  std::string fusion;            ///< empty: as the config says
+  std::size_t frames = std::numeric_limits<std::size_t>::max();
+  std::size_t start = 0;
+  bool realtime = false;
+  bool keep_journal = false;
+  int threads = 0;  ///< 0: one a core
+  std::optional<ViewOptions> view;
+};
+
+}  // namespace mms

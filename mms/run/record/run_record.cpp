@@ -1,0 +1,141 @@
+#include "mms/run/record/run_record.hpp"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "mms/core/error.hpp"
+#include "mms/evaluation/trajectory/stamp_matching.hpp"
+#include "mms/evaluation/trajectory/trajectory_error.hpp"
+#include "mms/evaluation/trajectory/truth_frame.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/io/text/numbers.hpp"
+#include "mms/io/text/text_table.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFramesHeader = "stamp,index,status,dynamic_share";
+
+std::string absolute_path(const fs::path& path) {
+  std::error_code error;
+  const fs::path found = fs::absolute(path, error);
+  return error ? path.string() : found.lexically_normal().string();
+}
+
+Json json_of(const std::optional<CameraIntrinsics>& camera) {
+  if (!camera) return nullptr;
+  return {{"width", camera->width}, {"height", camera->height}, {"fx", camera->fx},
+          {"fy", camera->fy},       {"cx", camera->cx},         {"cy", camera->cy}};
+}
+
+std::optional<CameraIntrinsics> camera_of(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  CameraIntrinsics camera;
+  json.at("width").get_to(camera.width);
+  json.at("height").get_to(camera.height);
+  json.at("fx").get_to(camera.fx);
+  json.at("fy").get_to(camera.fy);
+  json.at("cx").get_to(camera.cx);
+  json.at("cy").get_to(camera.cy);
+  return camera;
+}
+
+std::string frames_csv(const RunLog& log) {
+  std::string text = std::string(kFramesHeader) + "\n";
+  for (const LoggedFrame& frame : log.frames()) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{:.5f}\n", frame.stamp.to_string(),
+                   frame.index, to_string(frame.status), frame.dynamic_share);
+  }
+  return text;
+}
+
+std::optional<Status> status_of(std::string_view name) {
+  for (int i = 0; i < kStatusCount; ++i) {
+    if (name == to_string(static_cast<Status>(i))) return static_cast<Status>(i);
+  }
+  return std::nullopt;
+}
+
+std::optional<FrameRecord> frame_of(const TextLine& line) {
+  if (line.fields.size() != 4) return std::nullopt;
+  const auto stamp = parse_stamp(line.fields[0]);
+  const auto index = parse_integer(line.fields[1]);
+  const auto status = status_of(line.fields[2]);
+  const auto share = parse_double(line.fields[3]);
+  if (!stamp || !index || !status || !share || *index < 0) return std::nullopt;
+  return FrameRecord{*stamp, *index, *status, *share};
+}
+
+}  // namespace
+
+RunRecord record_of(const RunOptions& options, const std::optional<CameraIntrinsics>& camera,
+                    bool depth_camera, double voxel_size) {
+  const bool simulated = options.data.starts_with("sim:");
+  return {simulated ? options.data : absolute_path(options.data),
+          options.segmenter,
+          options.masks.empty() ? "" : absolute_path(options.masks),
+          depth_camera,
+          voxel_size,
+          camera};
+}
+
+void write_run_record(const fs::path& folder, const RunRecord& record, const RunLog& log) {
+  const Json json = {{"data", record.data},
+                     {"segmenter", record.segmenter},
+                     {"masks", record.masks},
+                     {"sensor", record.depth_camera ? "depth camera" : "lidar"},
+                     {"voxel_size", record.voxel_size},
+                     {"camera", json_of(record.camera)}};
+  write_file(folder / "run.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(folder / "frames.csv", frames_csv(log));
+  const Trajectory truth = aligned_truth(log.truth(), log.trajectory());
+  if (!truth.empty()) write_trajectory_tum(folder / "truth.tum", truth);
+}
+
+RunRecord read_run_record(const fs::path& file) {
+  try {
+    const Json json = Json::parse(read_file(file));
+    return {
+        json.at("data").get<std::string>(),  json.at("segmenter").get<std::string>(),
+        json.at("masks").get<std::string>(), json.at("sensor").get<std::string>() == "depth camera",
+        json.at("voxel_size").get<double>(), camera_of(json.at("camera"))};
+  } catch (const Json::exception& error) {
+    throw DataError(file.string(), std::string("is no record of a run: ") + error.what());
+  }
+}
+
+std::vector<FrameRecord> read_frame_records(const fs::path& file) {
+  const TextTable table(file);
+  std::vector<FrameRecord> frames;
+  for (const TextLine& line : table.lines()) {
+    if (line.fields[0] == "stamp") continue;
+    const std::optional<FrameRecord> frame = frame_of(line);
+    if (!frame) {
+      throw DataError(table.where(line), "is no line of \"" + std::string(kFramesHeader) + "\"");
+    }
+    frames.push_back(*frame);
+  }
+  return frames;
+}
+
+Trajectory aligned_truth(const Trajectory& truth, const Trajectory& estimate) {
+  const auto T = align_truth(truth, estimate);
+  if (!T) return {};
+  Trajectory aligned;
+  for (const PoseMatch& match :
+       match_by_stamp(truth, estimate, TrajectoryErrorOptions{}.max_difference)) {
+    const Eigen::Isometry3d pose = *T * truth[match.reference].T_world_sensor.isometry();
+    aligned.push_back({estimate[match.estimate].stamp, Transform<World, Sensor>(pose)});
+  }
+  return aligned;
+}
+
+}  // namespace mms

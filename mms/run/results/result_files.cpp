@@ -1,0 +1,23 @@
+#include "mms/run/results/result_files.hpp"
+
+#include "mms/io/cloud/pcd_io.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+
+namespace mms {
+
+PointCloudFile file_of(const MapCloud& map) {
+  return {map.points, map.normals, map.colors, {}, map.observations};
+}
+
+void write_result_files(const std::filesystem::path& folder, const Trajectory& trajectory,
+                        const Trajectory& keyframes, const MapCloud& map) {
+  const PointCloudFile file = file_of(map);
+  write_trajectory_tum(folder / "trajectory.tum", trajectory);
+  write_trajectory_kitti(folder / "trajectory_kitti.txt", trajectory);
+  write_trajectory_tum(folder / "keyframes.tum", keyframes);
+  write_ply(folder / "static_map.ply", file);
+  write_pcd(folder / "static_map.pcd", file);
+}
+
+}  // namespace mms

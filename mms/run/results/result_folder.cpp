@@ -1,0 +1,74 @@
+#include "mms/run/results/result_folder.hpp"
+
+#include <fmt/chrono.h>
+
+#include <ctime>
+#include <fstream>
+
+#include "mms/core/error.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_of(const std::string& data) {
+  const fs::path path = fs::path(data).lexically_normal();
+  std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  for (char& c : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+    if (!plain) c = '_';
+  }
+  return name.empty() ? "run" : name;
+}
+
+/// results/<time>_<name>, counted up where runs start within one second.
+fs::path default_folder(const std::string& data) {
+  const std::string stem =
+      fmt::format("{:%Y%m%d-%H%M%S}_{}", fmt::localtime(std::time(nullptr)), name_of(data));
+  fs::path folder = fs::path("results") / stem;
+  for (int i = 2; fs::exists(folder); ++i)
+    folder = fs::path("results") / fmt::format("{}_{}", stem, i);
+  return folder;
+}
+
+void check_writable(const fs::path& folder) {
+  const fs::path probe = folder / ".writable";
+  const bool written = static_cast<bool>(std::ofstream(probe) << "x" << std::flush);
+  std::error_code ignored;
+  fs::remove(probe, ignored);
+  if (!written) {
+    throw FileError(folder.string(), "cannot be written to",
+                    "choose another folder with -o or change its permissions");
+  }
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(const fs::path& output, const std::string& data)
+    : path_(output.empty() ? default_folder(data) : output), default_place_(output.empty()) {
+  std::error_code error;
+  made_ = fs::create_directories(path_, error);
+  if (error || !fs::is_directory(path_)) {
+    throw FileError(path_.string(),
+                    "cannot be made a folder: " + (error ? error.message() : "it is a file"),
+                    "choose another with -o");
+  }
+  check_writable(path_);
+}
+
+ResultFolder::~ResultFolder() {
+  if (!made_) return;
+  std::error_code ignored;
+  fs::remove(path_, ignored);  // fails, as it should, where there is anything inside
+}
+
+void ResultFolder::make_latest() const {
+  if (!default_place_) return;
+  const fs::path link = path_.parent_path() / "latest";
+  std::error_code error;  // a file system without links still has the results
+  fs::remove(link, error);
+  fs::create_directory_symlink(path_.filename(), link, error);
+}
+
+}  // namespace mms

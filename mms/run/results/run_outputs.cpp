@@ -1,0 +1,110 @@
+#include "mms/run/results/run_outputs.hpp"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "mms/core/error.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/results/objects_io.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/mapping/static_map/semantic_map.hpp"
+#include "mms/report/map_picture.hpp"
+#include "mms/report/report.hpp"
+#include "mms/run/results/result_files.hpp"
+#include "mms/run/results/robot_maps.hpp"
+
+namespace mms {
+namespace {
+
+/// Points higher than this over the first camera hide the room in a view from above [m].
+constexpr double kCeiling = 1.2;
+
+std::string timing_csv(const RunLog& log) {
+  std::string text = "stamp,read";
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    text += fmt::format(",{}", to_string(static_cast<Stage>(i)));
+  }
+  text += ",stages,interval\n";
+  for (const LoggedFrame& frame : log.frames()) {
+    fmt::format_to(std::back_inserter(text), "{},{:.3f}", frame.stamp.to_string(), frame.read_ms);
+    for (const double ms : frame.stage_ms) fmt::format_to(std::back_inserter(text), ",{:.3f}", ms);
+    fmt::format_to(std::back_inserter(text), ",{:.3f},{:.3f}\n", frame.stages_ms(),
+                   frame.interval_ms);
+  }
+  return text;
+}
+
+std::vector<ReportFrame> report_frames(const RunLog& log) {
+  std::vector<ReportFrame> frames;
+  for (const LoggedFrame& frame : log.frames()) {
+    std::vector<double> times = {frame.read_ms};
+    times.insert(times.end(), frame.stage_ms.begin(), frame.stage_ms.end());
+    frames.push_back({frame.stamp, frame.T_world_sensor, std::nullopt, frame.status,
+                      frame.dynamic_share, std::move(times)});
+  }
+  const auto matches =
+      match_by_stamp(log.truth(), log.trajectory(), TrajectoryErrorOptions{}.max_difference);
+  for (const PoseMatch& match : matches) {
+    frames[match.estimate].truth_position =
+        log.truth()[match.reference].T_world_sensor.translation();
+  }
+  return frames;
+}
+
+RunReport make_report(const std::string& data, const MapCloud& map, const MapCloud& with_objects,
+                      double voxel_size, const RunLog& log) {
+  RunReport report;
+  report.name = data;
+  report.up = log.has_image() ? UpAxis::kNegativeY : UpAxis::kPositiveZ;
+  for (const auto& [name, unused] : log.metrics().stages) report.stages.push_back(name);
+  report.frames = report_frames(log);
+  report.summary = metric_values(log.metrics());
+  const MapPictureOptions view{.up = report.up, .point_size = voxel_size, .max_height = kCeiling};
+  report.map_view = draw_map(map.points, map.colors, view);
+  if (log.metrics().tracks > 0) {
+    report.objects_view = draw_map(with_objects.points, with_objects.colors, view);
+  }
+  report.pictures = log.pictures();
+  return report;
+}
+
+/// The report's pictures as files of their own.
+void write_pictures(const std::filesystem::path& folder, const RunReport& report) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder)) {
+    throw FileError(folder.string(),
+                    "cannot be made a folder: " + (error ? error.message() : "it is a file"),
+                    "choose another folder with -o");
+  }
+  if (!report.map_view.empty()) write_png(folder / "map.png", report.map_view);
+  if (!report.objects_view.empty()) write_png(folder / "objects.png", report.objects_view);
+  for (std::size_t i = 0; i < report.pictures.size(); ++i) {
+    write_png(folder / fmt::format("frame_{:02}.png", i + 1), report.pictures[i].image);
+  }
+}
+
+}  // namespace
+
+void write_outputs(const std::filesystem::path& folder, const std::string& data,
+                   const SystemConfig& config, const SlamSystem& system, const RunLog& log) {
+  const MapCloud map = system.static_map().cloud();
+  write_result_files(folder, log.trajectory(), log.keyframes(), map);
+  write_robot_maps(folder, system.occupancy_map(), map, log.has_image());
+  write_file(folder / "objects.json", objects_json(log.objects()));
+  const MapCloud with_objects = semantic_map(map, log.objects());
+  write_ply(folder / "semantic_map.ply", file_of(with_objects));
+  write_file(folder / "config.yaml", dump_config(config));
+  write_metrics(folder / "metrics.json", log.metrics());
+  write_file(folder / "timing.csv", timing_csv(log));
+  const RunReport report =
+      make_report(data, map, with_objects, system.static_map().voxel_size(), log);
+  write_report_html(folder / "report.html", report);
+  write_pictures(folder / "pictures", report);
+}
+
+}  // namespace mms

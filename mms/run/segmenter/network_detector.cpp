@@ -1,0 +1,79 @@
+#include "mms/run/segmenter/network_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mms/core/error.hpp"
+#include "mms/io/weights/safetensors.hpp"
+#include "mms/run/segmenter/torch_backend.hpp"
+#include "mms/segmentation/engine/engine_detector.hpp"
+#include "mms/segmentation/onnx/onnx_detector.hpp"
+#include "mms/segmentation/weights/model.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFileName = "weights/nano.safetensors";
+
+bool wants_torch(const SegmentationModel& model, const SegmentationConfig& config) {
+  if (config.backend != NetworkBackend::kAuto) return config.backend == NetworkBackend::kLibtorch;
+  const bool deformable = model.network.backbone.sac == SacMode::kDeformable;
+  return deformable || torch_has_gpu();
+}
+
+engine::Quantization quantization_of(const SegmentationModel& model, const std::string& where,
+                                     NetworkPrecision precision) {
+  if (precision == NetworkPrecision::kFloat32) return {};
+  engine::Quantization quantization = engine::unpack_quantization(model.weights, where);
+  if (precision == NetworkPrecision::kAuto || !quantization.ranges.empty()) return quantization;
+  throw DataError(where, "is not quantized, but segmentation.precision is int8",
+                  "calibrate it with mms quantize");
+}
+
+std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConfig& config) {
+  const std::string where = path.string();
+  SegmentationModel model = unpack_model(read_safetensors(path), where);
+  if (config.long_side > 0) resize_input(model.network, config.long_side);
+  if (wants_torch(model, config)) return make_torch_detector(model, where, config);
+  engine::Quantization quantization = quantization_of(model, where, config.precision);
+  return std::make_unique<engine::EngineDetector>(std::move(model), where, std::move(quantization),
+                                                  config.decoder, config.threads);
+}
+
+}  // namespace
+
+fs::path default_weights() {
+  std::error_code fault;
+  const fs::path program = fs::read_symlink("/proc/self/exe", fault);
+  const fs::path folder = program.parent_path();
+  for (const fs::path& base : {folder / "../share/mms", folder / "../..", folder / ".."}) {
+    if (fs::exists(base / kFileName)) return fs::weakly_canonical(base / kFileName);
+  }
+  throw FileError(kFileName, "is neither in share/mms/ beside the program nor in its source tree",
+                  "name a weights file under segmentation.weights in the settings, or use "
+                  "--segmenter masks or none");
+}
+
+std::unique_ptr<Detector> make_detector(const SegmentationConfig& config) {
+  const fs::path path = config.weights.empty() ? default_weights() : fs::path(config.weights);
+  if (path.extension() == ".onnx") {
+    return std::make_unique<OnnxDetector>(path, config.onnx, config.threads);
+  }
+  return make_solo(path, config);
+}
+
+void resize_input(NetworkConfig& network, int long_side) {
+  const double scale = static_cast<double>(long_side) / network.long_side;
+  network.short_side = static_cast<int>(std::lround(scale * network.short_side));
+  network.long_side = long_side;
+}
+
+std::unique_ptr<Segmenter> make_network_segmenter(const SegmentationConfig& config) {
+  SegmentationConfig wanted = config;  // masks that count for nothing need not be made
+  wanted.decoder.score = std::max(wanted.decoder.score, config.objects.score);
+  return std::make_unique<NetworkSegmenter>(make_detector(wanted), config.objects);
+}
+
+}  // namespace mms

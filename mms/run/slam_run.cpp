@@ -1,0 +1,168 @@
+#include "mms/run/slam_run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/open_dataset.hpp"
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/pipeline/async_pipeline.hpp"
+#include "mms/run/record/run_record.hpp"
+#include "mms/run/results/run_outputs.hpp"
+#include "mms/run/segmenter/segmenter_choice.hpp"
+
+namespace mms {
+namespace {
+
+void check_range(const RunOptions& options, const FrameSource& source) {
+  if (options.start < source.size()) return;
+  throw DataError("--start", fmt::format("is {}, but {} has {} frames", options.start, options.data,
+                                         source.size()));
+}
+
+SystemConfig load_settings(const RunOptions& options, const FrameSource& source) {
+  SystemConfig config;
+  const auto calibration = source.calibration();
+  if (calibration && calibration->max_depth) {
+    config.static_map.surface.max_depth = *calibration->max_depth;
+  }
+  if (!options.config.empty()) load_config(options.config, config);
+  if (!options.weights.empty()) config.segmentation.weights = options.weights;
+  if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
+  if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
+  if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;
+  return config;
+}
+
+std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
+  auto source = open_dataset(options.data, {.masks = options.masks,
+                                            .load_masks = options.segmenter != "none",
+                                            .topics = options.topics});
+  check_range(options, *source);
+  return source;
+}
+
+/// The frames asked for, and no more; none once the observer ended the run.
+AsyncPipeline::Source limited(FrameSource& source, const RunOptions& options,
+                              const RunObserver& observer) {
+  source.skip(options.start);
+  return [&source, &observer, left = options.frames]() mutable -> std::optional<Frame> {
+    if (left == 0 || observer.stop_requested()) return std::nullopt;
+    --left;
+    return source.next();
+  };
+}
+
+AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
+  const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  AsyncOptions async{.threads = options.threads > 0 ? options.threads : cores,
+                     .realtime = options.realtime};
+  // Only the geometry follows an object without a mask.
+  if (config.fusion.mode != FusionMode::kMultimodal) async.max_mask_age = 0.0;
+  return async;
+}
+
+}  // namespace
+
+SlamRun::SlamRun(const RunOptions& options)
+    : options_(options),
+      source_(open_source(options)),
+      config_(load_settings(options, *source_)),
+      system_(config_, make_segmenter(options.segmenter, options.data, config_, *source_)),
+      frames_(std::min(options.frames, source_->size() - options.start)) {
+  if (!options_.view) return;
+  view_ = std::make_unique<LiveView>(*options_.view, options_.data, *source_, config_, frames_);
+}
+
+void SlamRun::play(const std::filesystem::path& folder, RunObserver& observer) {
+  try {
+    process(folder, observer);
+  } catch (...) {
+    journal_.reset();  // it keeps the frames there are, or goes before its folder does
+    throw;
+  }
+}
+
+/// The network plans its work at its first picture, which would cost the first frames in real time.
+void SlamRun::warm_up() {
+  const auto calibration = source_->calibration();
+  if (options_.segmenter != "network" || !calibration || !calibration->camera) return;
+  Frame frame;
+  frame.color = Image<Rgb>(calibration->camera->width, calibration->camera->height);
+  system_.segment(frame);
+}
+
+void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer) {
+  const auto warn = [&observer](const std::string& message) { observer.on_warning(message); };
+  source_->on_warning(warn);
+  journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, warn);
+  log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
+                                  config_.dynamic_map);
+  observer.on_start(frames_);
+  if (options_.realtime) warm_up();
+  AsyncPipeline pipeline(threads_of(options_, config_));
+  pipeline.run(system_, limited(*source_, options_, observer),
+               [&](Processed&& processed) { finish_frame(std::move(processed), observer); });
+  end_map();
+  observer.on_end();
+  interrupted_ = observer.stop_requested();
+  if (interrupted_) observer.on_warning("interrupted, writing what is done so far");
+  log_->finish(source_->skipped(), pipeline, system_);
+  if (log_->frames().empty()) {
+    throw DataError(options_.data,
+                    fmt::format("none of its {} frames could be processed", source_->size()),
+                    "the warnings above say why; mms info DATA explains what was found");
+  }
+  compare_with_truth(observer);
+}
+
+/// Called right after the system localised the frame, before the next one.
+void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
+  std::optional<MapChanges> map;
+  if (processed.result.keyframe) map = system_.static_map().changes();
+  std::shared_ptr<const MapChanges> shown;
+  if (view_ && map) shown = std::make_shared<const MapChanges>(*map);
+  journal_->add(processed, std::move(map));
+  log_->add(processed);
+  observer.on_frame(*log_);
+  if (view_) view_->show(std::move(processed), std::move(shown));
+}
+
+void SlamRun::end_map() {
+  std::optional<MapChanges> map = system_.end();
+  if (!map) return;
+  if (view_) view_->show_map(*map);
+  journal_->end(std::move(*map));
+}
+
+/// Truth that cannot be read costs the comparison, not the run.
+void SlamRun::compare_with_truth(RunObserver& observer) {
+  const auto attempt = [&](const std::string& what, const auto& compare) {
+    try {
+      compare();
+    } catch (const Error& error) {
+      observer.on_warning(what + " not evaluated: " + error.what());
+    }
+  };
+  attempt("the map is", [&] {
+    const std::optional<TruthCloud> truth = source_->map_truth();
+    if (truth) log_->compare_map(*truth, system_.static_map().cloud().points);
+  });
+  attempt("the objects are", [&] { log_->compare_objects(source_->objects_truth()); });
+}
+
+void SlamRun::write(const std::filesystem::path& folder) {
+  write_outputs(folder, options_.data, config_, system_, *log_);
+  const auto calibration = source_->calibration();
+  write_run_record(folder,
+                   record_of(options_, calibration ? calibration->camera : std::nullopt,
+                             log_->has_image(), system_.static_map().voxel_size()),
+                   *log_);
+  if (!options_.keep_journal) journal_->remove();
+}
+
+}  // namespace mms

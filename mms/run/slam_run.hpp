@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "mms/dataset/source/frame_source.hpp"
+#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/slam_system.hpp"
+#include "mms/run/record/run_journal.hpp"
+#include "mms/run/record/run_log.hpp"
+#include "mms/run/record/run_options.hpp"
+#include "mms/run/run_observer.hpp"
+#include "mms/run/view/live_view.hpp"
+
+namespace mms {
+
+/// One run of the system over a recording, from the words of the command line to its results.
+class SlamRun {
+ public:
+  /// Opens the recording and makes the system. @throws Error when that cannot be done.
+  explicit SlamRun(const RunOptions& options);
+
+  /// Plays the recording, keeping a journal in `folder` meanwhile, and compares the results with
+  /// the truth that is there. When the observer ends it early what is done so far counts.
+  /// @throws DataError when no frame could be processed.
+  void play(const std::filesystem::path& folder, RunObserver& observer);
+
+  /// Writes all files of the run; the journal ends.
+  void write(const std::filesystem::path& folder);
+
+  /// The viewer of the run; null without `RunOptions::view`.
+  LiveView* view() const { return view_.get(); }
+
+  /// Whether the observer ended the run early.
+  bool interrupted() const { return interrupted_; }
+
+  const RunLog& log() const { return *log_; }
+  const SlamSystem& system() const { return system_; }
+  const RunOptions& options() const { return options_; }
+
+ private:
+  void warm_up();
+  void process(const std::filesystem::path& folder, RunObserver& observer);
+  void compare_with_truth(RunObserver& observer);
+  void finish_frame(Processed processed, RunObserver& observer);
+  void end_map();
+
+  RunOptions options_;
+  std::unique_ptr<FrameSource> source_;
+  SystemConfig config_;
+  SlamSystem system_;
+  std::size_t frames_ = 0;  // to be played at most
+  std::unique_ptr<RunLog> log_;
+  std::unique_ptr<RunJournal> journal_;
+  std::unique_ptr<LiveView> view_;  // null without --view
+  bool interrupted_ = false;
+};
+
+}  // namespace mms

@@ -1,0 +1,98 @@
+#include "mms/run/view/live_view.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <utility>
+
+#include "mms/mapping/ground/floor.hpp"
+#include "mms/run/record/run_record.hpp"
+#include "mms/run/view/run_series.hpp"
+
+namespace mms {
+namespace {
+
+/// Of this run and no other on this machine.
+std::string run_id() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return fmt::format("{}-{}", ::getpid(),
+                     std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
+
+SceneInfo info_of(const std::string& data, const FrameSource& source, const SystemConfig& config,
+                  std::size_t frames, bool has_truth) {
+  SceneInfo info;
+  info.name = std::filesystem::path(data).lexically_normal().filename().string();
+  if (info.name.empty()) info.name = data;
+  info.data = data;
+  info.id = run_id();
+  info.live = true;
+  info.frames = frames;
+  info.has_truth = has_truth;
+  info.voxel_size = config.static_map.voxel_size;
+  info.series = run_series(has_truth);
+  const auto calibration = source.calibration();
+  if (calibration) info.camera = calibration->camera;
+  return info;
+}
+
+std::vector<float> series_of(const Processed& processed, const SceneFrame& frame, bool has_truth) {
+  const FrameResult& result = processed.result;
+  std::vector<float> values = {static_cast<float>(processed.read_ms)};
+  for (const double ms : result.stage_ms) values.push_back(static_cast<float>(ms));
+  values.push_back(static_cast<float>(result.dynamic_share));
+  values.push_back(static_cast<float>(result.objects.size()));
+  append_distances(values, frame, has_truth);
+  return values;
+}
+
+std::vector<ObjectBox> objects_of(const FrameResult& result, Timestamp stamp) {
+  std::vector<ObjectBox> boxes;
+  for (const TrackedObject& object : result.objects) {
+    boxes.push_back(object.box);
+    boxes.back().visible = object.last_seen == stamp ? 1.0 : 0.0;
+  }
+  return boxes;
+}
+
+}  // namespace
+
+LiveView::LiveView(const ViewOptions& options, const std::string& data, const FrameSource& source,
+                   const SystemConfig& config, std::size_t frames)
+    : truth_(source.ground_truth()),
+      scene_(std::make_shared<Scene>(info_of(data, source, config, frames, !truth_.empty()),
+                                     config.static_map.min_observations)),
+      server_(serve(options, scene_, "--view PORT", true)) {}
+
+void LiveView::show(Processed processed, std::shared_ptr<const MapChanges> map) {
+  FrameResult& result = processed.result;
+  SceneFrame frame;
+  frame.stamp = processed.frame.stamp;
+  frame.T_world_sensor = result.odometry.T_world_sensor;
+  frame.status = result.odometry.status;
+  frame.truth = truth_.at({frame.stamp, frame.T_world_sensor});
+  frame.series = series_of(processed, frame, !truth_.empty());
+  frame.objects = objects_of(result, frame.stamp);
+  if (frames_ == 0) {
+    const bool depth_camera = result.cloud.organised();
+    scene_->set_sensor(processed.frame.calibration->camera,
+                       (depth_camera ? SensorAxes::camera() : SensorAxes::lidar()).up);
+  }
+  auto view = std::make_shared<const SensorView>(
+      SensorView{frames_++, std::move(processed.frame.color), std::move(result.cloud)});
+  scene_->add(std::move(frame), std::move(view), std::move(map));
+}
+
+void LiveView::end(const std::filesystem::path& folder, const RunLog& log) {
+  const Trajectory truth = aligned_truth(log.truth(), log.trajectory());
+  std::vector<std::optional<Eigen::Vector3d>> positions(log.frames().size());
+  auto next = truth.begin();
+  for (std::size_t i = 0; i < positions.size() && next != truth.end(); ++i) {
+    if (next->stamp == log.frames()[i].stamp) positions[i] = (next++)->T_world_sensor.translation();
+  }
+  if (!truth.empty()) scene_->replace_truth(positions);
+  scene_->end(folder);
+}
+
+}  // namespace mms

@@ -1,0 +1,133 @@
+#include "mms/run/view/recorded_scene.hpp"
+
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "mms/core/error.hpp"
+#include "mms/mapping/ground/floor.hpp"
+#include "mms/run/record/recorded_run.hpp"
+#include "mms/run/view/run_series.hpp"
+#include "mms/run/view/sensor_views.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t kTimes = 1 + kStageCount;  ///< series of milliseconds: read and the stages
+
+double voxel_size_of(const RunFiles& files) {
+  return files.record && files.record->voxel_size > 0.0 ? files.record->voxel_size
+                                                        : files.config.static_map.voxel_size;
+}
+
+/// Up as the map's floor says, else as the sensor was held.
+Eigen::Vector3d up_of(const RunFiles& files) {
+  const bool may_be_camera = !files.record || files.record->depth_camera;
+  const bool may_be_lidar = !files.record || !files.record->depth_camera;
+  const FloorConfig& config = files.config.occupancy.floor;
+  Eigen::Vector3d up = (may_be_camera ? SensorAxes::camera() : SensorAxes::lidar()).up;
+  if (files.map.size() == 0) return up;
+  const Floor floor = find_floor(files.map, up, config);
+  if (floor.found || !may_be_lidar || !may_be_camera) return floor.up;
+  const Floor of_lidar = find_floor(files.map, SensorAxes::lidar().up, config);
+  return of_lidar.found ? of_lidar.up : floor.up;
+}
+
+std::string name_of(const fs::path& folder, const std::string& data) {
+  std::error_code ignored;
+  const std::string run = fs::weakly_canonical(folder, ignored).filename().string();
+  return run.empty() ? data : run;
+}
+
+/// The places of all frames in the recording; empty where one is not known.
+std::vector<FrameRecord> records_of(const RunFiles& files) {
+  std::vector<FrameRecord> records;
+  for (const StampedPose& pose : files.trajectory) {
+    const auto found = files.frames.find(pose.stamp);
+    if (found == files.frames.end()) return {};
+    records.push_back(found->second);
+  }
+  return records;
+}
+
+/// What gives the run's pictures, or a note that says why nothing does.
+Scene::ViewLoader make_loader(const RunFiles& files, std::string& note) {
+  std::vector<FrameRecord> records = records_of(files);
+  if (!files.record || records.empty()) {
+    note = "the folder does not say which frames of which recording were run";
+    return nullptr;
+  }
+  try {
+    const auto views =
+        std::make_shared<SensorViews>(*files.record, files.config, std::move(records));
+    return [views](std::size_t frame) { return views->load(frame); };
+  } catch (const Error& error) {
+    note = error.what();
+    return nullptr;
+  }
+}
+
+std::vector<float> series_of(const RunFiles& files, const SceneFrame& frame) {
+  std::vector<float> values(kTimes, kUnknown);
+  const auto times = files.times.find(frame.stamp);
+  if (times != files.times.end()) values = times->second;
+  const auto record = files.frames.find(frame.stamp);
+  values.push_back(record == files.frames.end() ? kUnknown
+                                                : static_cast<float>(record->second.dynamic_share));
+  values.push_back(static_cast<float>(frame.objects.size()));
+  append_distances(values, frame, !files.truth.empty());
+  return values;
+}
+
+void add_frames(const RunFiles& files, Scene& scene) {
+  std::map<Timestamp, const ObjectFrame*> objects;
+  for (const ObjectFrame& frame : files.objects) objects[frame.stamp] = &frame;
+  std::map<Timestamp, Eigen::Vector3d> truth;
+  for (const StampedPose& pose : files.truth) {
+    truth[pose.stamp] = pose.T_world_sensor.translation();
+  }
+  for (const StampedPose& pose : files.trajectory) {
+    SceneFrame frame;
+    frame.stamp = pose.stamp;
+    frame.T_world_sensor = pose.T_world_sensor;
+    const auto record = files.frames.find(pose.stamp);
+    if (record != files.frames.end()) frame.status = record->second.status;
+    const auto seen = objects.find(pose.stamp);
+    if (seen != objects.end()) frame.objects = seen->second->objects;
+    const auto truly = truth.find(pose.stamp);
+    if (truly != truth.end()) frame.truth = truly->second;
+    frame.series = series_of(files, frame);
+    scene.add(std::move(frame), nullptr, nullptr);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<Scene> open_recorded_scene(const fs::path& folder) {
+  const RunFiles files = read_run_files(folder);
+  SceneInfo info;
+  Scene::ViewLoader loader = make_loader(files, info.pictures_note);
+  info.name = name_of(folder, files.data);
+  info.id = info.name + "-" + files.trajectory.front().stamp.to_string();
+  info.data = files.data;
+  info.frames = files.trajectory.size();
+  info.has_truth = !files.truth.empty();
+  info.has_pictures = loader != nullptr;
+  info.voxel_size = voxel_size_of(files);
+  info.up = up_of(files);
+  info.series = run_series(info.has_truth);
+  if (files.record) info.camera = files.record->camera;
+  auto scene = std::make_shared<Scene>(std::move(info));
+  scene->set_loader(std::move(loader));
+  add_frames(files, *scene);
+  scene->add_map(std::make_shared<const MapChanges>(
+      changes_of(files.map.points, files.map.colors, voxel_size_of(files))));
+  scene->end(folder);
+  return scene;
+}
+
+}  // namespace mms

@@ -1,0 +1,62 @@
+#include "mms/run/view/sensor_views.hpp"
+
+#include <utility>
+
+#include "mms/dataset/open_dataset.hpp"
+#include "mms/run/segmenter/segmenter_choice.hpp"
+
+namespace mms {
+namespace {
+
+FusionConfig fusion_config(const SystemConfig& config) {
+  FusionConfig fusion = config.fusion;
+  fusion.noise = config.depth_noise;
+  fusion.lidar_noise = config.lidar_noise;
+  return fusion;
+}
+
+}  // namespace
+
+SensorViews::SensorViews(RunRecord record, const SystemConfig& config,
+                         std::vector<FrameRecord> frames)
+    : record_(std::move(record)),
+      config_(config),
+      frames_(std::move(frames)),
+      source_(open()),
+      segmenter_(make_segmenter(record_.segmenter, record_.data, config_, *source_)) {}
+
+std::unique_ptr<FrameSource> SensorViews::open() const {
+  return open_dataset(
+      record_.data,
+      {.masks = record_.masks, .load_masks = record_.segmenter == "masks", .map_truth = false});
+}
+
+/// The frame of that place and stamp. Recordings are read forwards only.
+std::optional<Frame> SensorViews::read(const FrameRecord& wanted) {
+  if (wanted.index < position_) {
+    source_ = open();
+    position_ = 0;
+  }
+  source_->skip(static_cast<std::size_t>(wanted.index - position_));
+  position_ = wanted.index + 1;
+  std::optional<Frame> frame = source_->next();
+  if (!frame || frame->stamp != wanted.stamp) {
+    source_ = open();  // it may have passed over damaged ones, and be anywhere
+    position_ = 0;
+    return std::nullopt;
+  }
+  return frame;
+}
+
+std::shared_ptr<const SensorView> SensorViews::load(std::size_t index) {
+  if (index >= frames_.size()) return nullptr;
+  std::optional<Frame> frame = read(frames_[index]);
+  if (!frame) return nullptr;
+  if (!fusion_ || !last_ || index != *last_ + 1) fusion_.emplace(fusion_config(config_));
+  last_ = index;
+  LabeledCloud cloud = fusion_->fuse(*frame, segmenter_->segment(*frame));
+  return std::make_shared<const SensorView>(
+      SensorView{index, std::move(frame->color), std::move(cloud)});
+}
+
+}  // namespace mms

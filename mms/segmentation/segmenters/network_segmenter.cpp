@@ -1,0 +1,58 @@
+#include "mms/segmentation/segmenters/network_segmenter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "mms/core/error.hpp"
+
+namespace mms {
+namespace {
+
+constexpr std::array<std::string_view, 9> kVehicles = {
+    "agv", "forklift", "robot", "vehicle", "car", "bus", "truck", "motorcycle", "bicycle"};
+
+}  // namespace
+
+void NetworkSegmenterConfig::visit(ConfigVisitor& v) {
+  v.number({"score", "", "smallest score of an object that counts"}, score, {0.0, 1.0});
+  v.boolean({"person", "", "whether people count as dynamic"}, person);
+  v.boolean({"agv", "", "whether vehicles count as dynamic"}, agv);
+}
+
+std::optional<ObjectClass> object_class_of(const std::string& name) {
+  if (name == "person") return ObjectClass::kPerson;
+  const bool vehicle = std::find(kVehicles.begin(), kVehicles.end(), name) != kVehicles.end();
+  return vehicle ? std::optional(ObjectClass::kAgv) : std::nullopt;
+}
+
+NetworkSegmenter::NetworkSegmenter(std::unique_ptr<Detector> detector,
+                                   const NetworkSegmenterConfig& config)
+    : detector_(std::move(detector)), config_(config) {
+  bool any = false;
+  for (const std::string& name : detector_->classes()) {
+    std::optional<ObjectClass> meant = object_class_of(name);
+    const bool wanted = meant == ObjectClass::kPerson ? config.person : config.agv;
+    if (!wanted) meant.reset();
+    classes_.push_back(meant);
+    any = any || meant.has_value();
+  }
+  if (any) return;
+  throw DataError("the network", "finds nothing that counts as dynamic",
+                  "its classes are to have person or agv among them, and segmentation.person or "
+                  "segmentation.agv is to be true");
+}
+
+Segmentation NetworkSegmenter::segment(const Frame& frame) {
+  Segmentation segmentation{frame.color.width(), frame.color.height(), {}};
+  if (frame.color.empty()) return segmentation;
+  for (Detection& detection : detector_->detect(frame.color)) {
+    const auto meant = classes_[static_cast<std::size_t>(detection.category)];
+    if (!meant || detection.score < static_cast<float>(config_.score)) continue;
+    segmentation.instances.push_back(
+        {*meant, detection.score, detection.x, detection.y, std::move(detection.mask)});
+  }
+  return segmentation;
+}
+
+}  // namespace mms

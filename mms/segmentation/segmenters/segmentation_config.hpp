@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "mms/segmentation/onnx/onnx_config.hpp"
+#include "mms/segmentation/segmenters/network_segmenter.hpp"
+#include "mms/segmentation/solo/solo_decoder.hpp"
+
+namespace mms {
+
+/// What computes our networks: oneDNN in the engine, or libtorch (the GPU; deformable
+/// convolutions).
+enum class NetworkBackend { kAuto, kEngine, kLibtorch };
+
+/// Of the engine's numbers.
+enum class NetworkPrecision { kAuto, kFloat32, kInt8 };
+
+/// Settings of the segmentation with a network (III-A).
+struct SegmentationConfig {
+  std::string weights;  ///< a file; empty: the network that the program comes with
+  NetworkBackend backend = NetworkBackend::kAuto;
+  NetworkPrecision precision = NetworkPrecision::kAuto;
+  int long_side = 0;  ///< of the network's input [px]; 0: as it was trained
+  int threads = 1;    ///< of the network; the rest of the program has its own
+  NetworkSegmenterConfig objects;
+  DecoderConfig decoder;  ///< of our networks
+  OnnxConfig onnx;        ///< of ONNX models
+
+  void visit(ConfigVisitor& v);
+};
+
+}  // namespace mms

@@ -1,0 +1,35 @@
+#pragma once
+
+// Internal to server: what all connections share. The only headers that show Boost are this,
+// http_session.hpp and viewer_session.hpp.
+
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <memory>
+
+#include "mms/server/http/server.hpp"
+#include "mms/server/scene/picture_cache.hpp"
+#include "mms/server/scene/scene.hpp"
+
+namespace mms {
+
+/// Sockets live in one thread, that of `io`; messages are made in `encoder`, and pictures, which
+/// take longer, in `loader`, so that neither holds up the sockets.
+struct Service {
+  Service(const ServerOptions& given, std::shared_ptr<Scene> shown)
+      : options(given), scene(std::move(shown)), pictures(*scene) {}
+
+  ServerOptions options;
+  std::shared_ptr<Scene> scene;
+  PictureCache pictures;  // of the loader's thread
+  bool loopback = true;
+  std::atomic<bool> closing = false;
+  std::atomic<std::size_t> viewers = 0;
+  std::atomic<std::size_t> connections = 0;
+  boost::asio::io_context io{1};
+  boost::asio::thread_pool encoder{1};
+  boost::asio::thread_pool loader{1};
+};
+
+}  // namespace mms

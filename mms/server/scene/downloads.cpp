@@ -1,0 +1,94 @@
+#include "mms/server/scene/downloads.hpp"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+#include "mms/core/error.hpp"
+#include "mms/core/trajectory.hpp"
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 16> kKnown = {
+    "static_map.ply",       "static_map.pcd", "semantic_map.ply", "trajectory.tum",
+    "trajectory_kitti.txt", "keyframes.tum",  "truth.tum",        "objects.json",
+    "metrics.json",         "timing.csv",     "frames.csv",       "report.html",
+    "config.yaml",          "map.pgm",        "map.yaml",         "map.bt"};
+
+constexpr std::array<std::string_view, 2> kLive = {"static_map.ply", "trajectory.tum"};
+
+template <std::size_t n>
+bool holds(const std::array<std::string_view, n>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// In a folder of its own, which nobody else can have made or may write to.
+fs::path new_temporary(std::string_view name) {
+  std::string folder = fs::temp_directory_path() / "mms-XXXXXX";
+  if (::mkdtemp(folder.data()) == nullptr) {
+    throw FileError(folder, "no temporary folder can be made there", "set TMPDIR to another place");
+  }
+  return fs::path(folder) / name;
+}
+
+Trajectory trajectory_of(const Scene& scene) {
+  Trajectory poses;
+  for (const auto& frame : scene.frames(0, scene.size())) {
+    poses.push_back({frame->stamp, frame->T_world_sensor});
+  }
+  return poses;
+}
+
+PointCloudFile map_of(Scene& scene) {
+  ColoredPoints cloud = scene.read_map([](const MapChunks& map) { return map.cloud(); });
+  return {std::move(cloud.points), {}, std::move(cloud.colors), {}, {}};
+}
+
+}  // namespace
+
+std::vector<std::string> download_names(const Scene& scene) {
+  const fs::path folder = scene.folder();
+  if (folder.empty()) return {kLive.begin(), kLive.end()};
+  std::vector<std::string> names;
+  for (const std::string_view name : kKnown) {
+    if (find_download(folder, name)) names.emplace_back(name);
+  }
+  return names;
+}
+
+std::optional<fs::path> find_download(const fs::path& folder, std::string_view name) {
+  if (!holds(kKnown, name)) return std::nullopt;
+  const fs::path path = folder / name;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+  return path;
+}
+
+bool is_live_download(std::string_view name) {
+  return holds(kLive, name);
+}
+
+fs::path write_live_download(Scene& scene, std::string_view name) {
+  const fs::path path = new_temporary(name);
+  try {
+    if (name == "trajectory.tum") {
+      write_trajectory_tum(path, trajectory_of(scene));
+    } else {
+      write_ply(path, map_of(scene));
+    }
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove_all(path.parent_path(), ignored);
+    throw;
+  }
+  return path;
+}
+
+}  // namespace mms

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "mms/core/random_stream.hpp"
+#include "mms/simulation/models/mesh.hpp"
+
+namespace mms {
+
+/// Things that stand about in a warehouse. All are added with the origin of `T` on the floor in
+/// their middle and z up; x is along their length [m].
+
+/// A wooden pallet of 1.2 x 0.8 x 0.14 m.
+void add_pallet(Mesh& mesh, const Eigen::Isometry3f& T, RandomStream& random);
+
+/// A cardboard box of the given size.
+void add_carton(Mesh& mesh, const Eigen::Isometry3f& T, const Eigen::Vector3f& size,
+                RandomStream& random);
+
+/// A pallet with cartons, sacks, drums or a crate on it, up to `height` over the floor.
+void add_loaded_pallet(Mesh& mesh, const Eigen::Isometry3f& T, float height, RandomStream& random);
+
+/// A storage rack of `bays` x 2.7 m, 1.1 m deep, its long side along x, with loads on `levels`.
+/// With `equal_loads` every bay looks alike.
+void add_rack(Mesh& mesh, const Eigen::Isometry3f& T, int bays, int levels, bool equal_loads,
+              RandomStream& random);
+
+inline constexpr float kBayLength = 2.7F;  ///< [m]
+inline constexpr float kRackDepth = 1.1F;  ///< [m]
+
+}  // namespace mms

@@ -1,0 +1,160 @@
+#include "mms/simulation/config/scene_config.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "mms/core/error.hpp"
+#include "mms/simulation/sensors/sensor_preset.hpp"
+
+namespace mms {
+namespace {
+
+constexpr std::array<std::string_view, 3> kLayouts = {"hall", "corridor", "aisle"};
+constexpr std::array<std::string_view, 4> kRides = {"still", "loop", "along", "shaken"};
+constexpr std::array<std::string_view, 8> kScenes = {"warehouse_loop", "still_walker", "crowd",
+                                                     "stop_and_go",    "corridor",     "static",
+                                                     "fast",           "rack_aisle"};
+
+SceneConfig nobody(SceneConfig config) {
+  config.crossing = config.leading = config.oncoming = config.working = config.agvs = 0;
+  return config;
+}
+
+SceneConfig warehouse_loop() {
+  SceneConfig config;
+  config.hz = 15.0;
+  return config;
+}
+
+SceneConfig still_walker() {
+  SceneConfig config = nobody(warehouse_loop());
+  config.duration = 20.0;
+  config.ride = CameraRide::kStill;
+  config.crossing = 1;
+  config.pause_share = 0.0;
+  return config;
+}
+
+SceneConfig crowd() {
+  SceneConfig config = nobody(warehouse_loop());
+  config.duration = 20.0;
+  config.ride = CameraRide::kAlong;
+  config.speed = 0.03;
+  config.crossing_from = 1.25;
+  config.crossing_beyond = 4.5;
+  config.crossing = 9;
+  config.oncoming = 4;
+  config.leading = 0;
+  config.agvs = 2;
+  return config;
+}
+
+SceneConfig stop_and_go() {
+  SceneConfig config = warehouse_loop();
+  config.duration = 40.0;
+  config.ride = CameraRide::kAlong;
+  config.speed = 0.4;
+  config.crossing = 4;
+  config.leading = 0;
+  config.agvs = 5;
+  config.pause_share = 0.5;
+  config.pause = 10.0;
+  return config;
+}
+
+SceneConfig corridor() {
+  SceneConfig config = nobody(warehouse_loop());
+  config.duration = 30.0;
+  config.layout = Layout::kCorridor;
+  config.ride = CameraRide::kAlong;
+  config.speed = 0.8;
+  config.leading = 1;
+  return config;
+}
+
+SceneConfig empty_hall() {
+  SceneConfig config = nobody(warehouse_loop());
+  config.duration = 30.0;
+  return config;
+}
+
+SceneConfig fast() {
+  SceneConfig config = warehouse_loop();
+  config.duration = 15.0;
+  config.hz = 30.0;
+  config.ride = CameraRide::kShaken;
+  config.speed = 1.2;
+  config.exposure = 0.016;
+  config.blur_samples = 4;
+  config.crossing = 3;
+  config.agvs = 2;
+  return config;
+}
+
+SceneConfig rack_aisle() {
+  SceneConfig config = nobody(warehouse_loop());
+  config.duration = 30.0;
+  config.layout = Layout::kAisle;
+  config.ride = CameraRide::kAlong;
+  config.speed = 0.9;
+  config.leading = 1;
+  config.working = 1;
+  return config;
+}
+
+constexpr std::array<SceneConfig (*)(), kScenes.size()> kMakers = {
+    warehouse_loop, still_walker, crowd, stop_and_go, corridor, empty_hall, fast, rack_aisle};
+
+}  // namespace
+
+void SceneConfig::visit(ConfigVisitor& v) {
+  v.integer({"seed", "", "of building, stock, people, their ways and the noise"}, seed, {0.0, 1e9});
+  v.number({"duration", "s", "how long the ride lasts"}, duration, {0.1, 1e5});
+  v.integer({"frames", "", "how many of its frames are played; 0: all"}, frames, {0.0, 1e6});
+  v.number({"hz", "1/s", "frame rate; 0: the sensor's own"}, hz, {0.0, 1000.0});
+  v.choice({"sensor", "", "what looks at it"}, sensor, sensor_names());
+  v.integer({"width", "px", "image width, the height in proportion; 0: the sensor's own"}, width,
+            {0.0, 4096.0});
+  v.boolean({"noise", "", "whether the sensors are noisy"}, noise);
+  v.number({"exposure", "s", "of the camera; 0: its own"}, exposure, {0.0, 0.1});
+  v.integer({"blur_samples", "", "instants an exposure is made of; 1: no motion blur"},
+            blur_samples, {1.0, 64.0});
+  v.enumeration({"layout", "", "what is built"}, layout, kLayouts);
+  v.enumeration({"ride", "", "how the sensor rides through it"}, ride, kRides);
+  v.number({"speed", "m/s", "of the sensor"}, speed, {0.01, 5.0});
+  v.number({"camera_height", "m", "over the floor"}, camera_height, {0.2, 2.5});
+  v.number({"clutter", "", "density of pallets and signs"}, clutter, {0.0, 1.0});
+  v.integer({"crossing", "", "persons who walk to and fro across the sensor's way"}, crossing,
+            {0.0, 40.0});
+  v.number({"crossing_from", "m", "nearest of their places ahead of the sensor's start"},
+           crossing_from, {0.5, 50.0});
+  v.number({"crossing_beyond", "m", "farthest of their places ahead of the sensor's end"},
+           crossing_beyond, {0.0, 50.0});
+  v.integer({"leading", "", "persons who walk ahead of the sensor"}, leading, {0.0, 8.0});
+  v.integer({"oncoming", "", "persons who come towards it"}, oncoming, {0.0, 20.0});
+  v.integer({"working", "", "persons who work at a rack"}, working, {0.0, 8.0});
+  v.integer({"agvs", "", "vehicles, of the five kinds in turn"}, agvs, {0.0, 20.0});
+  v.number({"pause_share", "", "share of time that walkers and vehicles stand"}, pause_share,
+           {0.0, 0.9});
+  v.number({"pause", "s", "mean length of a pause"}, pause, {0.5, 60.0});
+  v.group({"mask_errors", "", "how the masks fall short of the exact ones"}, mask_errors);
+}
+
+std::span<const std::string_view> scene_names() {
+  return kScenes;
+}
+
+SceneConfig scene_config(std::string_view name) {
+  const auto found = std::find(kScenes.begin(), kScenes.end(), name);
+  if (found != kScenes.end()) {
+    SceneConfig config = kMakers[static_cast<std::size_t>(found - kScenes.begin())]();
+    config.name = name;
+    return config;
+  }
+  std::string known;
+  for (const std::string_view scene : kScenes)
+    known += (known.empty() ? "" : ", ") + std::string(scene);
+  throw DataError(std::string(name), "there is no such scene", "scenes are " + known);
+}
+
+}  // namespace mms

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "mms/simulation/models/mesh_shapes.hpp"
+#include "mms/simulation/vehicles/agv_style.hpp"
+
+namespace mms {
+
+/// Takes z to y: cylinders across the vehicle.
+Eigen::Isometry3f across();
+
+/// A box that begins at `low` and ends at `high` [m].
+void add_block(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
+               std::uint32_t material);
+
+/// A body with bevelled upper and vertical edges: flat box of the same extent, `bevel` [m] cut off.
+void add_bevelled(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& high, float bevel,
+                  std::uint32_t material);
+
+/// Round bar of `radius` [m] between two points.
+void add_bar(Mesh& mesh, const Eigen::Vector3f& from, const Eigen::Vector3f& to, float radius,
+             std::uint32_t material, int segments = 10);
+
+/// Adds a wheel that rolls on the floor, its axle at (x, y).
+void add_wheel(AgvAssembly& agv, const AgvStyle& style, float x, float y, float radius, float width,
+               const Material& hub);
+
+/// Adds a beacon on a socket with its foot at `T`.
+void add_lamp(Mesh& mesh, const Eigen::Isometry3f& T, const AgvStyle& style, float size);
+
+/// Adds a lidar with its foot at `T`: housing, window, lid.
+void add_lidar(Mesh& mesh, const Eigen::Isometry3f& T, const AgvStyle& style, float radius,
+               float height);
+
+/// A rectangle of hazard stripes on a thin plate.
+void add_hazard_plate(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
+                      const AgvStyle& style);
+
+}  // namespace mms

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+
+#include "mms/simulation/vehicles/agv_assembly.hpp"
+
+namespace mms {
+
+/// Colours and random choices of one vehicle.
+class AgvStyle {
+ public:
+  explicit AgvStyle(std::uint64_t seed);
+
+  /// Uniform between `low` and `high`; another value for every `what`.
+  float between(std::uint64_t what, float low, float high) const;
+
+  /// Yes for `share` of all seeds.
+  bool chance(std::uint64_t what, float share) const;
+
+  /// Sine of time with a period of about `period` [s]; another beginning for every `what`.
+  float wave(std::uint64_t what, float period, double seconds) const;
+
+  /// Joint at `T` that swings about `axis` by `middle` +- `amplitude` [rad] as wave() says.
+  AgvAssembly::Joint swing(std::uint64_t what, float period, const Eigen::Vector3f& axis,
+                           float middle, float amplitude, const Eigen::Isometry3f& T) const;
+
+  Material paint() const;  ///< of the body
+  Material trim() const;   ///< of what stands out from it
+  Material dark() const;   ///< frames, bumpers, housings
+  Material rubber() const;
+  Material steel() const;
+  Material hazard() const;
+  Material sticker() const;
+  Material glow(const Eigen::Vector3f& color) const;  ///< lamps and lenses
+  Material cardboard(std::uint32_t number) const;
+  Material wood() const;
+
+ private:
+  std::uint64_t seed_;
+  Eigen::Vector3f color_;
+  Eigen::Vector3f trim_;
+};
+
+}  // namespace mms

@@ -1,0 +1,82 @@
+#include "mms/simulation/world/camera_ride.hpp"
+
+#include <cmath>
+
+#include "mms/core/hash_noise.hpp"
+#include "mms/simulation/world/route.hpp"
+
+namespace mms {
+namespace {
+
+constexpr double kPitch = 0.06;         // how far it looks down [rad]
+constexpr double kShakeAngle = 0.003;   // [rad]
+constexpr double kShakeHeight = 0.002;  // [m]
+
+/// Where a camera that stands still looks down the lane: far enough from the wall ahead to have
+/// people cross before it, near enough to see it.
+constexpr double kStillFromEnd = 8.0;  // [m]
+
+Motion still_robot(const Building& building) {
+  const Eigen::Vector2d end = building.lane[1];
+  const Eigen::Vector2d ahead = (end - building.lane[0]).normalized();
+  return Motion::still(end - kStillFromEnd * ahead, std::atan2(ahead.y(), ahead.x()));
+}
+
+Motion robot_motion(const SceneConfig& config, const Building& building, double seconds) {
+  if (config.ride == CameraRide::kStill) return still_robot(building);
+  Route route;
+  route.corners = building.lane;
+  route.end = building.lane_closed ? RouteEnd::kLoop : RouteEnd::kStop;
+  route.speed = config.speed;
+  route.acceleration = 0.5;
+  route.look_ahead = 0.9;
+  if (config.ride == CameraRide::kAlong && building.lane_closed) route.start = 2.0;
+  return drive(route, seconds);
+}
+
+/// Smooth noise of about unit size that changes a few times a second.
+double shake(std::uint64_t seed, double seconds) {
+  double sum = 0.0;
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const auto phase = static_cast<double>(uniform_of(hash_of(seed, i)));
+    const auto detune = static_cast<double>(uniform_of(hash_of(seed, i + 7)));
+    const double hz = 0.7 + 1.3 * (static_cast<double>(i) + detune);
+    sum += std::sin(6.2831853 * (hz * seconds + phase)) / (1.0 + static_cast<double>(i));
+  }
+  return 0.6 * sum;
+}
+
+}  // namespace
+
+CameraMotion::CameraMotion(const SceneConfig& config, const Building& building, double seconds)
+    : robot_(robot_motion(config, building, seconds)),
+      height_(config.camera_height),
+      still_(config.ride == CameraRide::kStill),
+      swing_amplitude_(config.ride == CameraRide::kShaken ? 0.55 : 0.12),
+      swing_rate_(config.ride == CameraRide::kShaken ? 2.4 : 0.5),
+      seed_(hash_of(static_cast<std::uint64_t>(config.seed), 0xca3)) {}
+
+double CameraMotion::swing(double seconds) const {
+  return swing_amplitude_ * std::sin(swing_rate_ * seconds);
+}
+
+Eigen::Isometry3d CameraMotion::T_building_camera(double seconds) const {
+  Eigen::Isometry3d T = robot_.T_world_object(seconds);
+  T.translate(Eigen::Vector3d(0.0, 0.0, height_));
+  double pitch = kPitch;
+  double roll = 0.0;
+  if (!still_) {
+    T.rotate(Eigen::AngleAxisd(swing(seconds), Eigen::Vector3d::UnitZ()));
+    T.translate(Eigen::Vector3d(0.0, 0.0, kShakeHeight * shake(seed_, seconds)));
+    pitch += kShakeAngle * shake(seed_ + 1, seconds);
+    roll = kShakeAngle * shake(seed_ + 2, seconds);
+  }
+  T.rotate(Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()));
+  T.rotate(Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()));
+  Eigen::Matrix3d optical;  // robot x forward, y left, z up -> camera x right, y down, z forward
+  optical << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  T.linear() = T.linear() * optical;
+  return T;
+}
+
+}  // namespace mms

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "mms/simulation/building/building.hpp"
+#include "mms/simulation/config/scene_config.hpp"
+#include "mms/simulation/world/motion.hpp"
+
+namespace mms {
+
+/// The way of the camera: a robot that follows the lane, and a camera on it that looks ahead, from
+/// side to side, and shakes a little.
+class CameraMotion {
+ public:
+  /// @param seconds  how long the ride lasts
+  CameraMotion(const SceneConfig& config, const Building& building, double seconds);
+
+  /// Pose of the optical frame (x right, y down, z forward) in the building's frame.
+  Eigen::Isometry3d T_building_camera(double seconds) const;
+
+  /// The robot that carries it.
+  const Motion& robot() const { return robot_; }
+
+ private:
+  double swing(double seconds) const;
+
+  Motion robot_;
+  double height_;
+  bool still_;
+  double swing_amplitude_;  ///< [rad]
+  double swing_rate_;       ///< [rad/s]
+  std::uint64_t seed_;
+};
+
+}  // namespace mms

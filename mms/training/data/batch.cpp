@@ -1,0 +1,60 @@
+#include "mms/training/data/batch.hpp"
+
+#include "mms/core/hash_noise.hpp"
+#include "mms/geometry/parallel.hpp"
+#include "mms/segmentation/solo/prepared_image.hpp"
+#include "mms/training/data/augmentation.hpp"
+
+namespace mms {
+namespace {
+
+struct Canvas {
+  int width = 0;   ///< [px]
+  int height = 0;  ///< [px]
+};
+
+/// The network's input, lying or upright; all images of a batch alike.
+Canvas canvas_of(const TrainingConfig& config, RandomStream& random) {
+  const int wide = padded_length(config.network.long_side);
+  const int high = padded_length(config.network.short_side);
+  const bool upright = random.chance(static_cast<float>(config.augmentation.portrait));
+  return upright ? Canvas{high, wide} : Canvas{wide, high};
+}
+
+Sample augmented(const SampleStore& store, const TrainingConfig& config, const Canvas& canvas,
+                 RandomStream& random) {
+  const AugmentationConfig& changes = config.augmentation;
+  Sample sample = jittered(store.draw(random), canvas.width, canvas.height, changes, random);
+  if (random.chance(static_cast<float>(changes.copy_paste))) {
+    const Sample other = jittered(store.draw(random), canvas.width, canvas.height, changes, random);
+    paste_objects(sample, other, random);
+  }
+  change_colors(sample, changes, random);
+  return sample;
+}
+
+}  // namespace
+
+Batch make_batch(const SampleStore& store, const TrainingConfig& config, int number) {
+  const auto seed =
+      hash_of(static_cast<std::uint64_t>(config.seed), static_cast<std::uint64_t>(number));
+  RandomStream random(seed);
+  const Canvas canvas = canvas_of(config, random);
+  const auto count = static_cast<std::size_t>(config.schedule.batch);
+  Batch batch;
+  batch.targets.resize(count);
+  batch.images = torch::zeros({config.schedule.batch, 3, canvas.height, canvas.width});
+  float* planes = batch.images.data_ptr<float>();
+  const std::size_t image_size =
+      3 * static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
+  parallel_chunks(count, 1, [&](std::size_t i, std::size_t) {
+    RandomStream own(hash_of(seed, i + 1));
+    const Sample sample = augmented(store, config, canvas, own);
+    normalise(sample.image, sample.width, sample.height, canvas.width, canvas.height,
+              planes + i * image_size);
+    batch.targets[i] = assign_targets(sample, config.network.head);
+  });
+  return batch;
+}
+
+}  // namespace mms

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <torch/types.h>
+
+#include <vector>
+
+#include "mms/training/data/sample_store.hpp"
+#include "mms/training/data/target_assignment.hpp"
+
+namespace mms {
+
+/// Images and what the network is to say of them.
+struct Batch {
+  torch::Tensor images;  ///< (B, 3, H, W) float32, normalised
+  std::vector<ImageTargets> targets;
+};
+
+/// Draws, augments and annotates the images of one step. The same number gives the same batch.
+Batch make_batch(const SampleStore& store, const TrainingConfig& config, int number);
+
+}  // namespace mms

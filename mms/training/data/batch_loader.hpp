@@ -1,0 +1,31 @@
+#pragma once
+
+#include <exception>
+#include <thread>
+
+#include "mms/core/bounded_queue.hpp"
+#include "mms/training/data/batch.hpp"
+
+namespace mms {
+
+/// Prepares batches in a thread of its own, a few ahead of the training.
+class BatchLoader {
+ public:
+  /// @param first, end  numbers of the batches, in [first, end)
+  BatchLoader(const SampleStore& store, const TrainingConfig& config, int first, int end);
+  ~BatchLoader();
+  BatchLoader(const BatchLoader&) = delete;
+  BatchLoader& operator=(const BatchLoader&) = delete;
+
+  /// The next batch; nothing after the last one. Throws what the thread threw.
+  std::optional<Batch> next();
+
+ private:
+  void prepare(const SampleStore& store, const TrainingConfig& config, int first, int end);
+
+  BoundedQueue<Batch> queue_;
+  std::exception_ptr fault_;
+  std::thread thread_;
+};
+
+}  // namespace mms

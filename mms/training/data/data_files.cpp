@@ -1,0 +1,101 @@
+#include "mms/training/data/data_files.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "mms/core/error.hpp"
+#include "mms/io/image/picture_files.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<DataImage> folder_images(const fs::path& folder) {
+  std::vector<DataImage> images;
+  for (const fs::path& path : list_pictures(folder)) images.push_back({.path = path});
+  return images;
+}
+
+/// Index in `classes` of each category of the file that is one of them.
+std::map<int, int> category_indices(const CocoDataset& dataset,
+                                    const std::vector<std::string>& classes) {
+  std::map<int, int> indices;
+  for (const CocoCategory& category : dataset.categories) {
+    const auto found = std::find(classes.begin(), classes.end(), category.name);
+    if (found != classes.end()) {
+      indices[category.id] = static_cast<int>(found - classes.begin());
+    }
+  }
+  return indices;
+}
+
+std::vector<DataImage> annotated_images(const TrainingData& set,
+                                        const std::vector<std::string>& classes) {
+  const CocoDataset dataset = read_coco(set.annotations);
+  const fs::path folder =
+      set.images.empty() ? fs::path(set.annotations).parent_path() : fs::path(set.images);
+  std::vector<DataImage> images;
+  std::map<std::int64_t, std::size_t> places;
+  for (const CocoImage& image : dataset.images) {
+    if (!set.split.empty() && image.split != set.split) continue;
+    places[image.id] = images.size();
+    images.push_back({.path = picture_path(folder, image.file_name),
+                      .id = image.id,
+                      .width = image.width,
+                      .height = image.height});
+  }
+  const std::map<int, int> indices = category_indices(dataset, classes);
+  for (const CocoAnnotation& annotation : dataset.annotations) {
+    const auto place = places.find(annotation.image_id);
+    const auto index = indices.find(annotation.category_id);
+    if (place == places.end() || index == indices.end()) continue;
+    images[place->second].objects.push_back(
+        {index->second, annotation.iscrowd, annotation.segmentation});
+  }
+  return images;
+}
+
+void keep_containing(const std::string& name, const std::vector<std::string>& classes,
+                     std::vector<DataImage>& images) {
+  const auto found = std::find(classes.begin(), classes.end(), name);
+  if (found == classes.end()) {
+    throw ConfigError("data.containing", "'" + name + "' is none of the network's classes",
+                      "write one of those that it learns");
+  }
+  const int category = static_cast<int>(found - classes.begin());
+  const auto lacks = [&](const DataImage& image) {
+    return std::none_of(image.objects.begin(), image.objects.end(),
+                        [&](const Annotated& object) { return object.category == category; });
+  };
+  images.erase(std::remove_if(images.begin(), images.end(), lacks), images.end());
+}
+
+}  // namespace
+
+std::vector<DataImage> list_images(const TrainingData& set,
+                                   const std::vector<std::string>& classes) {
+  if (set.annotations.empty() && set.images.empty()) {
+    throw ConfigError("data", "has a set with neither annotations nor images", "name one of them");
+  }
+  std::vector<DataImage> images =
+      set.annotations.empty() ? folder_images(set.images) : annotated_images(set, classes);
+  if (!set.containing.empty()) keep_containing(set.containing, classes, images);
+  if (set.limit > 0) images.resize(std::min(images.size(), static_cast<std::size_t>(set.limit)));
+  if (images.empty()) {
+    std::string what = "has no images";
+    if (!set.split.empty()) what += " of the split '" + set.split + "'";
+    if (!set.containing.empty()) what += " with the class '" + set.containing + "'";
+    throw DataError(set.annotations.empty() ? set.images : set.annotations, what);
+  }
+  return images;
+}
+
+void check_size(const DataImage& image, int width, int height) {
+  if (image.width == 0 || (image.width == width && image.height == height)) return;
+  throw DataError(image.path.string(),
+                  "is " + std::to_string(width) + "x" + std::to_string(height) + ", annotated is " +
+                      std::to_string(image.width) + "x" + std::to_string(image.height));
+}
+
+}  // namespace mms

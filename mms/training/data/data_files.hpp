@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mms/io/image/coco_io.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/training/data/training_config.hpp"
+
+namespace mms {
+
+/// An annotated object of a file, its class by index.
+struct Annotated {
+  int category = 0;
+  bool crowd = false;
+  Rle segmentation;
+};
+
+/// An image of a set, not yet read.
+struct DataImage {
+  std::filesystem::path path;
+  std::int64_t id = 0;  ///< in its annotation file
+  int width = 0;        ///< as annotated [px]; 0: unknown
+  int height = 0;
+  std::vector<Annotated> objects{};
+};
+
+/// The images of a set with their objects of the given classes.
+/// @throws FileError, DataError when the annotations cannot be read, or no image is left.
+std::vector<DataImage> list_images(const TrainingData& set,
+                                   const std::vector<std::string>& classes);
+
+/// @throws DataError when an image is not of the size that its annotations are for.
+void check_size(const DataImage& image, int width, int height);
+
+}  // namespace mms

@@ -1,0 +1,123 @@
+#include "mms/training/run/losses.hpp"
+
+#include <torch/nn/functional.h>
+
+#include <algorithm>
+
+namespace mms {
+namespace {
+
+constexpr double kAlpha = 0.25;
+constexpr double kSmallest = 1e-3;       // keeps empty masks from dividing by zero
+constexpr std::size_t kMostPairs = 200;  // of an image: bounds memory in crowds
+
+/// (B, C, S, S) of every level as one (B, cells, C).
+torch::Tensor cells_of(const std::array<torch::Tensor, HeadConfig::kLevels>& maps) {
+  std::vector<torch::Tensor> levels;
+  for (const torch::Tensor& map : maps) levels.push_back(map.to(torch::kFloat).flatten(2));
+  return torch::cat(levels, 2).permute({0, 2, 1});
+}
+
+/// Classes of all cells of all images, (B, cells).
+torch::Tensor wanted_categories(const std::vector<ImageTargets>& targets) {
+  std::vector<std::int64_t> all;
+  for (const ImageTargets& image : targets) {
+    for (const auto& level : image.categories) all.insert(all.end(), level.begin(), level.end());
+  }
+  return torch::tensor(all).view({static_cast<std::int64_t>(targets.size()), -1});
+}
+
+torch::Tensor category_loss(const torch::Tensor& logits, const std::vector<ImageTargets>& targets) {
+  const torch::Tensor wanted = wanted_categories(targets).to(logits.device());
+  const torch::Tensor positive = wanted >= 0;
+  const torch::Tensor one_hot =
+      torch::one_hot(wanted.clamp_min(0), logits.size(2)) * positive.unsqueeze(2).to(torch::kLong);
+  const torch::Tensor counted = (wanted != ImageTargets::kIgnored).unsqueeze(2);
+  const torch::Tensor loss = focal_loss(logits, one_hot.to(torch::kFloat)) * counted;
+  return loss.sum() / (positive.sum() + 1);
+}
+
+/// At most `kMostPairs`, spread evenly.
+std::vector<ImageTargets::Pair> some_pairs(const std::vector<ImageTargets::Pair>& pairs) {
+  if (pairs.size() <= kMostPairs) return pairs;
+  std::vector<ImageTargets::Pair> some;
+  for (std::size_t i = 0; i < kMostPairs; ++i) {
+    some.push_back(pairs[i * pairs.size() / kMostPairs]);
+  }
+  return some;
+}
+
+/// First cell of each level among all cells.
+std::array<int, HeadConfig::kLevels> level_offsets(const ImageTargets& targets) {
+  std::array<int, HeadConfig::kLevels> offsets{};
+  int sum = 0;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    offsets[i] = sum;
+    sum += static_cast<int>(targets.categories[i].size());
+  }
+  return offsets;
+}
+
+/// Masks of an image's objects, (objects, pixels) in {0, 1}.
+torch::Tensor mask_targets(const ImageTargets& targets) {
+  std::vector<torch::Tensor> masks;
+  for (const Image<std::uint8_t>& mask : targets.masks) {
+    masks.push_back(torch::from_blob(const_cast<std::uint8_t*>(mask.pixels().data()),
+                                     {static_cast<std::int64_t>(mask.size())}, torch::kByte));
+  }
+  return torch::stack(masks).to(torch::kFloat);
+}
+
+/// Dice losses of one image's pairs.
+torch::Tensor image_mask_loss(const torch::Tensor& kernels, const torch::Tensor& features,
+                              const ImageTargets& targets) {
+  const auto offsets = level_offsets(targets);
+  std::vector<std::int64_t> cells;
+  std::vector<std::int64_t> objects;
+  for (const ImageTargets::Pair& pair : some_pairs(targets.pairs)) {
+    cells.push_back(offsets[static_cast<std::size_t>(pair.level)] + pair.cell);
+    objects.push_back(pair.object);
+  }
+  const auto device = features.device();
+  const torch::Tensor chosen = kernels.index_select(0, torch::tensor(cells).to(device));
+  const torch::Tensor probability = torch::sigmoid(torch::mm(chosen, features.flatten(1)));
+  const torch::Tensor wanted =
+      mask_targets(targets).to(device).index_select(0, torch::tensor(objects).to(device));
+  return dice_loss(probability, wanted);
+}
+
+}  // namespace
+
+torch::Tensor dice_loss(const torch::Tensor& probability, const torch::Tensor& target) {
+  const torch::Tensor common = (probability * target).sum(1);
+  const torch::Tensor squares =
+      probability.square().sum(1) + target.square().sum(1) + 2 * kSmallest;
+  return 1 - 2 * common / squares;
+}
+
+torch::Tensor focal_loss(const torch::Tensor& logits, const torch::Tensor& target) {
+  const torch::Tensor p = torch::sigmoid(logits);
+  const torch::Tensor missed = target * (1 - p) + (1 - target) * p;  // 1 - p_t
+  const torch::Tensor alpha = target * kAlpha + (1 - target) * (1 - kAlpha);
+  const torch::Tensor entropy =
+      torch::binary_cross_entropy_with_logits(logits, target, {}, {}, at::Reduction::None);
+  return alpha * missed.square() * entropy;
+}
+
+SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTargets>& targets) {
+  SoloLoss loss;
+  loss.category = category_loss(cells_of(output.categories), targets);
+  const torch::Tensor kernels = cells_of(output.kernels);
+  const torch::Tensor features = output.mask_features.to(torch::kFloat);
+  std::vector<torch::Tensor> parts;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (targets[i].pairs.empty()) continue;
+    const auto image = static_cast<std::int64_t>(i);
+    parts.push_back(image_mask_loss(kernels[image], features[image], targets[i]));
+  }
+  // Without any object the loss is 0, but still a function of the network.
+  loss.mask = parts.empty() ? 0 * (features.sum() + kernels.sum()) : torch::cat(parts).mean();
+  return loss;
+}
+
+}  // namespace mms

@@ -1,0 +1,172 @@
+#include "mms/training/run/trainer.hpp"
+
+#include <torch/cuda.h>
+#include <torch/nn/utils/clip_grad.h>
+#include <torch/optim/adamw.h>
+#include <torch/optim/sgd.h>
+#include <torch/serialize.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "mms/core/error.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/segmentation/network/mixed_precision.hpp"
+#include "mms/training/run/losses.hpp"
+#include "mms/training/run/schedule.hpp"
+
+namespace mms {
+namespace {
+
+constexpr const char* kStepsKey = "steps";
+
+torch::Device choose_device(const TrainingConfig& config) {
+  const bool cuda = config.use_cuda && torch::cuda::is_available();
+  return cuda ? torch::Device(torch::kCUDA) : torch::Device(torch::kCPU);
+}
+
+void prepare_backbones(network::SoloNetwork& network, const ScheduleConfig& schedule) {
+  for (network::Backbone& backbone : network->backbones()) {
+    backbone->freeze(schedule.frozen_stages);
+    backbone->keep_statistics(schedule.kept_statistics);
+  }
+}
+
+/// Parameters that learn: those of the backbones, and all others.
+std::array<std::vector<torch::Tensor>, 2> parameter_groups(network::SoloNetwork& network) {
+  std::array<std::vector<torch::Tensor>, 2> groups;
+  for (const auto& item : network->named_parameters()) {
+    if (!item.value().requires_grad()) continue;
+    const bool backbone =
+        item.key().starts_with("backbone.") || item.key().starts_with("neck.rfp_modules.");
+    groups[backbone ? 0 : 1].push_back(item.value());
+  }
+  return groups;
+}
+
+std::unique_ptr<torch::optim::Optimizer> make_optimizer(network::SoloNetwork& network,
+                                                        const ScheduleConfig& schedule) {
+  std::vector<torch::optim::OptimizerParamGroup> groups;
+  for (auto& parameters : parameter_groups(network)) groups.emplace_back(parameters);
+  if (schedule.optimizer == Optimizer::kAdamW) {
+    return std::make_unique<torch::optim::AdamW>(
+        groups,
+        torch::optim::AdamWOptions(schedule.learning_rate).weight_decay(schedule.weight_decay));
+  }
+  return std::make_unique<torch::optim::SGD>(groups,
+                                             torch::optim::SGDOptions(schedule.learning_rate)
+                                                 .momentum(schedule.momentum)
+                                                 .weight_decay(schedule.weight_decay));
+}
+
+/// Unlike zeroing them, this costs no pass over them, now and when the next ones are added.
+void forget_gradients(torch::nn::Module& network) {
+  for (torch::Tensor& parameter : network.parameters()) parameter.mutable_grad() = torch::Tensor();
+}
+
+void set_learning_rate(torch::optim::Optimizer& optimizer, const ScheduleConfig& schedule,
+                       int step) {
+  const double rate = learning_rate_at(schedule, step);
+  auto& groups = optimizer.param_groups();
+  groups[0].options().set_lr(rate * schedule.backbone_factor);
+  groups[1].options().set_lr(rate);
+}
+
+}  // namespace
+
+Trainer::Trainer(const TrainingConfig& config)
+    : config_(config),
+      device_(choose_device(config)),
+      network_(config.network),
+      average_(config.network) {
+  prepare_backbones(network_, config.schedule);
+  network_->to(device_);
+  average_->to(device_);
+  network::put_channels_last(*network_);
+  average_->eval();
+  network::load_weights(*average_, network::to_weights(*network_), "a copy of the network");
+  optimizer_ = make_optimizer(network_, config.schedule);
+}
+
+void Trainer::initialise(const Weights& weights, const std::string& where) {
+  network::load_partial_weights(*network_, weights, where);
+  network::load_partial_weights(*average_, weights, where);
+}
+
+StepResult Trainer::step(const Batch& batch) {
+  set_learning_rate(*optimizer_, config_.schedule, steps_);
+  forget_gradients(*network_);
+  network_->train();
+  network::HeadOutput output;
+  {
+    const network::MixedPrecision precision(config_.half_precision, device_.type());
+    output = network_->forward(batch.images.to(device_).contiguous(at::MemoryFormat::ChannelsLast));
+  }
+  const SoloLoss parts = solo_loss(output, batch.targets);
+  const torch::Tensor loss = parts.category + config_.schedule.mask_weight * parts.mask;
+  const StepResult result = {loss.item<double>(), parts.category.item<double>(),
+                             parts.mask.item<double>()};
+  if (!std::isfinite(result.loss)) {
+    throw DataError("step " + std::to_string(steps_), "the loss is not finite",
+                    "lower schedule.learning_rate; the last checkpoint is as it was");
+  }
+  loss.backward();
+  torch::nn::utils::clip_grad_norm_(network_->parameters(), config_.schedule.clip_norm);
+  optimizer_->step();
+  update_average();
+  ++steps_;
+  return result;
+}
+
+void Trainer::update_average() {
+  const torch::NoGradGuard no_grad;
+  const double kept = ema_decay_at(config_.schedule, steps_);
+  auto averages = network::named_tensors(*average_);
+  for (const auto& [name, tensor] : network::named_tensors(*network_)) {
+    averages.at(name).lerp_(tensor, 1.0 - kept);
+  }
+}
+
+void Trainer::save(const std::filesystem::path& path) {
+  torch::serialize::OutputArchive archive;
+  torch::serialize::OutputArchive network;
+  torch::serialize::OutputArchive average;
+  torch::serialize::OutputArchive optimizer;
+  network_->save(network);
+  average_->save(average);
+  optimizer_->save(optimizer);
+  archive.write("network", network);
+  archive.write("average", average);
+  archive.write("optimizer", optimizer);
+  archive.write(kStepsKey, torch::tensor(static_cast<std::int64_t>(steps_)));
+  AtomicFile file(path);
+  archive.save_to(file.stream());
+  file.commit();
+}
+
+void Trainer::load(const std::filesystem::path& path) {
+  try {
+    std::istringstream stream(read_file(path));
+    torch::serialize::InputArchive archive;
+    torch::serialize::InputArchive network;
+    torch::serialize::InputArchive average;
+    torch::serialize::InputArchive optimizer;
+    archive.load_from(stream, torch::kCPU);
+    archive.read("network", network);
+    archive.read("average", average);
+    archive.read("optimizer", optimizer);
+    network_->load(network);
+    average_->load(average);
+    optimizer_->load(optimizer);
+    torch::Tensor steps;
+    archive.read(kStepsKey, steps);
+    steps_ = static_cast<int>(steps.item<std::int64_t>());
+  } catch (const c10::Error& error) {
+    throw DataError(path.string(), "is no checkpoint of this network",
+                    std::string("torch says: ") + error.what_without_backtrace());
+  }
+  network::put_channels_last(*network_);
+}
+
+}  // namespace mms

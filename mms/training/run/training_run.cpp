@@ -1,0 +1,205 @@
+#include "mms/training/run/training_run.hpp"
+
+#include <ATen/Parallel.h>
+
+#include <thread>
+
+#include "mms/core/error.hpp"
+#include "mms/core/segmentation.hpp"
+#include "mms/io/config/config_yaml.hpp"
+#include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/io/weights/safetensors.hpp"
+#include "mms/segmentation/network/inference.hpp"
+#include "mms/segmentation/weights/imagenet_backbone.hpp"
+#include "mms/segmentation/weights/int8_weights.hpp"
+#include "mms/segmentation/weights/model.hpp"
+#include "mms/segmentation/weights/weight_transfer.hpp"
+#include "mms/training/data/batch_loader.hpp"
+#include "mms/training/run/schedule.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kStepsPerPoint = 25;  // of the loss curve
+
+void check(const TrainingConfig& config) {
+  if (config.data.empty()) {
+    throw ConfigError("data", "is empty", "name at least one set of images to learn from");
+  }
+  if (config.network.classes != kObjectClassCount) {
+    throw ConfigError("network.classes", "is " + std::to_string(config.network.classes) +
+                                             ", wanted is " + std::to_string(kObjectClassCount) +
+                                             ": person and agv");
+  }
+}
+
+int threads_or_cores(int threads) {
+  return threads > 0 ? threads
+                     : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+LossPoint mean_of(const std::vector<StepResult>& steps) {
+  LossPoint point;
+  const auto count = static_cast<double>(steps.size());
+  for (const StepResult& step : steps) {
+    point.loss += step.loss / count;
+    point.category_loss += step.category_loss / count;
+    point.mask_loss += step.mask_loss / count;
+  }
+  return point;
+}
+
+}  // namespace
+
+std::vector<std::string> training_classes() {
+  std::vector<std::string> names;
+  for (int i = 0; i < kObjectClassCount; ++i) {
+    names.emplace_back(to_string(static_cast<ObjectClass>(i)));
+  }
+  return names;
+}
+
+TrainingRun::TrainingRun(const TrainingConfig& config, const fs::path& folder, int threads)
+    : config_(config), folder_(folder), config_text_(dump_config(config)), trainer_([&] {
+        check(config);
+        at::set_num_threads(threads_or_cores(threads));
+        torch::manual_seed(static_cast<std::uint64_t>(config.seed));
+        return Trainer(config);
+      }()) {
+  for (const TrainingData& set : config.validation) {
+    validation_.emplace_back(set, training_classes(), config.validation_images);
+  }
+  start_or_resume();
+}
+
+void TrainingRun::on_event(std::function<bool(const TrainingEvent&)> callback) {
+  callback_ = std::move(callback);
+}
+
+void TrainingRun::start_or_resume() {
+  std::error_code fault;
+  fs::create_directories(folder_, fault);
+  const fs::path settings = folder_ / "config.yaml";
+  const fs::path checkpoint = folder_ / "checkpoint.pt";
+  if (fs::exists(checkpoint)) {
+    if (read_file(settings) != config_text_) {
+      throw ConfigError(folder_.string(), "has a training of other settings",
+                        "choose another folder, or compare with its config.yaml");
+    }
+    trainer_.load(checkpoint);
+    log_ = read_training_log(folder_ / "log.json");
+    log_.rewind(images_seen());
+  } else {
+    initialise();
+    write_file(settings, config_text_);
+  }
+  first_image_ = images_seen();
+}
+
+void TrainingRun::initialise() {
+  if (!config_.initial_backbone.empty()) {
+    const std::string& path = config_.initial_backbone;
+    trainer_.initialise(imagenet_backbone(read_safetensors(path), config_.network, path).weights,
+                        path);
+  }
+  if (!config_.initial_weights.empty()) {
+    const std::string& path = config_.initial_weights;
+    const Weights given = from_bytes(read_safetensors(path), path);
+    trainer_.initialise(grown_to(config_.network, given), path);
+  }
+}
+
+int TrainingRun::images_seen() const {
+  return trainer_.steps() * config_.schedule.batch;
+}
+
+/// Whether the last step went over a multiple of so many images.
+bool TrainingRun::every(int images) const {
+  return images_seen() / images != (images_seen() - config_.schedule.batch) / images;
+}
+
+bool TrainingRun::tell(const TrainingEvent& event) {
+  return !callback_ || callback_(event);
+}
+
+bool TrainingRun::train() {
+  const SampleStore store(
+      config_.data, training_classes(), config_.cache_side, [this](int done, int total) {
+        tell({.kind = TrainingEvent::Kind::kLoading, .done = done, .total = total, .fresh = done});
+      });
+  clock_ = std::chrono::steady_clock::now();
+  const int last = total_steps(config_.schedule);
+  BatchLoader loader(store, config_, trainer_.steps(), last);
+  while (const std::optional<Batch> batch = loader.next()) {
+    if (!after_step(trainer_.step(*batch))) {
+      checkpoint();
+      return false;
+    }
+  }
+  validate();
+  checkpoint();
+  return true;
+}
+
+bool TrainingRun::after_step(const StepResult& result) {
+  recent_.push_back(result);
+  bool going = true;
+  if (recent_.size() >= kStepsPerPoint) going = log_losses();
+  if (every(config_.validation_every)) going = validate() && going;
+  if (every(config_.checkpoint_every)) checkpoint();
+  return going;
+}
+
+bool TrainingRun::log_losses() {
+  LossPoint point = mean_of(recent_);
+  point.images = images_seen();
+  point.learning_rate = learning_rate_at(config_.schedule, trainer_.steps());
+  recent_.clear();
+  log_.losses.push_back(point);
+  return tell({.kind = TrainingEvent::Kind::kStep,
+               .done = images_seen(),
+               .total = total_steps(config_.schedule) * config_.schedule.batch,
+               .fresh = images_seen() - first_image_,
+               .loss = point});
+}
+
+bool TrainingRun::validate() {
+  TrainingEvent event;
+  event.kind = TrainingEvent::Kind::kValidation;
+  event.done = images_seen();
+  for (const ValidationSet& set : validation_) {
+    const SegmentationErrors errors = set.measure([this](const Image<Rgb>& image) {
+      return network::detect(trainer_.average(), image, DecoderConfig());
+    });
+    for (const ClassScores& scores : errors.per_class) {
+      event.aps.push_back(
+          {images_seen(), set.name(), scores.name, scores.scores.ap, scores.scores.ap50});
+    }
+  }
+  // A training that had ended is measured once more when it is started again.
+  std::erase_if(log_.aps, [&](const ApPoint& point) { return point.images == images_seen(); });
+  log_.aps.insert(log_.aps.end(), event.aps.begin(), event.aps.end());
+  write_results();
+  return tell(event);
+}
+
+void TrainingRun::checkpoint() {
+  const auto now = std::chrono::steady_clock::now();
+  log_.seconds += std::chrono::duration<double>(now - clock_).count();
+  clock_ = now;
+  // The log first: what is beyond the checkpoint is cut off when the training goes on.
+  write_training_log(folder_ / "log.json", log_);
+  trainer_.save(folder_ / "checkpoint.pt");
+  write_training_report(report_path(), folder_.filename().string(), log_, config_text_);
+}
+
+void TrainingRun::write_results() {
+  const SegmentationModel model = {config_.network, training_classes(),
+                                   network::to_weights(*trainer_.average())};
+  write_safetensors(weights_path(), pack_model(model), TensorType::kFloat16);
+}
+
+}  // namespace mms

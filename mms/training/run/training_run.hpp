@@ -1,0 +1,72 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mms/training/run/trainer.hpp"
+#include "mms/training/run/training_log.hpp"
+#include "mms/training/run/validation.hpp"
+
+namespace mms {
+
+/// What a training tells while it runs.
+struct TrainingEvent {
+  enum class Kind { kLoading, kStep, kValidation };
+  Kind kind = Kind::kStep;
+  int done = 0;                ///< images read (kLoading) or seen
+  int total = 0;               ///< images
+  int fresh = 0;               ///< of `done`, since this start
+  LossPoint loss{};            ///< kStep: mean since the last event
+  std::vector<ApPoint> aps{};  ///< kValidation
+};
+
+/// A whole training in a folder: checkpoint.pt and log.json to go on from, config.yaml,
+/// weights.safetensors (the average, after every validation) and report.html.
+class TrainingRun {
+ public:
+  /// Goes on with the training that is in the folder, if there is one.
+  /// @param threads  of the network; 0: one a core
+  /// @throws ConfigError, DataError, FileError for settings without data, a folder with a training
+  ///         of other settings, or files that cannot be read or written.
+  TrainingRun(const TrainingConfig& config, const std::filesystem::path& folder, int threads);
+
+  /// @param callback  false ends the training early, after a checkpoint
+  void on_event(std::function<bool(const TrainingEvent&)> callback);
+
+  /// Trains to the end of the schedule; false when it ended early.
+  bool train();
+
+  std::filesystem::path weights_path() const { return folder_ / "weights.safetensors"; }
+  std::filesystem::path report_path() const { return folder_ / "report.html"; }
+
+ private:
+  void start_or_resume();
+  void initialise();
+  bool tell(const TrainingEvent& event);
+  bool after_step(const StepResult& result);
+  bool log_losses();
+  void checkpoint();
+  bool validate();
+  void write_results();
+  int images_seen() const;
+  bool every(int images) const;
+
+  TrainingConfig config_;
+  std::filesystem::path folder_;
+  std::string config_text_;
+  Trainer trainer_;
+  TrainingLog log_;
+  std::vector<ValidationSet> validation_;
+  std::vector<StepResult> recent_;  ///< not yet logged
+  std::function<bool(const TrainingEvent&)> callback_;
+  int first_image_ = 0;  ///< seen before this start
+  std::chrono::steady_clock::time_point clock_;
+};
+
+/// The classes that every training of this project has, in the order of ObjectClass.
+std::vector<std::string> training_classes();
+
+}  // namespace mms

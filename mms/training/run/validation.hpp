@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mms/evaluation/segmentation/segmentation_error.hpp"
+#include "mms/segmentation/solo/solo_decoder.hpp"
+#include "mms/training/data/training_config.hpp"
+
+namespace mms {
+
+/// Finds the objects of a picture.
+using DetectFunction = std::function<std::vector<Detection>(const Image<Rgb>&)>;
+
+/// Images with truth, to measure a network on.
+class ValidationSet {
+ public:
+  /// Evenly spread images of a set, at most `most`.
+  /// @throws FileError, DataError when annotations or images cannot be read.
+  ValidationSet(const TrainingData& set, const std::vector<std::string>& classes, int most);
+
+  /// The annotation file's folder, and the split.
+  const std::string& name() const { return name_; }
+
+  /// Mask AP of what `detect` finds; classes that have no object in the set are NaN.
+  SegmentationErrors measure(const DetectFunction& detect) const;
+
+ private:
+  std::string name_;
+  CocoDataset truth_;
+  std::vector<Image<Rgb>> images_;
+};
+
+}  // namespace mms
