@@ -19,6 +19,8 @@ struct FieldInfo {
   std::string_view key;
   std::string_view unit;  ///< "m", "rad", ...; empty for none
   std::string_view doc;   ///< one line for `mms config dump`
+  /// Its name in the version before, which is still read, with a warning; empty for none.
+  std::string_view former{};
 };
 
 /// Visits the fields of a config struct in their order. Loading, dumping and checking are visitors

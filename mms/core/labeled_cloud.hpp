@@ -46,7 +46,7 @@ struct LabeledCloud {
   std::vector<Rgb> colors;            ///< empty where there is no image
   std::vector<std::int16_t> cluster;  ///< index into `clusters`, -1 for none
   std::vector<DynamicCluster> clusters;
-  /// Organised: non-zero where P_D or a mask is, and on the rim about them, whose colours are
+  /// Organised: non-zero where P_D or a mask is, and on the boundary about them, whose colours are
   /// mixed with theirs.
   Image<std::uint8_t> dynamic_pixels;
   CameraIntrinsics camera;  ///< organised: of the width x height grid

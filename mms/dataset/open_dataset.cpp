@@ -22,9 +22,9 @@ struct Layout {
   std::unique_ptr<FrameSource> (*open)(const fs::path& folder, const SourceOptions& options);
 };
 
-constexpr Layout kLayouts[] = {{looks_like_tum_rgbd, open_tum_rgbd},
-                               {looks_like_folder_rgbd, open_folder_rgbd},
-                               {looks_like_kitti_lidar, open_kitti_lidar}};
+constexpr Layout kLayouts[] = {{is_tum_rgbd_layout, open_tum_rgbd},
+                               {is_folder_rgbd_layout, open_folder_rgbd},
+                               {is_kitti_lidar_layout, open_kitti_lidar}};
 
 const Layout* layout_of(const Names& names) {
   const auto* found = std::find_if(std::begin(kLayouts), std::end(kLayouts),

@@ -74,7 +74,7 @@ OdometryEstimate Odometry::track(const FeatureCloud& features) {
   estimate.degenerate_directions = result.degenerate_directions;
   estimate.plane_rms =
       std::sqrt(result.geometric.plane_square_sum / std::max(1, result.geometric.planes.inliers));
-  if (trustworthy(features, result)) {
+  if (is_valid(features, result)) {
     estimate.status = lost_                              ? Status::kRecovered
                       : result.degenerate_directions > 0 ? Status::kDegenerate
                                                          : Status::kTracking;
@@ -82,7 +82,7 @@ OdometryEstimate Odometry::track(const FeatureCloud& features) {
     update_maps(features);
   } else {
     estimate.status = Status::kLost;
-    motion_.miss(features.stamp);
+    motion_.coast(features.stamp);
   }
   lost_ = estimate.status == Status::kLost;
   return estimate;
@@ -95,9 +95,9 @@ OdometryEstimate Odometry::track(const FeatureCloud& features) {
 RegistrationResult Odometry::register_best(const FeatureCloud& features) const {
   const PosePrediction prediction = motion_.predict(features.stamp);
   RegistrationResult best = register_near(features, prediction, config_.registration);
-  if (!trustworthy(features, best)) {
+  if (!is_valid(features, best)) {
     RegistrationConfig strict = config_.registration;
-    strict.geometric.slack = 0.0;
+    strict.geometric.annealed_scale = 0.0;
     const RegistrationResult other = register_near(features, prediction, strict);
     if (other.geometric.inliers() >= best.geometric.inliers()) best = other;
   }
@@ -163,13 +163,13 @@ std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) cons
   return Transform<World, Sensor>(prediction.T_world_sensor);
 }
 
-bool Odometry::trustworthy(const FeatureCloud& features, const RegistrationResult& result) const {
+bool Odometry::is_valid(const FeatureCloud& features, const RegistrationResult& result) const {
   const int inliers = result.geometric.inliers();
   const auto offered = static_cast<double>(features.edges.size() + features.planes.size());
   if (inliers + result.intensity_inliers < config_.min_inliers) return false;
   if (inliers < config_.min_inlier_share * offered) return false;
   if (!result.T_world_sensor.matrix().allFinite()) return false;
-  return motion_.allows(features.stamp, result.T_world_sensor);
+  return motion_.is_feasible(features.stamp, result.T_world_sensor);
 }
 
 void Odometry::update_maps(const FeatureCloud& features) {

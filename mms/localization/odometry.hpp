@@ -50,7 +50,7 @@ class Odometry {
   RegistrationResult register_best(const FeatureCloud& features) const;
   RegistrationResult register_near(const FeatureCloud& features, const PosePrediction& prediction,
                                    const RegistrationConfig& config) const;
-  bool trustworthy(const FeatureCloud& features, const RegistrationResult& result) const;
+  bool is_valid(const FeatureCloud& features, const RegistrationResult& result) const;
   void update_maps(const FeatureCloud& features);
 
   OdometryConfig config_;

@@ -20,7 +20,7 @@ constexpr std::size_t kQueueCapacity = 3;
 /// In real time a frame that waits is a frame that grows old.
 constexpr std::size_t kRealtimeCapacity = 1;
 
-constexpr std::chrono::milliseconds kPrompt{10};
+constexpr std::chrono::milliseconds kMaxQueueWait{10};
 
 double milliseconds(Clock::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
@@ -49,7 +49,7 @@ struct Localized {
 
 /// Whether a frame that comes to the segmentation has been there for a while.
 bool had_to_wait(const Input& input) {
-  return input.due && Clock::now() - *input.due > kPrompt;
+  return input.due && Clock::now() - *input.due > kMaxQueueWait;
 }
 
 std::optional<Input> read(const AsyncPipeline::Source& source) {
@@ -82,9 +82,9 @@ class FirstError {
 };
 
 /// The steps of one run, each for a thread of its own, and the queues between them.
-class Line {
+class StageThreads {
  public:
-  Line(SlamSystem& system, const AsyncOptions& options)
+  StageThreads(SlamSystem& system, const AsyncOptions& options)
       : system_(system),
         options_(options),
         inputs_(capacity(options)),
@@ -192,17 +192,17 @@ void AsyncPipeline::run_serial(SlamSystem& system, const Source& source, const S
 }
 
 void AsyncPipeline::run_threaded(SlamSystem& system, const Source& source, const Sink& sink) {
-  Line line(system, options_);
-  std::thread reader([&] { line.guarded([&] { line.read_all(source, dropped_); }); });
-  std::thread segmenter([&] { line.guarded([&] { line.segment_all(without_masks_); }); });
-  std::thread perceiver([&] { line.guarded([&] { line.perceive_all(); }); });
-  std::thread localizer([&] { line.guarded([&] { line.localize_all(); }); });
-  line.guarded([&] { line.map_all(sink); });
+  StageThreads stages(system, options_);
+  std::thread reader([&] { stages.guarded([&] { stages.read_all(source, dropped_); }); });
+  std::thread segmenter([&] { stages.guarded([&] { stages.segment_all(without_masks_); }); });
+  std::thread perceiver([&] { stages.guarded([&] { stages.perceive_all(); }); });
+  std::thread localizer([&] { stages.guarded([&] { stages.localize_all(); }); });
+  stages.guarded([&] { stages.map_all(sink); });
   reader.join();
   segmenter.join();
   perceiver.join();
   localizer.join();
-  line.rethrow();
+  stages.rethrow();
 }
 
 }  // namespace mms

@@ -10,7 +10,8 @@ void SystemConfig::visit(ConfigVisitor& v) {
   v.group({"fusion", "", "masks and geometry into static and dynamic points (III-B)"}, fusion);
   v.group({"features", "", "edge and planar features (III-C.1)"}, features);
   v.group({"odometry", "", "data association and pose (III-C.2, III-C.3)"}, odometry);
-  v.group({"movement", "", "what moves without a mask"}, movement);
+  v.group({"motion_segmentation", "", "what moves without a mask", "movement"},
+          motion_segmentation);
   v.group({"keyframes", "", "which frames update the static map (III-C.4)"}, keyframes);
   v.group({"static_map", "", "dense coloured map of what does not move (III-D)"}, static_map);
   v.group({"occupancy", "", "free and occupied space, for robots"}, occupancy);

@@ -5,7 +5,7 @@
 #include "mms/geometry/depth_noise.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
-#include "mms/mapping/motion_segmentation/movement_config.hpp"
+#include "mms/mapping/motion_segmentation/motion_segmentation_config.hpp"
 #include "mms/mapping/occupancy/occupancy_config.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
 #include "mms/mapping/static_map/static_map.hpp"
@@ -23,7 +23,7 @@ struct SystemConfig {
   FusionConfig fusion;
   FeatureConfig features;
   OdometryConfig odometry;
-  MovementConfig movement;
+  MotionSegmentationConfig motion_segmentation;
   KeyframeConfig keyframes;
   StaticMapConfig static_map;
   OccupancyConfig occupancy;

@@ -29,7 +29,7 @@ SystemConfig with_shared_noise(SystemConfig config) {
   config.features.noise = config.depth_noise;
   config.static_map.surface.noise = config.depth_noise;
   // Without masks, or with them alone, is how the method is compared with what was before it.
-  if (config.fusion.mode != FusionMode::kMultimodal) config.movement.enabled = false;
+  if (config.fusion.mode != FusionMode::kMultimodal) config.motion_segmentation.enabled = false;
   return config;
 }
 
@@ -40,8 +40,8 @@ SlamSystem::SlamSystem(const SystemConfig& given, std::unique_ptr<Segmenter> seg
       fusion_(with_shared_noise(given).fusion),
       extractor_(with_shared_noise(given).features),
       odometry_(given.odometry, given.depth_noise),
-      movement_(with_shared_noise(given).movement, given.depth_noise),
-      scan_movement_(with_shared_noise(given).movement, given.lidar_noise),
+      motion_segmentation_(with_shared_noise(given).motion_segmentation, given.depth_noise),
+      scan_motion_segmentation_(with_shared_noise(given).motion_segmentation, given.lidar_noise),
       keyframes_(given.keyframes),
       static_map_(with_shared_noise(given).static_map),
       occupancy_map_(given.occupancy, with_shared_noise(given).static_map.surface),
@@ -71,12 +71,12 @@ Perception SlamSystem::perceive(const Frame& frame, const TimedSegmentation& mas
   return p;
 }
 
-void SlamSystem::leave_out_movement(LabeledCloud& cloud, FeatureCloud& features) const {
+void SlamSystem::mask_moving_points(LabeledCloud& cloud, FeatureCloud& features) const {
   const auto expected = odometry_.expected(cloud.stamp);
   if (!expected) return;
-  const Image<std::uint8_t> moved = movement_.relabel(cloud, *expected);
+  const Image<std::uint8_t> moved = motion_segmentation_.relabel(cloud, *expected);
   if (!moved.empty()) exclude(moved, cloud.camera, features);
-  if (scan_movement_.relabel(cloud, *expected)) exclude_dynamic(cloud.labels, features);
+  if (scan_motion_segmentation_.relabel(cloud, *expected)) exclude_dynamic(cloud.labels, features);
 }
 
 FrameResult SlamSystem::localize(Perception perception) {
@@ -85,13 +85,13 @@ FrameResult SlamSystem::localize(Perception perception) {
   result.cloud = std::move(perception.labeled);
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
     deskew(result.cloud, odometry_.velocity());
-    leave_out_movement(result.cloud, perception.features);
+    mask_moving_points(result.cloud, perception.features);
     OdometryEstimate estimate =
         odometry_.estimate(std::move(perception.features));  // III-C.2, III-C.3, eqs. (3)-(5)
     result.keyframe = keyframes_.is_keyframe(estimate);      // III-C.4
     if (result.keyframe) {
-      movement_.remember(result.cloud, estimate.T_world_sensor);
-      scan_movement_.remember(result.cloud, estimate.T_world_sensor);
+      motion_segmentation_.remember(result.cloud, estimate.T_world_sensor);
+      scan_motion_segmentation_.remember(result.cloud, estimate.T_world_sensor);
     }
     return estimate;
   });
@@ -104,7 +104,7 @@ FrameResult SlamSystem::map(FrameResult result) {
     const Transform<World, Sensor>& T_world_sensor = result.odometry.T_world_sensor;
     dynamic_map_.update(result.cloud, result.odometry);  // III-D
     std::vector<TrackedObject> objects = dynamic_map_.objects();
-    leave_out_unseen(objects, T_world_sensor, result.cloud);
+    mask_unseen_objects(objects, T_world_sensor, result.cloud);
     if (result.keyframe) {
       static_map_.integrate(result.cloud, T_world_sensor);
       occupancy_map_.integrate(result.cloud, T_world_sensor);
@@ -117,7 +117,7 @@ FrameResult SlamSystem::map(FrameResult result) {
 }
 
 std::optional<MapChanges> SlamSystem::end() {
-  if (!static_map_.end_look()) return std::nullopt;
+  if (!static_map_.finalize()) return std::nullopt;
   return static_map_.changes();
 }
 

@@ -7,8 +7,8 @@
 #include "mms/fusion/semantic_fusion.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
-#include "mms/mapping/motion_segmentation/movement.hpp"
-#include "mms/mapping/motion_segmentation/scan_movement.hpp"
+#include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
+#include "mms/mapping/motion_segmentation/scan_motion_segmentation.hpp"
 #include "mms/mapping/occupancy/occupancy_map.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
 #include "mms/mapping/static_map/static_map.hpp"
@@ -59,14 +59,14 @@ class SlamSystem {
   const DynamicMap& dynamic_map() const { return dynamic_map_; }
 
  private:
-  void leave_out_movement(LabeledCloud& cloud, FeatureCloud& features) const;
+  void mask_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
 
   std::unique_ptr<Segmenter> segmenter_;
   SemanticFusion fusion_;
   FeatureExtractor extractor_;
   Odometry odometry_;
-  Movement movement_;
-  ScanMovement scan_movement_;
+  MotionSegmentation motion_segmentation_;
+  ScanMotionSegmentation scan_motion_segmentation_;
   KeyframeSelector keyframes_;
   StaticMap static_map_;
   OccupancyMap occupancy_map_;

@@ -21,7 +21,7 @@ struct SeenPoint {
   Rgb color;
 };
 
-/// Interval of the middle 99 % of some coordinates.
+/// Interval of the center 99 % of some coordinates.
 struct Extent {
   float min = 0.0F;
   float max = 0.0F;

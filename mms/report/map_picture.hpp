@@ -20,7 +20,7 @@ struct MapPictureOptions {
 };
 
 /// Orthographic picture of a cloud, nearest point in front, one metre equally long in x and y, on a
-/// light background. The view fits the middle 99 % of the points in each direction, so that a few
+/// light background. The view fits the center 99 % of the points in each direction, so that a few
 /// strays do not shrink it. The front view leaves out what lies behind the first pose.
 /// @param points  in the world frame [m]; NaN and infinite ones are ignored
 /// @param colors  of the points; empty: coloured by height

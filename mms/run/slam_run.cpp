@@ -24,13 +24,15 @@ void check_range(const RunOptions& options, const FrameSource& source) {
                                          source.size()));
 }
 
-SystemConfig load_settings(const RunOptions& options, const FrameSource& source) {
+/// @param warnings  gets what to tell the user of the settings
+SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
+                           std::vector<std::string>& warnings) {
   SystemConfig config;
   const auto calibration = source.calibration();
   if (calibration && calibration->max_depth) {
     config.static_map.surface.max_depth = *calibration->max_depth;
   }
-  if (!options.config.empty()) load_config(options.config, config);
+  if (!options.config.empty()) warnings = load_config(options.config, config);
   if (!options.weights.empty()) config.segmentation.weights = options.weights;
   if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
@@ -71,7 +73,7 @@ AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
 SlamRun::SlamRun(const RunOptions& options)
     : options_(options),
       source_(open_source(options)),
-      config_(load_settings(options, *source_)),
+      config_(load_settings(options, *source_, warnings_)),
       system_(config_, make_segmenter(options.segmenter, options.data, config_, *source_)),
       frames_(std::min(options.frames, source_->size() - options.start)) {
   if (!options_.view) return;
@@ -103,6 +105,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
                                   config_.dynamic_map);
   observer.on_start(frames_);
+  for (const std::string& warning : warnings_) observer.on_warning(warning);
   if (options_.realtime) warm_up();
   AsyncPipeline pipeline(threads_of(options_, config_));
   pipeline.run(system_, limited(*source_, options_, observer),

@@ -47,6 +47,7 @@ class SlamRun {
 
   RunOptions options_;
   std::unique_ptr<FrameSource> source_;
+  std::vector<std::string> warnings_;  // of the settings
   SystemConfig config_;
   SlamSystem system_;
   std::size_t frames_ = 0;  // to be played at most

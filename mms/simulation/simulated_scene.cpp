@@ -9,7 +9,7 @@
 #include "mms/core/hash_noise.hpp"
 #include "mms/simulation/truth/mesh_sampling.hpp"
 #include "mms/simulation/truth/object_visibility.hpp"
-#include "mms/simulation/world/camera_ride.hpp"
+#include "mms/simulation/world/camera_trajectory.hpp"
 #include "mms/simulation/world/lidar_scan.hpp"
 #include "mms/simulation/world/stage.hpp"
 
@@ -60,7 +60,7 @@ struct SimulatedScene::Impl {
   SensorPreset sensor;
   double seconds;  ///< length
   Stage stage;
-  CameraMotion ride;
+  CameraMotion trajectory;
   RayTable table;
   std::shared_ptr<const Calibration> calibration;
   Eigen::Isometry3d T_world_building;
@@ -70,7 +70,7 @@ struct SimulatedScene::Impl {
         sensor(sensor_of(wanted)),
         seconds(std::max(config.duration, config.frames / sensor.hz) + 1.0),
         stage(make_stage()),
-        ride(config, stage.building(), seconds),
+        trajectory(config, stage.building(), seconds),
         table(ray_table(sensor.color.intrinsics)),
         calibration(calibration_of(sensor)),
         T_world_building(T_building_sensor(0.0).inverse()) {}
@@ -85,7 +85,7 @@ struct SimulatedScene::Impl {
   double seconds_at(int index) const { return index / sensor.hz; }
 
   Eigen::Isometry3d T_building_sensor(double at) const {
-    const Eigen::Isometry3d T = ride.T_building_camera(at);
+    const Eigen::Isometry3d T = trajectory.T_building_camera(at);
     return sensor.lidar ? T * sensor.T_camera_lidar : T;
   }
 
@@ -97,19 +97,19 @@ struct SimulatedScene::Impl {
       const double share = (i + 0.5) / samples - 0.5;
       const double instant = at + share * sensor.color.exposure;
       stage.set(instant);
-      stage.look(table, ride.T_building_camera(instant),
+      stage.look(table, trajectory.T_building_camera(instant),
                  {.radiance = &radiance, .weight = kExposure / static_cast<float>(samples)});
     }
     stage.set(at);
     Image<Eigen::Vector3f>* sharp = samples > 1 ? nullptr : &radiance;
-    stage.look(table, ride.T_building_camera(at),
+    stage.look(table, trajectory.T_building_camera(at),
                {.view = &view, .radiance = sharp, .weight = kExposure});
     return view;
   }
 
   std::vector<ObjectTruth> objects(double at, const ExactView& view) const {
     std::vector<ObjectTruth> found =
-        visible_objects(stage, view, sensor.color.intrinsics, ride.T_building_camera(at));
+        visible_objects(stage, view, sensor.color.intrinsics, trajectory.T_building_camera(at));
     for (ObjectTruth& object : found) {
       const auto& motion = stage.actors()[static_cast<std::size_t>(object.id)].motion;
       Eigen::Vector3d velocity = Eigen::Vector3d::Zero();

@@ -279,12 +279,12 @@ SimulatedFrame TrainingViews::render(int index) {
   Image<Eigen::Vector3f> radiance(table.width, table.height, Eigen::Vector3f::Zero());
   SimulatedFrame result;
   for (int i = 0; i < samples; ++i) {
-    // An odd number of instants: the middle one is the truth's.
+    // An odd number of instants: the center one is the truth's.
     const double at = ((i + 0.5) / samples - 0.5) * color.exposure;
-    const bool middle = i == samples / 2;
+    const bool center = i == samples / 2;
     view.set(at);
     stage.look(table, view.camera().T_building_camera(at),
-               {.view = middle ? &result.exact : nullptr,
+               {.view = center ? &result.exact : nullptr,
                 .radiance = &radiance,
                 .weight = exposure / static_cast<float>(samples)});
   }

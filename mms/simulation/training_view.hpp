@@ -9,8 +9,8 @@ namespace mms {
 
 /// Single images to train a segmentation network with: one of the buildings with colours, stock,
 /// light, exposure, lens and blur drawn at random, a camera 0.3 to 1.8 m over the floor, and up to
-/// seven persons and AGVs 0.5 to 12 m before it, hidden by others and cut off by the image's rim as
-/// it happens. Image i is the same whichever were rendered before it. Not thread-safe.
+/// seven persons and AGVs 0.5 to 12 m before it, hidden by others and cut off by the image's
+/// boundary as it happens. Image i is the same whichever were rendered before it. Not thread-safe.
 class TrainingViews {
  public:
   explicit TrainingViews(std::uint64_t seed);

@@ -45,13 +45,13 @@ TEST(TrackingError, IsNothingForTheTruthItself) {
   const TrackingError error = evaluate_tracking(two_walkers(), two_walkers(), still_sensor());
   EXPECT_EQ(error.objects, 2 * kFrames);
   EXPECT_EQ(error.idf1, 1.0);
-  EXPECT_EQ(error.found, 1.0);
-  EXPECT_EQ(error.extra, 0.0);
-  EXPECT_EQ(error.switches, 0);
+  EXPECT_EQ(error.recall, 1.0);
+  EXPECT_EQ(error.false_discovery_rate, 0.0);
+  EXPECT_EQ(error.id_switches, 0);
   EXPECT_EQ(error.center_mean, 0.0);
   EXPECT_EQ(error.velocity_rmse, 0.0);
-  EXPECT_EQ(error.turns, 0);
-  EXPECT_TRUE(std::isnan(error.turn_delay_max));
+  EXPECT_EQ(error.motion_state_changes, 0);
+  EXPECT_TRUE(std::isnan(error.motion_state_delay_max));
 }
 
 TEST(TrackingError, MeasuresOffsetAndVelocity) {
@@ -71,10 +71,10 @@ TEST(TrackingError, AnIdThatChangesHalfWayHalvesTheIdentity) {
   ObjectHistory tracks = two_walkers();
   for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i].objects[0].id = i < 45 ? 7 : 8;
   const TrackingError error = evaluate_tracking(two_walkers(), tracks, still_sensor());
-  EXPECT_EQ(error.switches, 1);
+  EXPECT_EQ(error.id_switches, 1);
   // 45 + 90 of 180 boxes on both sides belong to a pair of ids.
   EXPECT_NEAR(error.idf1, 135.0 / 180.0, 1e-12);
-  EXPECT_EQ(error.found, 1.0);
+  EXPECT_EQ(error.recall, 1.0);
 }
 
 TEST(TrackingError, TwoThatSwapIdsAreTwoSwitches) {
@@ -83,7 +83,7 @@ TEST(TrackingError, TwoThatSwapIdsAreTwoSwitches) {
     std::swap(tracks[i].objects[0].id, tracks[i].objects[1].id);
   }
   const TrackingError error = evaluate_tracking(two_walkers(), tracks, still_sensor());
-  EXPECT_EQ(error.switches, 2);
+  EXPECT_EQ(error.id_switches, 2);
   EXPECT_NEAR(error.idf1, 60.0 / 90.0, 1e-12);
 }
 
@@ -91,8 +91,8 @@ TEST(TrackingError, CountsWhatIsMissedAndWhatIsOnNothing) {
   ObjectHistory tracks = two_walkers();
   for (ObjectFrame& frame : tracks) frame.objects[1] = object(9, {-3, 0, 4});
   const TrackingError error = evaluate_tracking(two_walkers(), tracks, still_sensor());
-  EXPECT_NEAR(error.found, 0.5, 1e-12);
-  EXPECT_NEAR(error.extra, 0.5, 1e-12);
+  EXPECT_NEAR(error.recall, 0.5, 1e-12);
+  EXPECT_NEAR(error.false_discovery_rate, 0.5, 1e-12);
   EXPECT_NEAR(error.idf1, 0.5, 1e-12);
 }
 
@@ -104,8 +104,8 @@ TEST(TrackingError, LeavesOutWhatIsFarOrHidden) {
   }
   const TrackingError error = evaluate_tracking(truth, two_walkers(), still_sensor());
   EXPECT_EQ(error.objects, kFrames);
-  EXPECT_EQ(error.found, 1.0);
-  EXPECT_EQ(error.extra, 0.0);  // the track on the hidden one is excused
+  EXPECT_EQ(error.recall, 1.0);
+  EXPECT_EQ(error.false_discovery_rate, 0.0);  // the track on the hidden one is excused
 }
 
 TEST(TrackingError, LeavesTheTrackOfAHiddenOneToHim) {
@@ -118,9 +118,9 @@ TEST(TrackingError, LeavesTheTrackOfAHiddenOneToHim) {
   }
   const TrackingError error = evaluate_tracking(truth, tracks, still_sensor());
   EXPECT_EQ(error.objects, kFrames);
-  EXPECT_EQ(error.found, 0.0);  // though the track is less than a metre away
+  EXPECT_EQ(error.recall, 0.0);  // though the track is less than a metre away
   EXPECT_EQ(error.idf1, 0.0);
-  EXPECT_TRUE(std::isnan(error.extra));
+  EXPECT_TRUE(std::isnan(error.false_discovery_rate));
   EXPECT_TRUE(std::isnan(error.center_mean));
 }
 
@@ -135,14 +135,14 @@ TEST(TrackingError, MeasuresWhenAStopIsRecognised) {
     tracks.back().objects[0].moving = i < 45;
   }
   TrackingError error = evaluate_tracking(truth, tracks, still_sensor());
-  EXPECT_EQ(error.turns, 1);
-  EXPECT_NEAR(error.turn_delay_max, 15 * kPeriod, 1e-6);
+  EXPECT_EQ(error.motion_state_changes, 1);
+  EXPECT_NEAR(error.motion_state_delay_max, 15 * kPeriod, 1e-6);
 
   for (ObjectFrame& frame : tracks) frame.objects[0].moving = true;
   truth.back().objects[0].visible = 0.0;  // seen for nearly two seconds after the stop
   error = evaluate_tracking(truth, tracks, still_sensor());
-  EXPECT_EQ(error.turns, 1);
-  EXPECT_NEAR(error.turn_delay_max, 58 * kPeriod, 1e-6);
+  EXPECT_EQ(error.motion_state_changes, 1);
+  EXPECT_NEAR(error.motion_state_delay_max, 58 * kPeriod, 1e-6);
 }
 
 TEST(TrackingError, WithoutAnythingIsNotANumber) {

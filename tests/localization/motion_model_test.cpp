@@ -56,7 +56,7 @@ TEST(MotionModel, AVelocityIsKnownAgainAfterFramesWithoutAPose) {
   model.place(at(0.0), steady(0.0));
   model.measure(at(0.1), steady(0.1));
   const double sure = model.predict(at(0.2)).translation_sigma;
-  for (double t = 0.2; t < 0.55; t += 0.1) model.miss(at(t));
+  for (double t = 0.2; t < 0.55; t += 0.1) model.coast(at(t));
   EXPECT_GT(model.predict(at(0.6)).translation_sigma, 5.0 * sure);
   model.measure(at(0.6), steady(0.6));
   EXPECT_TRUE(model.predict(at(0.7)).T_world_sensor.isApprox(steady(0.7), 1e-9));
@@ -68,7 +68,7 @@ TEST(MotionModel, WithoutMeasurementsItComesToRest) {
   MotionModel model{MotionConfig{}};
   model.place(at(0.0), motion(0, 0, 0, 0, 0, 0));
   model.measure(at(0.1), motion(0.1, 0, 0, 0, 0, 0));
-  for (int i = 2; i <= 30; ++i) model.miss(at(0.1 * i));
+  for (int i = 2; i <= 30; ++i) model.coast(at(0.1 * i));
   EXPECT_NEAR(model.pose().translation().x(), 0.3, 1e-6);  // 0.1 (1 + 1 + 1/2 + 1/4 + ...)
   EXPECT_LT(model.velocity().norm(), 1e-6);
 }
@@ -80,10 +80,10 @@ TEST(MotionModel, BelievesWhatItsLimitsAllow) {
   model.place(at(0.0), steady(0.0));
   model.measure(at(0.1), steady(0.1));
   const auto off_by = [](double metres) { return motion(metres, 0, 0, 0, 0, 0) * steady(0.2); };
-  EXPECT_TRUE(model.allows(at(0.2), off_by(0.10)));  // 0.01 + 10/2 * 0.1 * 0.2 = 0.11
-  EXPECT_FALSE(model.allows(at(0.2), off_by(0.12)));
-  model.miss(at(0.2));
-  EXPECT_TRUE(model.allows(at(0.3), off_by(0.30)));  // the limit is 0.31
+  EXPECT_TRUE(model.is_feasible(at(0.2), off_by(0.10)));  // 0.01 + 10/2 * 0.1 * 0.2 = 0.11
+  EXPECT_FALSE(model.is_feasible(at(0.2), off_by(0.12)));
+  model.coast(at(0.2));
+  EXPECT_TRUE(model.is_feasible(at(0.3), off_by(0.30)));  // the limit is 0.31
 }
 
 TEST(MotionModel, BeforeTheVelocityIsKnownSpeedIsTheLimit) {
@@ -92,10 +92,10 @@ TEST(MotionModel, BeforeTheVelocityIsKnownSpeedIsTheLimit) {
   config.max_turn_rate = 90.0;
   MotionModel model(config);
   model.place(at(0.0), motion(0, 0, 0, 0, 0, 0));
-  EXPECT_TRUE(model.allows(at(0.1), motion(0.19, 0, 0, 0, 0, 0)));
-  EXPECT_FALSE(model.allows(at(0.1), motion(0.21, 0, 0, 0, 0, 0)));
-  EXPECT_TRUE(model.allows(at(0.1), motion(0, 0, 0, 0, 0.15, 0)));
-  EXPECT_FALSE(model.allows(at(0.1), motion(0, 0, 0, 0, 0.17, 0)));
+  EXPECT_TRUE(model.is_feasible(at(0.1), motion(0.19, 0, 0, 0, 0, 0)));
+  EXPECT_FALSE(model.is_feasible(at(0.1), motion(0.21, 0, 0, 0, 0, 0)));
+  EXPECT_TRUE(model.is_feasible(at(0.1), motion(0, 0, 0, 0, 0.15, 0)));
+  EXPECT_FALSE(model.is_feasible(at(0.1), motion(0, 0, 0, 0, 0.17, 0)));
 }
 
 TEST(MotionModel, WithoutAccelerationsNothingIsExpected) {

@@ -39,7 +39,7 @@ ObjectMeasurement view_of(const Eigen::Vector3d& center, double heading) {
 /// Without the points beyond x, as by the image's right border.
 ObjectMeasurement cut_right(ObjectMeasurement object, double x) {
   std::erase_if(object.points, [x](const Eigen::Vector3d& point) { return point.x() > x; });
-  object.cut.right = true;
+  object.truncation.right = true;
   return object;
 }
 
@@ -70,7 +70,7 @@ TEST(BoxFit, StandsOnTheFloorThoughItsFootIsHidden) {
   const Eigen::Vector3d center(0.4, 0.3, 4.0);  // its foot at y = 0.9
   ObjectMeasurement object = view_of(center, 0.4);
   std::erase_if(object.points, [](const Eigen::Vector3d& point) { return point.y() > 0.3; });
-  object.cut.bottom = true;
+  object.truncation.bottom = true;
   const GroundFrame with_floor(kGround.up(), -0.9);
   const BoxFit fit = fit_box(object, with_floor, 0.4, kSize);
   EXPECT_NEAR(fit.center.y(), 0.3, 0.03);
@@ -105,7 +105,7 @@ TEST(BoxFit, ACutEndFollowsFromTheSize) {
 
 TEST(BoxFit, WithBothEndsCutItSaysSo) {
   ObjectMeasurement object = view_of({0.0, 0.3, 2.0}, 0.0);
-  object.cut.left = object.cut.right = true;
+  object.truncation.left = object.truncation.right = true;
   EXPECT_FALSE(fit_box(object, kGround, 0.0, {2.0, 2.0, 2.0}).anchored);
 }
 

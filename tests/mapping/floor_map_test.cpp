@@ -83,15 +83,15 @@ class TiltedCamera : public ::testing::Test {
     occupancy_.integrate(cloud, T_world_sensor);
   }
 
-  /// Cells whose middle lies in the rectangle of the room, by state.
+  /// Cells whose center lies in the rectangle of the room, by state.
   std::map<Occupancy, int> count(double x0, double y0, double x1, double y1) const {
     std::map<Occupancy, int> counts;
     for (int v = 0; v < grid_.cells.height(); ++v) {
       for (int u = 0; u < grid_.cells.width(); ++u) {
-        const Eigen::Vector2d middle =
+        const Eigen::Vector2d center =
             grid_.origin + grid_.resolution * Eigen::Vector2d(u + 0.5, v + 0.5);
         const Eigen::Vector3d p =
-            T_room_first_.isometry() * (T_world_map_ * Eigen::Vector3d(middle.x(), middle.y(), 0));
+            T_room_first_.isometry() * (T_world_map_ * Eigen::Vector3d(center.x(), center.y(), 0));
         if (p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1) ++counts[grid_.cells(u, v)];
       }
     }

@@ -258,8 +258,9 @@ TEST(MotionFilter, AnOffsetThatEndedIsNoNewsOfTheMotion) {
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.2, 0.7);
   for (int i = 0; i < 40; ++i) {
     if (i > 0) filter.predict(0.1, 0.2);
-    const bool is_cut = i < 20;
-    filter.update(Eigen::Vector3d(is_cut ? -0.2 : 0.0, 0, 0), {0.03, is_cut ? 0.2 : 0.0});
+    const bool is_truncated = i < 20;
+    filter.update(Eigen::Vector3d(is_truncated ? -0.2 : 0.0, 0, 0),
+                  {0.03, is_truncated ? 0.2 : 0.0});
     filters.push_back(filter);
   }
   const double before = filters[10].position().norm();

@@ -13,11 +13,11 @@ namespace {
 using namespace test;  // NOLINT: helpers of the tests
 
 constexpr double kMargin = 0.15;  // an edge of a voxel that a surface goes through [m]
-const Eigen::Vector3d kMiddle(0.0, 0.0, 1.2);
+const Eigen::Vector3d kCenter(0.0, 0.0, 1.2);
 const Eigen::Vector3d kShift(0.05, 0.05, 0.05);
 
 /// A map of the room. Its world frame is the room's, shifted so that walls and floor go through the
-/// middle of voxels and do not lie on their borders.
+/// center of voxels and do not lie on their borders.
 class RoomMap {
  public:
   explicit RoomMap(const OccupancyConfig& config = {}) : map(config) {}
@@ -61,7 +61,7 @@ std::vector<Eigen::Vector3d> inside(const Room& room) {
   return points_in(room.low + margin, room.high - margin);
 }
 
-/// Somebody who stands `x` metres before the middle of the room.
+/// Somebody who stands `x` metres before the center of the room.
 Box person(double x, PointLabel label) {
   return {{x - 0.2, -0.25, 0.0}, {x + 0.2, 0.25, 1.75}, label};
 }
@@ -112,7 +112,7 @@ TEST(OccupancyMap, AWalkerMistakenForAWallVanishesOnceSeenThrough) {
   const auto camera = camera_in_room({-2.0, 0.0, 1.2}, 0.0, 0.2);
   for (int i = 0; i < 50; ++i) seen.look(room, camera);
   const auto ghost = points_in({0.3, -0.2, 0.3}, {0.3, 0.2, 1.6});
-  EXPECT_GT(seen.share(ghost, Occupancy::kOccupied), 0.85);  // not at the rims
+  EXPECT_GT(seen.share(ghost, Occupancy::kOccupied), 0.85);  // not at the boundaries
   for (int i = 0; i < 7; ++i) seen.look(Room{}, camera);
   EXPECT_EQ(seen.share(ghost, Occupancy::kFree), 1.0);
 }
@@ -156,8 +156,8 @@ TEST(OccupancyMap, MapsScansOfALidar) {
   RoomMap seen;
   for (int i = 0; i < 3; ++i) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.translation() = kMiddle + kShift;
-    seen.map.integrate(scan(room, kMiddle), Transform<World, Sensor>(T));
+    T.translation() = kCenter + kShift;
+    seen.map.integrate(scan(room, kCenter), Transform<World, Sensor>(T));
   }
   EXPECT_EQ(seen.share(inside(room), Occupancy::kOccupied), 0.0);
   EXPECT_GT(seen.share(points_in({-2.5, -1, 0.9}, {-0.5, 1, 1.5}), Occupancy::kFree), 0.95);
@@ -194,7 +194,7 @@ TEST(OccupancyMap, PosesThatAreNoneChangeNothing) {
                            std::numeric_limits<double>::infinity(), 1e12, -1e300}) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.translation().y() = bad;
-    map.integrate(view(Room{}, camera_in_room(kMiddle, 0.0)), Transform<World, Sensor>(T));
+    map.integrate(view(Room{}, camera_in_room(kCenter, 0.0)), Transform<World, Sensor>(T));
   }
   EXPECT_TRUE(map.blocks().all().empty());
 }
@@ -204,7 +204,7 @@ TEST(OccupancyMap, ItsMemoryIsBounded) {
   config.voxel_size = 0.02;
   config.memory = 1.0;
   RoomMap seen(config);
-  for (int i = 0; i < 5; ++i) seen.look_around(Room{}, kMiddle);
+  for (int i = 0; i < 5; ++i) seen.look_around(Room{}, kCenter);
   EXPECT_LE(seen.map.blocks().memory_bytes(), 1'000'000U);
   EXPECT_GT(seen.map.voxel_size(), 0.02);
   EXPECT_GT(seen.share(points_in({-2, -1, 1.1}, {2, 1, 1.3}), Occupancy::kFree), 0.95);
@@ -215,7 +215,7 @@ TEST(OccupancyMap, CanBeSwitchedOff) {
   OccupancyConfig config;
   config.enabled = false;
   RoomMap seen(config);
-  seen.look_around(Room{}, kMiddle);
+  seen.look_around(Room{}, kCenter);
   EXPECT_TRUE(seen.map.blocks().all().empty());
 }
 

@@ -39,7 +39,7 @@ TEST(ScanFreeSpace, IsBeforeThePointsInEveryDirection) {
     EXPECT_TRUE(space.touches(4.95F * direction));
     EXPECT_TRUE(space.touches(5.05F * direction));
     EXPECT_FALSE(space.touches(5.2F * direction));
-    EXPECT_FALSE(space.is_blank(6.0F * direction));
+    EXPECT_FALSE(space.has_no_return(6.0F * direction));
   }
 }
 
@@ -59,8 +59,8 @@ TEST(ScanFreeSpace, IsUnknownWhereNothingWasMeasured) {
   cloud.points.emplace_back(1.0F, 1.0F, 1.0F);
   cloud.labels.push_back(PointLabel::kInvalid);
   const ScanFreeSpace space(cloud, kMargin);
-  EXPECT_TRUE(space.is_blank({2.0F, 0.0F, 0.0F}));
-  EXPECT_TRUE(space.is_blank({0.5F, 0.5F, 0.5F}));
+  EXPECT_TRUE(space.has_no_return({2.0F, 0.0F, 0.0F}));
+  EXPECT_TRUE(space.has_no_return({0.5F, 0.5F, 0.5F}));
   EXPECT_FALSE(space.sees_through({2.0F, 0.0F, 0.0F}));
   EXPECT_FALSE(space.touches({2.0F, 0.0F, 0.0F}));
   EXPECT_TRUE(space.sees_through({-2.0F, 0.0F, 0.0F}));

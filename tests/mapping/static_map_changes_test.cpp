@@ -79,11 +79,11 @@ TEST(StaticMapChanges, TellOfTheFramesAfterTheLastKeyframe) {
   StaticMap replayed;
   map.integrate(keyframe_cloud(0), keyframe_pose(0));
   replayed.apply(map.changes());
-  EXPECT_FALSE(map.end_look());
+  EXPECT_FALSE(map.finalize());
   map.add(keyframe_cloud(1), keyframe_pose(3));
   map.add(keyframe_cloud(2), keyframe_pose(4));
   EXPECT_GT(map.cloud().size(), replayed.cloud().size());
-  EXPECT_TRUE(map.end_look());
+  EXPECT_TRUE(map.finalize());
   replayed.apply(map.changes());
   expect_same_surface(map, replayed);
 }

@@ -142,7 +142,7 @@ TEST(StaticMap, CarvesAGhostButNotTheWall) {
     carved += map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0})).carved;
   }
   EXPECT_GT(carved, 1000U);
-  EXPECT_LT(points_before_the_wall(map), 100U);  // its rim in the image's outermost pixels
+  EXPECT_LT(points_before_the_wall(map), 100U);  // its boundary in the image's outermost pixels
   EXPECT_EQ(map.size(), map.cloud().size());
 }
 

@@ -15,9 +15,9 @@ using test::pose;
 TEST(SurfacePoints, KeepAWholePlaneWithItsNormal) {
   const auto points = surface_points(plane_cloud({0, 0, 1}, 2.0, pose({0, 0, 0})), {});
   ASSERT_EQ(points.size(), 160U * 120U);
-  const SurfacePoint& middle = points[60 * 160 + 80];
-  EXPECT_NEAR(middle.normal.z(), -1.0F, 1e-4F);
-  EXPECT_EQ(middle.color, (Rgb{100, 150, 200}));
+  const SurfacePoint& center = points[60 * 160 + 80];
+  EXPECT_NEAR(center.normal.z(), -1.0F, 1e-4F);
+  EXPECT_EQ(center.color, (Rgb{100, 150, 200}));
 }
 
 TEST(SurfacePoints, KeepAFloorAtAGrazingAngle) {
@@ -65,8 +65,8 @@ TEST(SurfacePoints, DropTheRimOfWhatIsDynamic) {
   cloud.dynamic_pixels(80, 60) = 1;
   cloud.dynamic_pixels(0, 0) = 1;
   // 0.02 of 160 pixels are three: a square of 7 x 7 pixels, 4 x 4 of it in the corner.
-  EXPECT_EQ(surface_points(cloud, {.rim = 0.02}).size(), all - 49 - 16);
-  EXPECT_EQ(surface_points(cloud, {.rim = 0.0}).size(), all - 2);
+  EXPECT_EQ(surface_points(cloud, {.boundary = 0.02}).size(), all - 49 - 16);
+  EXPECT_EQ(surface_points(cloud, {.boundary = 0.0}).size(), all - 2);
 }
 
 TEST(SurfacePoints, DropWhatIsFarDynamicOrInvalid) {

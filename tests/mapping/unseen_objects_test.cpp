@@ -13,11 +13,11 @@ using test::organised_cloud;
 using test::pose;
 
 /// A person 0.5 m wide and deep and 1.7 m high, 2 m before the camera, which is 1 m over the floor.
-TrackedObject person_at(const Eigen::Vector3d& middle, TrackState state) {
-  TrackedObject person{{}, state, MotionFilter(middle, {0.0, -1.0, 0.0}, 0.1, 0.1), {}, {}};
+TrackedObject person_at(const Eigen::Vector3d& center, TrackState state) {
+  TrackedObject person{{}, state, MotionFilter(center, {0.0, -1.0, 0.0}, 0.1, 0.1), {}, {}};
   person.box.size = {0.5, 0.5, 1.7};
   person.box.T_world_box.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // z up, against the camera's y
-  person.box.T_world_box.translation() = middle;
+  person.box.T_world_box.translation() = center;
   return person;
 }
 
@@ -40,7 +40,7 @@ std::size_t dynamic_points(const LabeledCloud& cloud) {
 TEST(UnseenObjects, LeaveTheStaticPointsWhereTheyAreExpected) {
   LabeledCloud cloud = room();
   const std::size_t count =
-      leave_out_unseen({person_at(kBefore, TrackState::kCoasting)}, pose({0, 0, 0}), cloud);
+      mask_unseen_objects({person_at(kBefore, TrackState::kCoasting)}, pose({0, 0, 0}), cloud);
   EXPECT_EQ(count, dynamic_points(cloud));
   EXPECT_GT(count, 1000U);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -54,15 +54,15 @@ TEST(UnseenObjects, LeaveTheStaticPointsWhereTheyAreExpected) {
 TEST(UnseenObjects, AreExpectedInTheWorldNotBeforeTheCamera) {
   LabeledCloud cloud = room();
   const auto elsewhere = pose({3.0, 0.0, 0.0});
-  EXPECT_EQ(leave_out_unseen({person_at(kBefore, TrackState::kCoasting)}, elsewhere, cloud), 0U);
+  EXPECT_EQ(mask_unseen_objects({person_at(kBefore, TrackState::kCoasting)}, elsewhere, cloud), 0U);
   const TrackedObject there =
       person_at(kBefore + Eigen::Vector3d(3.0, 0.0, 0.0), TrackState::kCoasting);
-  EXPECT_GT(leave_out_unseen({there}, elsewhere, cloud), 1000U);
+  EXPECT_GT(mask_unseen_objects({there}, elsewhere, cloud), 1000U);
 }
 
 TEST(UnseenObjects, AreNotThoseThatMasksShow) {
   LabeledCloud cloud = room();
-  EXPECT_EQ(leave_out_unseen({person_at(kBefore, TrackState::kActive)}, pose({0, 0, 0}), cloud),
+  EXPECT_EQ(mask_unseen_objects({person_at(kBefore, TrackState::kActive)}, pose({0, 0, 0}), cloud),
             0U);
   EXPECT_EQ(dynamic_points(cloud), 0U);
 }

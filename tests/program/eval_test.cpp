@@ -104,20 +104,20 @@ TEST(EvalResidue, OfTheScenesOwnMapIsSmall) {
   const TempFolder folder;
   const std::string still = "sim:corridor?ride=still&crossing=1&width=320&frames=12";
   expect_done(run_mms(folder.path(), {"run", still, "--segmenter", "masks", "-o", "out"}));
-  const auto json =
-      json_of(run_mms(folder.path(), {"eval", "residue", still, "out/static_map.ply", "--json"}));
-  EXPECT_EQ(keys_of(json), (Keys{"points", "seen", "residue", "residue_percent"}));
+  const auto json = json_of(
+      run_mms(folder.path(), {"eval", "ghost-points", still, "out/static_map.ply", "--json"}));
+  EXPECT_EQ(keys_of(json), (Keys{"points", "seen", "ghost_points", "ghost_percent"}));
   EXPECT_GT(json["seen"], 4000);
-  EXPECT_LT(json["residue_percent"], 1.0);
+  EXPECT_LT(json["ghost_percent"], 1.0);
 }
 
 TEST(EvalResidue, FaultsAreOneLine) {
   const TempFolder folder;
   write_hall(folder.path() / "hall", 1);
   write_ply(folder.path() / "map.ply", points_at({{0, 0, 0}}));
-  expect_fault(run_mms(folder.path(), {"eval", "residue", "hall", "map.ply"}),
+  expect_fault(run_mms(folder.path(), {"eval", "ghost-points", "hall", "map.ply"}),
                "hall: has no depth images");
-  expect_fault(run_mms(folder.path(), {"eval", "residue", "nowhere", "map.ply"}), "nowhere: ");
+  expect_fault(run_mms(folder.path(), {"eval", "ghost-points", "nowhere", "map.ply"}), "nowhere: ");
 }
 
 /// One person and one vehicle in two images, the first of which is for training.

@@ -55,7 +55,7 @@ TEST(Quantize, WritesFloatsOrBytes) {
     return fs::file_size(folder.path() / output);
   };
   const auto floats = quantize("floats", {});
-  const auto bytes = quantize("bytes", {"--bytes", "--float-layers", "backbone.conv1"});
+  const auto bytes = quantize("bytes", {"--int8-weights", "--float-layers", "backbone.conv1"});
   EXPECT_LT(bytes, 0.55 * static_cast<double>(floats));
   const nlohmann::json wanted = found_with(folder, "floats");
   const nlohmann::json found = found_with(folder, "bytes");

@@ -81,7 +81,7 @@ TEST(EnlargedMask, EqualsItsDefinitionPixelByPixel) {
           soft[static_cast<std::size_t>(y * 20 + x)] = uniform(random);
         }
       }
-      const Detection found = enlarged_mask(soft, c.mask_width, c.prepared);
+      const Detection found = upsampled_mask(soft, c.mask_width, c.prepared);
       expect_pixels(c, soft, found);
       expect_cropped(found.mask);
     }
@@ -90,12 +90,12 @@ TEST(EnlargedMask, EqualsItsDefinitionPixelByPixel) {
 
 TEST(EnlargedMask, OfNothingIsEmpty) {
   const Case c = case_of(160, 114);
-  EXPECT_TRUE(enlarged_mask(std::vector<float>(20 * 16, 0.4F), 20, c.prepared).mask.empty());
+  EXPECT_TRUE(upsampled_mask(std::vector<float>(20 * 16, 0.4F), 20, c.prepared).mask.empty());
 }
 
 TEST(EnlargedMask, OfEverythingIsThePicture) {
   const Case c = case_of(160, 114);
-  const Detection all = enlarged_mask(std::vector<float>(20 * 16, 0.9F), 20, c.prepared);
+  const Detection all = upsampled_mask(std::vector<float>(20 * 16, 0.9F), 20, c.prepared);
   EXPECT_EQ(all.x, 0);
   EXPECT_EQ(all.y, 0);
   EXPECT_EQ(all.mask.width(), 160);

@@ -15,11 +15,11 @@ Weights stem() {
   return weights;
 }
 
-TEST(WeightGrowth, APlainNetworkGetsNothing) {
+TEST(WeightTransfer, APlainNetworkGetsNothing) {
   EXPECT_EQ(grown_to(nano(NetworkVariant::kSolov2), stem()), stem());
 }
 
-TEST(WeightGrowth, BothBackbonesAreStandardised) {
+TEST(WeightTransfer, BothBackbonesAreStandardised) {
   const Weights grown = grown_to(nano(NetworkVariant::kDetectors), stem());
   EXPECT_EQ(grown.tensors.size(), 6U);
   for (const char* backbone : {"backbone.", "neck.rfp_modules.0."}) {
@@ -29,7 +29,7 @@ TEST(WeightGrowth, BothBackbonesAreStandardised) {
   }
 }
 
-TEST(WeightGrowth, WhatIsGivenStays) {
+TEST(WeightTransfer, WhatIsGivenStays) {
   Weights given = stem();
   given.tensors["backbone.conv1.weight_gamma"] = {{64, 1, 1, 1}, std::vector<float>(64, 7.0F)};
   given.tensors["neck.rfp_modules.0.conv1.weight"] = {{64, 3, 7, 7}, std::vector<float>(9408)};

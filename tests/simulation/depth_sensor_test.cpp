@@ -163,8 +163,8 @@ TEST(DepthSensor, LosesAndMixesPixelsOnlyAtRims) {
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) {
       const float z = depth(x, y);
-      const bool rim = x >= 148 && x < 152;
-      if (!rim) {
+      const bool boundary = x >= 148 && x < 152;
+      if (!boundary) {
         EXPECT_EQ(z, x < 150 ? 2.0F : 5.0F) << x;
       }
       if (z == 0.0F) lost += 1.0;

@@ -35,7 +35,7 @@ Mask scene(int width = 640) {
 MaskErrorConfig none() {
   MaskErrorConfig config;
   config.enabled = true;
-  config.missed = config.erosion = config.raggedness = config.lost_parts = config.spill = 0.0;
+  config.missed = config.erosion = config.boundary_jitter = config.lost_parts = config.spill = 0.0;
   return config;
 }
 
@@ -133,16 +133,16 @@ TEST_P(MaskWidth, RimRetreatsByThePixelsOfAnImage640Wide) {
   fill(instances, width / 4, width / 8, side, side, 1);
   MaskErrorConfig config = none();
   for (const double erosion : {2.0, 4.0}) {
-    for (const double raggedness : {0.0, 2.0}) {
+    for (const double boundary_jitter : {0.0, 2.0}) {
       config.erosion = erosion;
-      config.raggedness = raggedness;
+      config.boundary_jitter = boundary_jitter;
       double retreat = 0.0;
       constexpr int kFrames = 12;
       for (int i = 0; i < kFrames; ++i) {
         const int left = count(imperfect_masks(instances, kClasses, config, 1, 7 * i), 1);
         retreat += 0.5 * (side - std::sqrt(left)) / kFrames * 640.0 / width;
       }
-      EXPECT_NEAR(retreat, erosion, 0.08 * erosion + 0.1) << raggedness;
+      EXPECT_NEAR(retreat, erosion, 0.08 * erosion + 0.1) << boundary_jitter;
     }
   }
 }
@@ -151,8 +151,8 @@ INSTANTIATE_TEST_SUITE_P(All, MaskWidth, testing::Values(320, 640, 1280));
 
 TEST(MaskErrors, RaggedRimsVaryAndChangeLittleBetweenFrames) {
   MaskErrorConfig config = none();
-  config.erosion = config.raggedness = 4.0;
-  const auto left_rim = [&](int index) {
+  config.erosion = config.boundary_jitter = 4.0;
+  const auto left_boundary = [&](int index) {
     const Mask labels = imperfect_masks(scene(), kClasses, config, 1, index);
     std::vector<int> columns;
     for (int y = 130; y < 320; ++y) {
@@ -162,12 +162,12 @@ TEST(MaskErrors, RaggedRimsVaryAndChangeLittleBetweenFrames) {
     }
     return columns;
   };
-  const std::vector<int> now = left_rim(8);
+  const std::vector<int> now = left_boundary(8);
   const auto [least, most] = std::minmax_element(now.begin(), now.end());
   EXPECT_GE(*most - *least, 3);
   EXPECT_LE(*most, 8);
   const auto change = [&](int index) {
-    const std::vector<int> other = left_rim(index);
+    const std::vector<int> other = left_boundary(index);
     double sum = 0.0;
     for (std::size_t i = 0; i < now.size(); ++i) sum += std::abs(other[i] - now[i]);
     return sum / static_cast<double>(now.size());
@@ -216,7 +216,7 @@ TEST(MaskErrors, LosePartsInTheirShareOfFrames) {
 TEST(MaskErrors, SpillOverBackgroundButNeverOverOtherObjects) {
   MaskErrorConfig config = none();
   config.spill = 0.3;
-  config.erosion = config.raggedness = 2.0;
+  config.erosion = config.boundary_jitter = 2.0;
   const Mask instances = scene(320);
   const Mask truth = exact(instances);
   int spilled = 0;

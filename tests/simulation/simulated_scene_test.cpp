@@ -151,12 +151,12 @@ TEST(SimulatedScene, WorldStartsAtTheFirstFrame) {
 TEST(SimulatedScene, PosesBetweenFramesAreSmooth) {
   SimulatedScene scene(small("warehouse_loop"));
   const Eigen::Vector3d before = scene.pose_at(Timestamp(990'000'000)).T_world_sensor.translation();
-  const Eigen::Vector3d middle =
+  const Eigen::Vector3d center =
       scene.pose_at(Timestamp(1'000'000'000)).T_world_sensor.translation();
   const Eigen::Vector3d after =
       scene.pose_at(Timestamp(1'010'000'000)).T_world_sensor.translation();
   EXPECT_GT((after - before).norm(), 0.002);
-  EXPECT_LT((after + before - 2.0 * middle).norm(), 5e-4);
+  EXPECT_LT((after + before - 2.0 * center).norm(), 5e-4);
 }
 
 TEST(SimulatedScene, StillCameraDoesNotMove) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/mms/console/warnings.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/pipeline/config.hpp"
 
@@ -17,7 +18,7 @@ void add_dump(CLI::App& config) {
   command->add_option("FILE", *file, "settings to print in place of the defaults");
   command->callback([file] {
     SystemConfig settings;
-    if (!file->empty()) load_config(*file, settings);
+    if (!file->empty()) print_warnings(load_config(*file, settings));
     fmt::print("{}", dump_config(settings));
   });
 }
@@ -28,7 +29,7 @@ void add_check(CLI::App& config) {
   command->add_option("FILE", *file, "the file to check")->required();
   command->callback([file] {
     SystemConfig settings;
-    load_config(*file, settings);
+    print_warnings(load_config(*file, settings));
     fmt::print("{}: valid\n", *file);
   });
 }

@@ -26,7 +26,7 @@ constexpr int kMaxCount = 1'000'000'000;  // of frames
 
 struct ReproduceOptions {
   std::string still = "sim:still_walker";
-  std::string ride = "sim:warehouse_loop";
+  std::string trajectory = "sim:warehouse_loop";
   fs::path output;
   fs::path trainings;
   std::string segmenter = "network";
@@ -97,10 +97,10 @@ class Reproducer {
   void compare_localization() {
     std::vector<PaperRun> runs;
     for (const Method& method : {kWithout, kMultimodal}) {
-      runs.push_back(play(options_.ride, "ride", method));
+      runs.push_back(play(options_.trajectory, "ride", method));
       add_path(method.name);
     }
-    found_.tables.push_back(localization_table(options_.ride, runs));
+    found_.tables.push_back(localization_table(options_.trajectory, runs));
     add_picture("The static map", "map.png");
     add_picture("The semantic map: people red, vehicles green", "objects.png");
   }
@@ -149,7 +149,9 @@ void add_reproduce_command(CLI::App& app) {
       ->add_option("DATA", options->still,
                    "recording of a sensor that stands still, for the table of drifts")
       ->capture_default_str();
-  command->add_option("--ride", options->ride, "recording with truth, for the localisation figure")
+  command
+      ->add_option("--ride", options->trajectory,
+                   "recording with truth, for the localisation figure")
       ->capture_default_str();
   command->add_option("-o,--output", options->output,
                       "folder for the results (default: results/<time>_reproduction)");

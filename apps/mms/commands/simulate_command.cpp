@@ -14,6 +14,7 @@
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/rate_progress.hpp"
 #include "apps/mms/console/thread_limit.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/recorder/recording_folder.hpp"
 #include "mms/dataset/simulated/simulated_source.hpp"
@@ -49,7 +50,7 @@ SceneConfig load_scene(const std::string& scene) {
     throw DataError(scene, "there is no such scene, nor a YAML file of one", hint);
   }
   SceneConfig config;
-  load_config(scene, config);
+  print_warnings(load_config(scene, config));
   config.name = fs::path(scene).stem().string();
   return config;
 }
@@ -65,7 +66,7 @@ SceneConfig config_of(const SimulateOptions& options) {
   set("--sensor", "sensor", options.sensor);
   set("--hz", "hz", options.hz);
   set("--blur", "blur_samples", options.blur);
-  assign(config, options.set, "--set");
+  print_warnings(assign(config, options.set, "--set"));
   return config;
 }
 

@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include <ros/console.h>
+
 #include "mms/core/error.hpp"
 #include "mms/io/config/config_assignments.hpp"
 #include "mms/io/config/config_yaml.hpp"
@@ -71,12 +73,15 @@ SystemConfig load_system_config(const ros::NodeHandle& node) {
   SystemConfig config;
   std::string file;
   read(node, "config", file);
-  if (!file.empty()) load_config(file, config);
+  const auto warn = [](const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) ROS_WARN("%s", warning.c_str());
+  };
+  if (!file.empty()) warn(load_config(file, config));
   XmlRpc::XmlRpcValue tree;
   if (!node.getParam("settings", tree)) return config;
   std::vector<std::string> assignments;
   flatten(tree, "", assignments);
-  assign(config, assignments, node.resolveName("settings"));
+  warn(assign(config, assignments, node.resolveName("settings")));
   return config;
 }
 

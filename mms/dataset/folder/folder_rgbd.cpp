@@ -66,7 +66,7 @@ void add_pose(RgbdRecording& recording, const std::string& name, Timestamp stamp
 
 }  // namespace
 
-bool looks_like_folder_rgbd(const std::vector<std::string>& names) {
+bool is_folder_rgbd_layout(const std::vector<std::string>& names) {
   return std::any_of(names.begin(), names.end(),
                      [](const std::string& name) { return !frame_name(name).empty(); });
 }

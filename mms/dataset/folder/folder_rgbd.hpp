@@ -11,7 +11,7 @@
 namespace mms {
 
 /// Whether a folder with these names in it holds 7-Scenes' kind of files.
-bool looks_like_folder_rgbd(const std::vector<std::string>& names);
+bool is_folder_rgbd_layout(const std::vector<std::string>& names);
 
 /// Opens a folder in the manner of 7-Scenes: X.color.png or .jpg, X.depth.png and optional
 /// X.pose.txt (4x4 camera-to-world) for every frame X, in the order of the names at 30 Hz. Depth

@@ -91,7 +91,7 @@ void read_poses(LidarRecording& recording, const fs::path& folder) {
 
 }  // namespace
 
-bool looks_like_kitti_lidar(const std::vector<std::string>& names) {
+bool is_kitti_lidar_layout(const std::vector<std::string>& names) {
   return std::any_of(names.begin(), names.end(), [](const std::string& name) {
     return name.ends_with(".bin") || name == "velodyne";
   });

@@ -11,7 +11,7 @@
 namespace mms {
 
 /// Whether a folder with these names in it holds KITTI scans.
-bool looks_like_kitti_lidar(const std::vector<std::string>& names);
+bool is_kitti_lidar_layout(const std::vector<std::string>& names);
 
 /// Opens a folder of KITTI scans (*.bin, or in velodyne/), in the order of their names. Optional in
 /// the folder: times.txt ([s], else 10 Hz), poses*.txt (truth of camera 0, taken

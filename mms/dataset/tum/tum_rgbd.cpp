@@ -94,7 +94,7 @@ void read_calibration_of(RgbdRecording& recording) {
 
 }  // namespace
 
-bool looks_like_tum_rgbd(const std::vector<std::string>& names) {
+bool is_tum_rgbd_layout(const std::vector<std::string>& names) {
   const auto has = [&](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };

@@ -11,7 +11,7 @@
 namespace mms {
 
 /// Whether a folder with these names in it is, or was meant to be, a TUM-layout sequence.
-bool looks_like_tum_rgbd(const std::vector<std::string>& names);
+bool is_tum_rgbd_layout(const std::vector<std::string>& names);
 
 /// Opens a TUM-layout sequence: rgb.txt and depth.txt (stamps matched within 0.02 s) or
 /// associations.txt; optional groundtruth.txt, masks/ and calibration.yaml.

@@ -33,8 +33,8 @@ double percentile(std::span<const double> values, double percent) {
 double median(std::span<const double> values) {
   const std::vector<double> sorted = sorted_finite(values);
   if (sorted.empty()) return kNaN;
-  const std::size_t middle = sorted.size() / 2;
-  return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+  const std::size_t center = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[center] : 0.5 * (sorted[center - 1] + sorted[center]);
 }
 
 double mean(std::span<const double> values) {

@@ -11,7 +11,7 @@ namespace mms {
 /// the minimum.
 double percentile(std::span<const double> values, double percent);
 
-/// Middle value, the mean of the two middle ones for an even number.
+/// Middle value, the mean of the two center ones for an even number.
 double median(std::span<const double> values);
 
 double mean(std::span<const double> values);

@@ -17,7 +17,7 @@ struct MaskAgreement {
   std::int64_t extra = 0;   ///< dynamic, but in no mask
 
   /// Adds a frame; nothing when its cloud is not organised. A point stands for a block of pixels,
-  /// and is compared with the block's middle one.
+  /// and is compared with the block's center one.
   /// @param mask  0 static, any other value dynamic
   void add(const Image<std::uint8_t>& mask, const LabeledCloud& cloud);
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "mms/evaluation/scores/statistics.hpp"
+#include "mms/evaluation/tracking/motion_state_latency.hpp"
 #include "mms/evaluation/tracking/object_pairing.hpp"
-#include "mms/evaluation/tracking/turn_delays.hpp"
 
 namespace mms {
 namespace {
@@ -62,15 +62,15 @@ class Comparison {
     TrackingError error;
     const auto paired = static_cast<std::int64_t>(offsets_.size());
     error.objects = objects_;
-    error.found = share(paired, objects_);
-    error.extra = share(tracks_ - paired, tracks_);
-    error.switches = switches_;
+    error.recall = share(paired, objects_);
+    error.false_discovery_rate = share(tracks_ - paired, tracks_);
+    error.id_switches = switches_;
     error.idf1 = share(2 * best_identity_matches(met_), objects_ + tracks_);
     error.center_mean = mean(offsets_);
     error.center_median = percentile(offsets_, 50.0);
     error.velocity_rmse = std::sqrt(mean(squared_velocity_errors_));
-    error.turns = turns_.count();
-    error.turn_delay_max = turns_.longest();
+    error.motion_state_changes = turns_.count();
+    error.motion_state_delay_max = turns_.longest();
     return error;
   }
 
@@ -117,7 +117,7 @@ class Comparison {
 
   TrackingOptions options_;
   ObjectPairing pairing_;
-  TurnDelays turns_;
+  MotionStateLatency turns_;
   PairCounts met_;
   std::map<int, int> last_track_;  // by id of the true object
   std::vector<double> offsets_;
@@ -146,16 +146,19 @@ TrackingError evaluate_tracking(const ObjectHistory& truth, const ObjectHistory&
 }
 
 std::vector<MetricValue> metric_values(const TrackingError& error) {
-  return {{"objects", "true objects to be found", static_cast<double>(error.objects), "", 0},
-          {"IDF1", "identity F1", 100.0 * error.idf1, "%", 1},
-          {"found", "true objects tracked", 100.0 * error.found, "%", 1},
-          {"extra", "tracked objects on nothing", 100.0 * error.extra, "%", 1},
-          {"switches", "identity switches", static_cast<double>(error.switches), "", 0},
-          {"center_mean_m", "box centre error, mean", error.center_mean, "m", 3},
-          {"center_median_m", "box centre error, median", error.center_median, "m", 3},
-          {"velocity_rmse_mps", "velocity error, rmse", error.velocity_rmse, "m/s", 3},
-          {"turns", "starts and stops seen", static_cast<double>(error.turns), "", 0},
-          {"turn_delay_max_s", "longest until one was recognised", error.turn_delay_max, "s", 2}};
+  return {
+      {"objects", "ground-truth objects", static_cast<double>(error.objects), "", 0},
+      {"IDF1", "IDF1", 100.0 * error.idf1, "%", 1},
+      {"recall", "recall of objects", 100.0 * error.recall, "%", 1},
+      {"false_discovery_rate", "false positives of all tracked", 100.0 * error.false_discovery_rate,
+       "%", 1},
+      {"id_switches", "ID switches", static_cast<double>(error.id_switches), "", 0},
+      {"center_mean_m", "box centre error, mean", error.center_mean, "m", 3},
+      {"center_median_m", "box centre error, median", error.center_median, "m", 3},
+      {"velocity_rmse_mps", "velocity error, rmse", error.velocity_rmse, "m/s", 3},
+      {"motion_state_changes", "motion-state changes",
+       static_cast<double>(error.motion_state_changes), "", 0},
+      {"motion_state_delay_max_s", "largest delay of one", error.motion_state_delay_max, "s", 2}};
 }
 
 ObjectHistory transformed(ObjectHistory history, const Eigen::Isometry3d& T_to_from) {

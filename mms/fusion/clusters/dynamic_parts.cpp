@@ -92,7 +92,7 @@ class PartFinder {
     }
   }
 
-  /// The 90 % rule; what only the dilation covers is the rim of something behind.
+  /// The 90 % rule; what only the dilation covers is the boundary of something behind.
   bool is_labelled(const ClusterVote& vote) const {
     return vote.labelled >= config_.dynamic_share * vote.nodes &&
            vote.raw >= config_.partial_share * vote.nodes;

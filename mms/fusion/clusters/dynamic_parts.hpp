@@ -31,7 +31,7 @@ struct DynamicParts {
 ///    object of which at least `partial_share` is labelled is dynamic wholly (half a mask);
 /// 3. of what is still mixed (a person merged with furniture) the pieces under the masks are
 ///    dynamic, unless they look like the background of a sloppy or late mask: holding little of the
-///    instance and running on beyond the mask all along its rim.
+///    instance and running on beyond the mask all along its boundary.
 /// What several masks cover is then divided among them (part_division.hpp).
 DynamicParts find_dynamic_parts(const Nodes& nodes, const std::vector<Instance>& instances,
                                 const FusionConfig& config);

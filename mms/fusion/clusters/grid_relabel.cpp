@@ -54,15 +54,15 @@ void relabel_grid(const NodeGrid& grid, const Nodes& nodes, const GridPlanes& pl
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u, ++n) {
       const NodeSeeds around = seeds_around(grid, nearest, u, v);
-      const bool is_loose = objects.loose[n] != 0;
-      if (around.count == 0 && !is_loose) continue;
+      const bool is_unanchored = objects.loose[n] != 0;
+      if (around.count == 0 && !is_unanchored) continue;
       grid.for_each_point(u, v, [&](std::size_t i) {
         if (cloud.labels[i] == PointLabel::kInvalid) return;
         const Eigen::Vector3f& point = cloud.points[i];
         const float sigma = config.noise.sigma(point.z());
         const int seed = find_seed(around, nodes, point, radius + noise_factor * sigma);
         if (seed < 0) {
-          if (is_loose && mask.raw[i] != 0) cloud.labels[i] = PointLabel::kDynamic;
+          if (is_unanchored && mask.raw[i] != 0) cloud.labels[i] = PointLabel::kDynamic;
           return;
         }
         const float limit = config.planes.distance_limit(sigma);

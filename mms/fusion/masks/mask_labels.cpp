@@ -6,7 +6,8 @@
 namespace mms {
 namespace {
 
-/// A mask's rim lies on what is behind; so much is cut off at either end of each axis of the box.
+/// A mask's boundary lies on what is behind; so much is cut off at either end of each axis of the
+/// box.
 constexpr double kBoxTrim = 0.05;
 
 }  // namespace

@@ -68,14 +68,18 @@ class AssigningVisitor final : public ConfigVisitor {
   }
 
   /// To be called after the visit: nothing may be left that no field took.
-  void finish() const {
-    if (values_.empty()) return;
+  /// @returns warnings, one line each
+  std::vector<std::string> finish() {
+    if (values_.empty()) return std::move(warnings_);
     const std::string& key = values_.begin()->first;
     fail("unknown key '" + key + "'", suggestion(key, known_));
   }
 
  protected:
-  void begin_group(const FieldInfo& info) override { groups_.emplace_back(info.key); }
+  void begin_group(const FieldInfo& info) override {
+    adopt_former_group(info);
+    groups_.emplace_back(info.key);
+  }
   void end_group() override { groups_.pop_back(); }
 
  private:
@@ -85,7 +89,27 @@ class AssigningVisitor final : public ConfigVisitor {
     return text + std::string(info.key);
   }
 
+  /// Gives the field's present name to a value that is given under its former one.
+  void adopt(const std::string& former, const std::string& present) {
+    const auto found = values_.find(former);
+    if (found == values_.end()) return;
+    warnings_.push_back(where_ + ": " + former + " is now called " + present);
+    values_[present] = found->second;
+    values_.erase(found);
+  }
+
+  void adopt_former_group(const FieldInfo& info) {
+    if (info.former.empty()) return;
+    const std::string former = path({.key = info.former, .unit = {}, .doc = {}}) + ".";
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : values_) {
+      if (key.starts_with(former)) keys.push_back(key);
+    }
+    for (const std::string& key : keys) adopt(key, path(info) + "." + key.substr(former.size()));
+  }
+
   std::optional<std::string> take(const FieldInfo& info) {
+    if (!info.former.empty()) adopt(path({.key = info.former, .unit = {}, .doc = {}}), path(info));
     known_.push_back(path(info));
     const auto found = values_.find(known_.back());
     if (found == values_.end()) return std::nullopt;
@@ -112,15 +136,17 @@ class AssigningVisitor final : public ConfigVisitor {
   std::map<std::string, std::string> values_;
   std::vector<std::string> groups_;
   std::vector<std::string> known_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace
 
-void assign_fields(std::span<const std::string> assignments, const std::string& where,
-                   const std::function<void(ConfigVisitor&)>& visit) {
+std::vector<std::string> assign_fields(std::span<const std::string> assignments,
+                                       const std::string& where,
+                                       const std::function<void(ConfigVisitor&)>& visit) {
   AssigningVisitor visitor(assignments, where);
   visit(visitor);
-  visitor.finish();
+  return visitor.finish();
 }
 
 }  // namespace mms

@@ -18,22 +18,26 @@ class ConfigLoader final : public ConfigVisitor {
     groups_.push_back(YamlMap::load(path));
   }
 
-  void finish() const { groups_.back().reject_unknown(); }
+  /// To be called after the visit. @returns warnings, one line each
+  std::vector<std::string> finish() {
+    groups_.back().reject_unknown();
+    return std::move(warnings_);
+  }
 
   void number(const FieldInfo& info, double& value, Range range) override {
-    if (const auto node = groups_.back().find(info.key)) {
+    if (const auto node = find(info)) {
       value = groups_.back().number(*node, info.key, range);
     }
   }
 
   void integer(const FieldInfo& info, int& value, Range range) override {
-    if (const auto node = groups_.back().find(info.key)) {
+    if (const auto node = find(info)) {
       value = groups_.back().integer(*node, info.key, range);
     }
   }
 
   void boolean(const FieldInfo& info, bool& value) override {
-    const auto node = groups_.back().find(info.key);
+    const auto node = find(info);
     if (!node) return;
     const std::string text = plain_scalar(*node);
     if (text != "true" && text != "false") {
@@ -44,7 +48,7 @@ class ConfigLoader final : public ConfigVisitor {
 
   void choice(const FieldInfo& info, int& index,
               std::span<const std::string_view> choices) override {
-    const auto node = groups_.back().find(info.key);
+    const auto node = find(info);
     if (!node) return;
     const std::string word = node->IsScalar() ? node->Scalar() : "";
     const auto found = std::find(choices.begin(), choices.end(), word);
@@ -60,7 +64,7 @@ class ConfigLoader final : public ConfigVisitor {
   }
 
   void text(const FieldInfo& info, std::string& value) override {
-    const auto node = groups_.back().find(info.key);
+    const auto node = find(info);
     if (!node) return;
     if (!node->IsScalar()) {
       groups_.back().fail(*node, info.key, "is " + shown(*node) + ", a text is wanted");
@@ -69,7 +73,15 @@ class ConfigLoader final : public ConfigVisitor {
   }
 
  private:
+  void adopt_former(const FieldInfo& info) {
+    if (const auto warning = groups_.back().adopt_former(info)) warnings_.push_back(*warning);
+  }
+  std::optional<YAML::Node> find(const FieldInfo& info) {
+    adopt_former(info);
+    return groups_.back().find(info.key);
+  }
   std::size_t begin_list(const FieldInfo& info, std::size_t size) override {
+    adopt_former(info);
     std::optional<std::vector<YamlMap>> items = groups_.back().children(info.key);
     lists_.push_back(items ? std::move(*items) : std::vector<YamlMap>());
     if (!items) lists_.back().resize(size, groups_.back().child(info.key));
@@ -82,6 +94,7 @@ class ConfigLoader final : public ConfigVisitor {
   }
   void end_list() override { lists_.pop_back(); }
   void begin_group(const FieldInfo& info) override {
+    adopt_former(info);
     groups_.push_back(groups_.back().child(info.key));
   }
   void end_group() override {
@@ -90,6 +103,7 @@ class ConfigLoader final : public ConfigVisitor {
   }
 
   std::vector<YamlMap> groups_;
+  std::vector<std::string> warnings_;
   std::vector<std::vector<YamlMap>> lists_;  ///< items still to come, the next one last
 };
 
@@ -153,11 +167,11 @@ class ConfigWriter final : public ConfigVisitor {
 
 }  // namespace
 
-void load_config_fields(const std::filesystem::path& path,
-                        const std::function<void(ConfigVisitor&)>& visit) {
+std::vector<std::string> load_config_fields(const std::filesystem::path& path,
+                                            const std::function<void(ConfigVisitor&)>& visit) {
   ConfigLoader loader(path);
   visit(loader);
-  loader.finish();
+  return loader.finish();
 }
 
 std::string dump_config_fields(const std::function<void(ConfigVisitor&)>& visit) {

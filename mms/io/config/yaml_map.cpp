@@ -88,6 +88,22 @@ std::optional<YAML::Node> YamlMap::find(std::string_view key) {
   return std::nullopt;
 }
 
+std::optional<std::string> YamlMap::adopt_former(const FieldInfo& info) {
+  if (info.former.empty()) return std::nullopt;
+  const auto named = [](std::string_view key) {
+    return [key](const auto& entry) { return entry.first == key; };
+  };
+  const auto former = std::find_if(entries_.begin(), entries_.end(), named(info.former));
+  if (former == entries_.end()) return std::nullopt;
+  if (std::any_of(entries_.begin(), entries_.end(), named(info.key))) {
+    fail(former->second, info.former, "is the former name of " + path_ + std::string(info.key),
+         "keep the new name only");
+  }
+  former->first = info.key;
+  return at_line(file_, former->second.Mark()) + ": " + path_ + std::string(info.former) +
+         " is now called " + path_ + std::string(info.key);
+}
+
 YamlMap YamlMap::child(std::string_view key) {
   return {file_, path_ + std::string(key) + ".", find(key)};
 }

@@ -24,6 +24,11 @@ class YamlMap {
   /// The value of `key`, which counts as known from now on; nothing where it is not written.
   std::optional<YAML::Node> find(std::string_view key);
 
+  /// Gives the field's present name to a value that is written under its former one.
+  /// @returns the warning to give the user; nothing where the former name is not used
+  /// @throws ConfigError when the value is written under both names.
+  std::optional<std::string> adopt_former(const FieldInfo& info);
+
   /// The mapping under `key`; an empty one where there is none.
   YamlMap child(std::string_view key);
 

@@ -18,7 +18,7 @@ inline constexpr std::string_view kJournalName = "journal.bin";
 struct JournalHeader {
   std::string data;          ///< what was run, in the user's words
   double voxel_size = 0.0;   ///< of the first keyframe's map [m]
-  int min_observations = 1;  ///< looks that have to see a voxel before it is shown
+  int min_observations = 1;  ///< views that have to see a voxel before it is shown
 };
 
 /// A frame of a run, as the journal keeps it. At the end of a run the last one is there a second

@@ -14,10 +14,10 @@ namespace mms {
 namespace {
 
 std::optional<octomap::OcTreeKey> octomap_key(const VoxelKey& key) {
-  constexpr std::int32_t kMiddle = 32768;
-  const auto fits = [](std::int32_t value) { return value >= -kMiddle && value < kMiddle; };
+  constexpr std::int32_t kCenter = 32768;
+  const auto fits = [](std::int32_t value) { return value >= -kCenter && value < kCenter; };
   if (!fits(key.x) || !fits(key.y) || !fits(key.z)) return std::nullopt;
-  const auto part = [](std::int32_t value) { return static_cast<std::uint16_t>(value + kMiddle); };
+  const auto part = [](std::int32_t value) { return static_cast<std::uint16_t>(value + kCenter); };
   return octomap::OcTreeKey(part(key.x), part(key.y), part(key.z));
 }
 

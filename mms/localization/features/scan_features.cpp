@@ -58,20 +58,20 @@ class PointTimes {
   explicit PointTimes(const std::vector<float>& time_offset) : time_offset_(time_offset) {
     if (time_offset.empty()) return;
     const auto [first, last] = std::minmax_element(time_offset.begin(), time_offset.end());
-    middle_ = 0.5F * (*first + *last);
+    center_ = 0.5F * (*first + *last);
   }
 
   /// Since the middle [s].
-  float of(std::size_t i) const { return time_offset_.empty() ? 0.0F : time_offset_[i] - middle_; }
+  float of(std::size_t i) const { return time_offset_.empty() ? 0.0F : time_offset_[i] - center_; }
 
   /// Since the scan's stamp.
   Duration middle() const {
-    return Timestamp::from_seconds(static_cast<double>(middle_)) - Timestamp();
+    return Timestamp::from_seconds(static_cast<double>(center_)) - Timestamp();
   }
 
  private:
   const std::vector<float>& time_offset_;
-  float middle_ = 0.0F;
+  float center_ = 0.0F;
 };
 
 struct Analysis {

@@ -48,7 +48,7 @@ void MotionModel::measure(Timestamp stamp, const Eigen::Isometry3d& pose) {
   place(stamp, pose);
 }
 
-void MotionModel::miss(Timestamp stamp) {
+void MotionModel::coast(Timestamp stamp) {
   pose_ = predict(stamp).T_world_sensor;
   stamp_ = stamp;
   velocity_ *= kCoasting;
@@ -74,7 +74,7 @@ PosePrediction MotionModel::predict(Timestamp stamp) const {
   return prediction;
 }
 
-bool MotionModel::allows(Timestamp stamp, const Eigen::Isometry3d& pose) const {
+bool MotionModel::is_feasible(Timestamp stamp, const Eigen::Isometry3d& pose) const {
   const double seconds = std::max(since_measured(stamp), 1e-3);
   if (interval_) {
     // What nothing on wheels or legs can do is people who were taken for the world.

@@ -33,14 +33,14 @@ class MotionModel {
   void measure(Timestamp stamp, const Eigen::Isometry3d& pose);
 
   /// None was: the sensor goes on with fading velocity.
-  void miss(Timestamp stamp);
+  void coast(Timestamp stamp);
 
   /// The uncertainty grows with the time since a pose was measured; without bound while the
   /// velocity is unknown.
   PosePrediction predict(Timestamp stamp) const;
 
   /// Whether the sensor can have come there.
-  bool allows(Timestamp stamp, const Eigen::Isometry3d& pose) const;
+  bool is_feasible(Timestamp stamp, const Eigen::Isometry3d& pose) const;
 
   /// Between the last two poses measured, in the sensor's frame [m/s, rad/s]; zero before.
   const Vector6d& velocity() const { return velocity_; }

@@ -33,7 +33,7 @@ struct PhotometricEquations {
 /// Photometric residuals of a keyframe's points in the current image, beyond the paper:
 /// r = I(pi(T^-1 T_k p)) - (gain I_k + bias), weighted by a t-distribution (Kerl et al., ICRA
 /// 2013). A point counts only where the current frame has a static depth that agrees with it: what
-/// the masks miss of a person stands before the point and is left out.
+/// the masks coast of a person stands before the point and is left out.
 PhotometricEquations photometric_equations(const IntensityKeyframe& keyframe, std::size_t level,
                                            const IntensityLevel& current,
                                            const Eigen::Isometry3d& T_world_sensor,

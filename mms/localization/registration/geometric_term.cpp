@@ -15,8 +15,8 @@ constexpr double kInlierSigmas = 3.0;
 /// Adds matches at one pose.
 class Linearizer {
  public:
-  Linearizer(const Eigen::Isometry3d& T, const GeometricConfig& config, double slack)
-      : T_(T), config_(config), common_sigma_(std::hypot(config.map_sigma, slack)) {}
+  Linearizer(const Eigen::Isometry3d& T, const GeometricConfig& config, double annealed_scale)
+      : T_(T), config_(config), common_sigma_(std::hypot(config.map_sigma, annealed_scale)) {}
 
   void add(const EdgeMatch& match, GeometricEquations& sum) const {
     const VectorResidual r = point_to_line(T_, match.point, match.on_line, match.direction);
@@ -73,7 +73,7 @@ void GeometricConfig::visit(ConfigVisitor& v) {
            {0.5, 20.0});
   v.number(
       {"slack", "voxels", "standard deviation of the residuals a frame's registration starts with"},
-      slack, {0.0, 10.0});
+      annealed_scale, {0.0, 10.0});
   v.number({"map_sigma", "m", "error of the local maps, added to the measurement's"}, map_sigma,
            {1e-5, 1.0});
   v.number({"robust_scale", "", "standard deviations at which Cauchy's weight is one half"},
@@ -91,8 +91,8 @@ GeometricEquations& GeometricEquations::operator+=(const GeometricEquations& oth
 
 GeometricEquations geometric_equations(const Matches& matches,
                                        const Eigen::Isometry3d& T_world_sensor,
-                                       const GeometricConfig& config, double slack) {
-  const Linearizer linearizer(T_world_sensor, config, slack);
+                                       const GeometricConfig& config, double annealed_scale) {
+  const Linearizer linearizer(T_world_sensor, config, annealed_scale);
   GeometricEquations sum;
   if (config.planes) sum += sum_over(matches.planes, linearizer);
   if (config.edges) sum += sum_over(matches.edges, linearizer);

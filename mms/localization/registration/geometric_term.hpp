@@ -10,9 +10,9 @@ struct GeometricConfig {
   Association association = Association::kSurface;
   bool edges = true;
   bool planes = true;
-  double gate = 2.0;         ///< [voxels]
-  double slack = 0.5;        ///< [voxels]
-  double map_sigma = 0.004;  ///< [m]
+  double gate = 2.0;            ///< [voxels]
+  double annealed_scale = 0.5;  ///< [voxels]
+  double map_sigma = 0.004;     ///< [m]
   double robust_scale = 2.0;
   double weight = 0.5;
 
@@ -30,10 +30,11 @@ struct GeometricEquations {
 
 /// Normal equations of eqs. (3) and (4) at a pose: every residual weighted by the inverse variance
 /// of the measurement and the map, and by Cauchy's robust weight. Inliers lie within three sigma.
-/// @param slack  standard deviation [m] the pose error adds to the residuals; widens the robust
+/// @param annealed_scale  standard deviation [m] the pose error adds to the residuals; widens the
+/// robust
 ///               weight while the pose is still far off
 GeometricEquations geometric_equations(const Matches& matches,
                                        const Eigen::Isometry3d& T_world_sensor,
-                                       const GeometricConfig& config, double slack = 0.0);
+                                       const GeometricConfig& config, double annealed_scale = 0.0);
 
 }  // namespace mms

@@ -14,8 +14,9 @@ constexpr double kReassociationShift = 0.1;
 /// Errors of neighbouring pixels go together: so many residuals of an image say as much as one.
 constexpr double kResidualsPerMeasurement = 10.0;
 
-constexpr double kSlackDecay = 0.5;
-constexpr double kSettledShare = 0.1;  ///< step over slack at which the slack is tightened
+constexpr double kScaleDecay = 0.5;
+constexpr double kSettledShare =
+    0.1;  ///< step over annealed_scale at which the annealed_scale is tightened
 
 /// Residuals within three sigma of a photometric term; t-weights are never zero.
 int count_inliers(const PhotometricEquations& equations, double sigma) {
@@ -77,7 +78,7 @@ class GaussNewton {
   RegistrationResult run() {
     const bool photometric =
         config_.photometric.enabled && !features_.intensity.empty() && !target_.keyframes.empty();
-    slack_ = config_.geometric.slack * target_.maps.voxel_size();
+    annealed_scale_ = config_.geometric.annealed_scale * target_.maps.voxel_size();
     if (photometric) {
       run_pyramid();
     } else {
@@ -91,7 +92,7 @@ class GaussNewton {
   void run_pyramid() {
     for (int level = static_cast<int>(features_.intensity.size()) - 1; level >= 0; --level) {
       for (PhotometricState& state : states_) state.sigma = PhotometricState{}.sigma;
-      if (level == 0) slack_ = 0.0;
+      if (level == 0) annealed_scale_ = 0.0;
       iterate(level, config_.iterations_per_level);
       tighten();
     }
@@ -99,27 +100,27 @@ class GaussNewton {
 
   /// From residuals of the size of a first guess's error to those of the noise.
   void run_geometry() {
-    while (slack_ > 0.0 && result_.iterations < config_.max_iterations) {
+    while (annealed_scale_ > 0.0 && result_.iterations < config_.max_iterations) {
       iterate(-1, config_.max_iterations - result_.iterations);
       tighten();
     }
-    slack_ = 0.0;
+    annealed_scale_ = 0.0;
     iterate(-1, std::max(1, config_.max_iterations - result_.iterations));
   }
 
   void tighten() {
-    slack_ *= kSlackDecay;
-    if (slack_ < config_.geometric.map_sigma) slack_ = 0.0;
+    annealed_scale_ *= kScaleDecay;
+    if (annealed_scale_ < config_.geometric.map_sigma) annealed_scale_ = 0.0;
   }
 
   /// @param level  of the intensity pyramid, -1 for none
   void iterate(int level, int max_iterations) {
     result_.converged = false;
-    // While the slack is larger than the noise, a step well below it changes nothing.
+    // While the annealed_scale is larger than the noise, a step well below it changes nothing.
     const double settled_translation =
-        std::max(config_.converged_translation, kSettledShare * slack_);
-    const double settled_rotation =
-        std::max(config_.converged_rotation, kSettledShare * slack_ / std::max(scale_, 1.0));
+        std::max(config_.converged_translation, kSettledShare * annealed_scale_);
+    const double settled_rotation = std::max(
+        config_.converged_rotation, kSettledShare * annealed_scale_ / std::max(scale_, 1.0));
     for (int i = 0; i < max_iterations && !result_.converged; ++i) {
       const NormalEquations equations = linearize(level);
       const Step step = next_step(equations);
@@ -134,7 +135,7 @@ class GaussNewton {
   }
 
   Step next_step(const NormalEquations& equations) const {
-    const double max_sigma = std::hypot(config_.degenerate_sigma, slack_);
+    const double max_sigma = std::hypot(config_.degenerate_sigma, annealed_scale_);
     if (!prediction_.is_informative()) return solve(equations, max_sigma);
     const double weight = features_.intensity.empty() ? 1.0 : kResidualsPerMeasurement;
     return solve(equations, prediction_.equations(result_.T_world_sensor), weight, max_sigma);
@@ -143,7 +144,7 @@ class GaussNewton {
   NormalEquations linearize(int level) {
     refresh_matches();
     result_.geometric =
-        geometric_equations(matches_, result_.T_world_sensor, config_.geometric, slack_);
+        geometric_equations(matches_, result_.T_world_sensor, config_.geometric, annealed_scale_);
     NormalEquations sum = result_.geometric.edges;
     sum += result_.geometric.planes;
     if (level >= 0) add_photometric(static_cast<std::size_t>(level), sum);
@@ -186,8 +187,8 @@ class GaussNewton {
   Matches matches_;
   Eigen::Isometry3d matched_at_ = Eigen::Isometry3d::Identity();
   bool associated_ = false;
-  double slack_ = 0.0;  ///< standard deviation the pose's error adds to residuals [m]
-  double scale_;        ///< distance at which a rotation is felt [m]
+  double annealed_scale_ = 0.0;  ///< standard deviation the pose's error adds to residuals [m]
+  double scale_;                 ///< distance at which a rotation is felt [m]
 };
 
 }  // namespace

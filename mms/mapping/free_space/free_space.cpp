@@ -20,7 +20,7 @@ Image<float> depth_of(const LabeledCloud& cloud) {
   return depth;
 }
 
-/// Minimum of 3 x 3 pixels; 0 on the image's rim.
+/// Minimum of 3 x 3 pixels; 0 on the image's boundary.
 Image<float> nearest_of_neighbours(const Image<float>& depth) {
   const int width = depth.width();
   const int height = depth.height();

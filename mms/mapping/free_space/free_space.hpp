@@ -31,7 +31,7 @@ struct CarvingConfig {
 
 /// The space one organised cloud sees to be empty: in front of its measured points, static or
 /// dynamic alike. A pixel counts only where it and its eight neighbours have a depth, and with the
-/// nearest of them, so that holes and the rims of objects carve nothing.
+/// nearest of them, so that holes and the boundaries of objects carve nothing.
 class FreeSpace {
  public:
   FreeSpace(const LabeledCloud& cloud, double margin, const DepthNoise& noise);
@@ -43,7 +43,7 @@ class FreeSpace {
   bool touches(const Eigen::Vector3f& point) const;
 
   /// True where `point` (sensor frame [m]) is in view and nothing sure was measured there.
-  bool is_blank(const Eigen::Vector3f& point) const { return depth_at(point) == 0.0F; }
+  bool has_no_return(const Eigen::Vector3f& point) const { return depth_at(point) == 0.0F; }
 
   /// False where no point of the ball (sensor frame [m]) can be seen through; cheap.
   bool may_see_into(const Eigen::Vector3f& center, float radius) const;

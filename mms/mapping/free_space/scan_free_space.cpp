@@ -55,7 +55,7 @@ bool ScanFreeSpace::touches(const Eigen::Vector3f& point) const {
          range <= span.farthest + margin_;
 }
 
-bool ScanFreeSpace::is_blank(const Eigen::Vector3f& point) const {
+bool ScanFreeSpace::has_no_return(const Eigen::Vector3f& point) const {
   return span_of(point).farthest == 0.0F;
 }
 

@@ -23,7 +23,7 @@ class ScanFreeSpace {
   bool touches(const Eigen::Vector3f& point) const;
 
   /// True where nothing was measured in the direction of `point` (sensor frame [m]).
-  bool is_blank(const Eigen::Vector3f& point) const;
+  bool has_no_return(const Eigen::Vector3f& point) const;
 
  private:
   /// Of the points in a direction, by their distance [m]; none where `farthest` is 0.

@@ -51,7 +51,7 @@ Ranges bridge_rings(const Ranges& known) {
   return bridged;
 }
 
-/// Minimum of 3 x 3 pixels; 0 where one of them is unknown, and on the rim.
+/// Minimum of 3 x 3 pixels; 0 where one of them is unknown, and on the boundary.
 Ranges nearest_about(const Ranges& ranges) {
   Ranges nearest(kSide, kSide);
   for (int y = 1; y + 1 < kSide; ++y) {

@@ -7,7 +7,7 @@
 
 namespace mms {
 
-/// What one LiDAR scan looks through, sharply enough to take points out of a map: by directions
+/// What one LiDAR scan views through, sharply enough to take points out of a map: by directions
 /// half a degree wide. Between two rings the nearer one counts, so that a floor that both graze is
 /// not seen through; and a direction is free only as far as those about it are, all of which have
 /// to be known, so that what hangs beside its rays stays.

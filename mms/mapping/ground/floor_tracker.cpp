@@ -30,8 +30,8 @@ MapCloud static_points(const LabeledCloud& cloud, const Transform<World, Sensor>
 
 }  // namespace
 
-void FloorWatch::update(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor,
-                        const Eigen::Vector3d& up) {
+void FloorTracker::update(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor,
+                          const Eigen::Vector3d& up) {
   if (frames_++ % kEvery != 0) return;
   const Floor seen =
       find_floor(static_points(cloud, T_world_sensor), floor_ ? floor_->up : up, config_);
@@ -40,7 +40,7 @@ void FloorWatch::update(const LabeledCloud& cloud, const Transform<World, Sensor
   if (seen.found && !is_ceiling) follow(seen, sensor);
 }
 
-void FloorWatch::follow(const Floor& seen, const Eigen::Vector3d& sensor) {
+void FloorTracker::follow(const Floor& seen, const Eigen::Vector3d& sensor) {
   const Eigen::Vector3d foot = sensor - (seen.up.dot(sensor) - seen.height) * seen.up;
   const double higher = floor_ ? floor_->up.dot(foot) - floor_->height : 0.0;
   const double cosine = floor_ ? floor_->up.dot(seen.up) : 1.0;

@@ -10,9 +10,9 @@ namespace mms {
 /// The floor about the sensor, as the frames of a run show it: what stands on it is measured from
 /// there. Looks at every few frames, and averages, so that a floor that is not quite level far away
 /// is right where the sensor is.
-class FloorWatch {
+class FloorTracker {
  public:
-  explicit FloorWatch(const FloorConfig& config = {}) : config_(config) {}
+  explicit FloorTracker(const FloorConfig& config = {}) : config_(config) {}
 
   /// Looks for the floor among the frame's static points.
   /// @param up  in the world frame, as far as it is known without a floor

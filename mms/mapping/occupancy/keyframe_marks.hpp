@@ -37,7 +37,7 @@ struct BlockMarks {
   CellBits end;   ///< a ray to it has been followed
 };
 
-/// The blocks that one keyframe looks into, each with its marks; so that a voxel counts once a
+/// The blocks that one keyframe views into, each with its marks; so that a voxel counts once a
 /// keyframe, however many rays meet in it.
 class KeyframeMarks {
  public:

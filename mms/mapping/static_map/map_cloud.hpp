@@ -12,7 +12,7 @@ struct MapCloud {
   std::vector<Eigen::Vector3f> points;   ///< world frame [m]
   std::vector<Rgb> colors;               ///< mid grey where no camera saw the point
   std::vector<Eigen::Vector3f> normals;  ///< unit, towards the sensor; zero where unknown
-  std::vector<int> observations;         ///< number of looks that measured the point
+  std::vector<int> observations;         ///< number of views that measured the point
 
   std::size_t size() const { return points.size(); }
 };

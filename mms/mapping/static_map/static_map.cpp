@@ -50,22 +50,22 @@ MapUpdate StaticMap::integrate(const LabeledCloud& cloud,
   if (config_.carving.enabled) {
     update.carved = carve(cloud, T_world_sensor.isometry().cast<float>().inverse());
   }
-  count_look();
+  count_view();
   update.coarsened = coarsened_;
   return update;
 }
 
-bool StaticMap::end_look() {
-  if (last_look_ == last_frame()) return false;
+bool StaticMap::finalize() {
+  if (last_view_ == last_frame()) return false;
   carved_.clear();
-  count_look();
+  count_view();
   return true;
 }
 
-void StaticMap::count_look() {
+void StaticMap::count_view() {
   coarsened_ = keep_to_budget();
-  ++looks_;
-  previous_look_ = std::exchange(last_look_, last_frame());
+  ++views_;
+  previous_view_ = std::exchange(last_view_, last_frame());
 }
 
 void StaticMap::insert(const std::vector<SurfacePoint>& points,
@@ -73,8 +73,8 @@ void StaticMap::insert(const std::vector<SurfacePoint>& points,
   // From farther off a surface falls now into one block, now into the next: no views to count.
   const float sharp = std::min(
       1.0F, noise_weight(static_cast<float>(0.5 * grid_.block_size()), config_.surface.noise));
-  const auto is_first_look = [&](std::uint32_t& frame) {
-    return std::exchange(frame, last_frame()) <= last_look_;
+  const auto is_first_view = [&](std::uint32_t& frame) {
+    return std::exchange(frame, last_frame()) <= last_view_;
   };
   // A large map lies in main memory: half the time went into waiting for one voxel after the other.
   constexpr std::size_t kBatch = 32;
@@ -90,8 +90,8 @@ void StaticMap::insert(const std::vector<SurfacePoint>& points,
       const SurfacePoint& point = points[begin + i];
       VoxelBlock& block = *places[i].block;
       Voxel& voxel = places[i].voxel();
-      if (is_first_look(block.last_frame) && point.weight >= sharp) increment(block.views);
-      if (is_first_look(voxel.last_frame)) increment(voxel.hits);
+      if (is_first_view(block.last_frame) && point.weight >= sharp) increment(block.views);
+      if (is_first_view(voxel.last_frame)) increment(voxel.hits);
       average_in(point, T_world_sensor, voxel);
     }
   }
@@ -107,9 +107,9 @@ std::size_t StaticMap::carve(const LabeledCloud& cloud, const Eigen::Isometry3f&
 }
 
 template <class Space>
-std::size_t StaticMap::carve(const Space& free_space, double looks_per_hit,
+std::size_t StaticMap::carve(const Space& free_space, double views_per_hit,
                              const Eigen::Isometry3f& T_sensor_world) {
-  const auto ratio = static_cast<float>(looks_per_hit);
+  const auto ratio = static_cast<float>(views_per_hit);
   const auto side = static_cast<float>(grid_.block_size());
   const float radius = 0.5F * std::sqrt(3.0F) * side;
   const auto gone = [&](Voxel& voxel) {
@@ -149,7 +149,7 @@ Eigen::Vector3f StaticMap::normal_of(const VoxelBlock& block, const Voxel& voxel
 }
 
 MapCloud StaticMap::cloud() const {
-  const std::size_t needed = std::min(static_cast<std::size_t>(config_.min_observations), looks());
+  const std::size_t needed = std::min(static_cast<std::size_t>(config_.min_observations), views());
   MapCloud cloud;
   for (const VoxelBlock& block : grid_.blocks()) {
     for (const Voxel& voxel : block.voxels) {

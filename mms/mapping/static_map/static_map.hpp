@@ -42,7 +42,7 @@ struct MapUpdate {
 
 /// The dense coloured static map (III-D): static points, down-sampled by a voxel grid to running
 /// means of position, colour and normal. A keyframe and the frames since the one before it are one
-/// look: whatever they measured of a voxel is one observation.
+/// view: whatever they measured of a voxel is one observation.
 ///
 /// Beyond the paper: frames between keyframes add to the map, since depth images have holes that
 /// come and go. Points that a mask missed leave ghosts of people in the map; a voxel is dropped
@@ -58,24 +58,24 @@ class StaticMap {
   /// @throws DataError when an organised cloud's `camera` makes no camera.
   MapUpdate integrate(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
 
-  /// Adds the static points of a frame between two keyframes, to the coming one's look. A pose that
+  /// Adds the static points of a frame between two keyframes, to the coming one's view. A pose that
   /// is not finite changes nothing.
   /// @return  points that went in
   std::size_t add(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
 
-  /// Ends the look of the frames since the last keyframe, when no other comes, so that `changes`
+  /// Ends the view of the frames since the last keyframe, when no other comes, so that `changes`
   /// tells what they added. @return  false where there are none
-  bool end_look();
+  bool finalize();
 
-  /// The voxels that `is_voxel_shown` for `min_observations` looks (or for all, while there are
+  /// The voxels that `is_voxel_shown` for `min_observations` views (or for all, while there are
   /// fewer), in the order in which they came into the map.
   MapCloud cloud() const;
 
-  /// What the last look did, so that `apply` of all looks' changes, in order, makes a map that
+  /// What the last view did, so that `apply` of all views' changes, in order, makes a map that
   /// shows the same voxels; their means and counts are those of when the count last doubled.
   MapChanges changes() const;
 
-  /// Repeats what a look did to another map of the same settings. Such a map is for `cloud`
+  /// Repeats what a view did to another map of the same settings. Such a map is for `cloud`
   /// alone: it knows no weights, so keyframes cannot be integrated into it.
   /// @throws DataError when a voxel has no place in a block.
   void apply(const MapChanges& changes);
@@ -83,15 +83,15 @@ class StaticMap {
   std::size_t size() const { return grid_.size(); }  ///< voxels, those with few observations too
   std::size_t memory_bytes() const { return grid_.memory_bytes(); }
   double voxel_size() const { return grid_.voxel_size(); }  ///< current one [m]
-  std::size_t looks() const { return looks_; }              ///< that were ended
+  std::size_t views() const { return views_; }              ///< that were ended
 
  private:
   void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor);
   std::size_t carve(const LabeledCloud& cloud, const Eigen::Isometry3f& T_sensor_world);
   template <class Space>
-  std::size_t carve(const Space& free_space, double looks_per_hit,
+  std::size_t carve(const Space& free_space, double views_per_hit,
                     const Eigen::Isometry3f& T_sensor_world);
-  void count_look();
+  void count_view();
   bool keep_to_budget();
   std::uint32_t last_frame() const { return static_cast<std::uint32_t>(viewpoints_.size()); }
   Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
@@ -99,11 +99,11 @@ class StaticMap {
   StaticMapConfig config_;
   VoxelGrid grid_;
   std::vector<Eigen::Vector3f> viewpoints_;  // of all frames; frame n is at n - 1
-  std::size_t looks_ = 0;
-  std::uint32_t last_look_ = 0;      // the frame that ended it
-  std::uint32_t previous_look_ = 0;  // the frame that ended the one before
-  std::vector<VoxelKey> carved_;     // by the last look
-  bool coarsened_ = false;           // by the last look
+  std::size_t views_ = 0;
+  std::uint32_t last_view_ = 0;      // the frame that ended it
+  std::uint32_t previous_view_ = 0;  // the frame that ended the one before
+  std::vector<VoxelKey> carved_;     // by the last view
+  bool coarsened_ = false;           // by the last view
 };
 
 }  // namespace mms

@@ -61,16 +61,16 @@ void check(const VoxelChange& change) {
 MapChanges StaticMap::changes() const {
   MapChanges changes;
   changes.voxel_size = grid_.voxel_size();
-  if (looks_ == 0) return changes;
-  changes.viewpoint = viewpoints_[last_look_ - 1];
+  if (views_ == 0) return changes;
+  changes.viewpoint = viewpoints_[last_view_ - 1];
   changes.whole = coarsened_;
   if (!coarsened_) changes.erased = carved_;
   for (const VoxelBlock& block : grid_.blocks()) {
-    if (!coarsened_ && block.last_frame <= previous_look_) continue;
+    if (!coarsened_ && block.last_frame <= previous_view_) continue;
     BlockChange change{block.key, block.views, {}};
     for (const Voxel& voxel : block.voxels) {
       const bool news =
-          voxel.last_frame > previous_look_ && is_news(voxel, config_.min_observations);
+          voxel.last_frame > previous_view_ && is_news(voxel, config_.min_observations);
       if (coarsened_ || news) change.voxels.push_back(told(block, voxel, grid_.voxel_size()));
     }
     // Further views show the same voxels as those before.
@@ -84,15 +84,15 @@ MapChanges StaticMap::changes() const {
 void StaticMap::apply(const MapChanges& changes) {
   if (changes.whole) grid_ = VoxelGrid(changes.voxel_size);
   viewpoints_.push_back(changes.viewpoint);
-  ++looks_;
-  last_look_ = last_frame();
+  ++views_;
+  last_view_ = last_frame();
   for (const BlockChange& change : changes.blocks) {
     for (const VoxelChange& voxel_change : change.voxels) {
       check(voxel_change);
       const VoxelKey key = BlockCells::voxel_of(change.key, voxel_change.cell);
       Voxel& voxel = grid_.place(key).voxel();
       take_over(voxel_change, key, grid_.voxel_size(), voxel);
-      voxel.last_frame = last_look_;
+      voxel.last_frame = last_view_;
     }
     if (VoxelBlock* block = grid_.find_block(change.key)) block->views = change.views;
   }

@@ -28,8 +28,8 @@ class Grid {
   }
 
   /// Whether the pixel lies inside a surface: it has neighbours with depths on every side, and no
-  /// jump goes through it or those beside it. On the rims of things depth and colour wobble by a
-  /// pixel. Far away single dropouts are many, but seldom make a whole side.
+  /// jump goes through it or those beside it. On the boundaries of things depth and colour wobble
+  /// by a pixel. Far away single dropouts are many, but seldom make a whole side.
   bool inside_surface(int x, int y, float tolerance) const {
     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       if (is_side_missing(x, y, dx, dy)) return false;
@@ -121,8 +121,8 @@ Rgb color_of(const LabeledCloud& cloud, std::size_t i) {
 std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const SurfaceConfig& config,
                                            int step) {
   const Grid grid(cloud, config);
-  const Image<std::uint8_t> rim =
-      near_dynamic(cloud.dynamic_pixels, static_cast<int>(std::lround(config.rim * cloud.width)));
+  const Image<std::uint8_t> boundary = near_dynamic(
+      cloud.dynamic_pixels, static_cast<int>(std::lround(config.boundary * cloud.width)));
   std::vector<SurfacePoint> result;
   result.reserve(cloud.points.size() / static_cast<std::size_t>(step * step));
   for (int y = 0; y < cloud.height; y += step) {
@@ -132,7 +132,7 @@ std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const Surf
       const float z = cloud.points[i].z();
       if (cloud.labels[i] != PointLabel::kStatic || !(z > 0.0F)) continue;
       if (z > static_cast<float>(config.max_depth)) continue;
-      if (!rim.empty() && rim[i] != 0) continue;
+      if (!boundary.empty() && boundary[i] != 0) continue;
       const float tolerance = grid.tolerance(z);
       if (!grid.inside_surface(x, y, tolerance)) continue;
       const float weight = noise_weight(config.noise.sigma(z), config.noise);

@@ -13,7 +13,7 @@ struct SurfaceConfig {
   double max_depth = 6.0;     ///< [m]
   double max_range = 1000.0;  ///< [m]
   double max_jump = 0.05;     ///< [m]
-  double rim = 0.01;          ///< share of the image's width
+  double boundary = 0.01;     ///< share of the image's width
   DepthNoise noise{};  ///< of the depth camera; the sensor's, so not among the visited fields
 
   void visit(ConfigVisitor& v) {
@@ -24,7 +24,7 @@ struct SurfaceConfig {
     v.number({"max_jump", "m", "bend between neighbouring pixels that is no surface, above noise"},
              max_jump, {0.0, 10.0});
     v.number({"rim", "", "width of the rim about what is dynamic, as a share of the image's width"},
-             rim, {0.0, 0.5});
+             boundary, {0.0, 0.5});
   }
 };
 
@@ -44,7 +44,7 @@ inline float noise_weight(float sigma, const DepthNoise& noise) {
 
 /// The static points of `cloud` that lie within range and, where the cloud is organised, not on a
 /// depth discontinuity, where a pixel averages two surfaces and hangs in the air between them, nor
-/// on the rim about what is dynamic, where masks end short of feet and colours run over.
+/// on the boundary about what is dynamic, where masks end short of feet and colours run over.
 /// @param step  of an organised cloud only every `step`-th row and column is given
 std::vector<SurfacePoint> surface_points(const LabeledCloud& cloud, const SurfaceConfig& config,
                                          int step = 1);

@@ -22,7 +22,7 @@ struct Voxel {
   Eigen::Vector3f color = Eigen::Vector3f::Zero();     ///< mean red, green, blue in [0, 255]
   float weight = 0.0F;                                 ///< sum of the points' weights
   std::uint32_t last_frame = 0;                        ///< number of the last one that measured it
-  std::uint16_t hits = 0;                              ///< looks that measured it (`StaticMap`)
+  std::uint16_t hits = 0;                              ///< views that measured it (`StaticMap`)
   std::uint16_t seen_through = 0;                      ///< keyframes that measured behind it
   std::uint16_t cell = 0;                              ///< place in its block
 };
@@ -43,7 +43,7 @@ struct VoxelBlock {
   std::array<std::uint16_t, BlockCells::kCount> slot{};  ///< 1 + index into `voxels`, 0 for none
   std::vector<Voxel> voxels;
   std::uint32_t last_frame = 0;  ///< number of the last one that measured in it
-  std::uint16_t views = 0;       ///< looks that measured in it, near enough to tell
+  std::uint16_t views = 0;       ///< views that measured in it, near enough to tell
 
   /// In units of the voxel's side.
   VoxelKey voxel_key(const Voxel& voxel) const { return BlockCells::voxel_of(key, voxel.cell); }

@@ -10,7 +10,7 @@ constexpr std::array<double, 3> kBorders = {0.45, 0.9, 1.4};  // between the ban
 constexpr float kFewest = 8.0F;                               // points that have a colour
 constexpr float kDark = 30.0F;  // R + G + B below which a colour says little
 
-/// A place between the middles of two cells, each of which gets a share.
+/// A place between the centers of two cells, each of which gets a share.
 struct Between {
   int low;
   int high;

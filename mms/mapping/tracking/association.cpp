@@ -35,7 +35,7 @@ double cost_of(const Track& track, const ObjectMeasurement& object,
 }
 
 /// Of what one mask covers, the rest follows no track where the largest follows one.
-void leave_out_rest(const std::vector<ObjectMeasurement>& objects, std::vector<int>& track_of) {
+void exclude_rest(const std::vector<ObjectMeasurement>& objects, std::vector<int>& track_of) {
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].largest) continue;
     for (std::size_t j = 0; j < objects.size(); ++j) {
@@ -58,7 +58,7 @@ std::vector<int> associate(const std::vector<Track>& tracks,
     }
   }
   std::vector<int> track_of = assign_least_cost(cost);
-  leave_out_rest(objects, track_of);
+  exclude_rest(objects, track_of);
   return track_of;
 }
 

@@ -33,7 +33,7 @@ struct AssociationConfig {
 
 /// Index of the track each object continues, -1 for none: the one-to-one assignment of least cost
 /// (distance to where the track expects it, class, colour). A pair has to be within the gate, which
-/// grows with the track's uncertainty, or the object's middle inside the track's box. Of what one
+/// grows with the track's uncertainty, or the object's center inside the track's box. Of what one
 /// mask covers the largest continues a track, or else the rest.
 std::vector<int> associate(const std::vector<Track>& tracks,
                            const std::vector<ObjectMeasurement>& objects,

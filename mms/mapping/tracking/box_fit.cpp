@@ -24,9 +24,9 @@ struct Interval {
 };
 
 Interval trimmed_interval(std::vector<double>& values, double trim) {
-  const auto cut = static_cast<std::ptrdiff_t>(trim * static_cast<double>(values.size()));
-  const auto low = values.begin() + cut;
-  const auto high = values.end() - 1 - cut;
+  const auto truncation = static_cast<std::ptrdiff_t>(trim * static_cast<double>(values.size()));
+  const auto low = values.begin() + truncation;
+  const auto high = values.end() - 1 - truncation;
   std::nth_element(values.begin(), low, values.end());
   const double low_value = *low;
   std::nth_element(values.begin(), high, values.end());
@@ -46,13 +46,13 @@ struct Ends {
   bool high = true;
 };
 
-/// The ends that neither border nor occluder cuts off.
-Ends uncut_ends(const ObjectMeasurement& object, const Eigen::Vector3d& axis, bool upright) {
-  if (upright) return {!object.cut.bottom, !object.cut.top};
+/// The ends that neither border nor occluder truncations off.
+Ends visible_ends(const ObjectMeasurement& object, const Eigen::Vector3d& axis, bool upright) {
+  if (upright) return {!object.truncation.bottom, !object.truncation.top};
   const double rightness = axis.dot(object.right);
   if (std::abs(rightness) < kRightness) return {};
-  const bool left = !object.cut.left;
-  const bool right = !object.cut.right;
+  const bool left = !object.truncation.left;
+  const bool right = !object.truncation.right;
   return rightness > 0.0 ? Ends{left, right} : Ends{right, left};
 }
 
@@ -60,8 +60,8 @@ Ends uncut_ends(const ObjectMeasurement& object, const Eigen::Vector3d& axis, bo
 /// axis, else the nearer one.
 Ends unhidden_ends(double sensor_along, const Interval& along, bool side_in_view) {
   if (side_in_view) return {};
-  const double middle = 0.5 * (along.low + along.high);
-  return sensor_along < middle ? Ends{true, false} : Ends{false, true};
+  const double center = 0.5 * (along.low + along.high);
+  return sensor_along < center ? Ends{true, false} : Ends{false, true};
 }
 
 /// The end that lies nearer to where it is expected.
@@ -71,7 +71,7 @@ Ends nearer_end(const Interval& seen, double expected, double size) {
   return low_off < high_off ? Ends{true, false} : Ends{false, true};
 }
 
-double middle_of(const Interval& seen, const Ends& ends, double size) {
+double center_of(const Interval& seen, const Ends& ends, double size) {
   if (ends.low == ends.high) return 0.5 * (seen.low + seen.high);
   return ends.low ? seen.low + 0.5 * size : seen.high - 0.5 * size;
 }
@@ -89,7 +89,7 @@ BoxFit fit_box(const ObjectMeasurement& object, const GroundFrame& ground, doubl
   const Eigen::Matrix3d axes = ground.axes(heading);
   const Eigen::Vector3d view = ground.horizontal(object.centroid - object.sensor).normalized();
   BoxFit fit;
-  Eigen::Vector3d middle;
+  Eigen::Vector3d center;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = axes.col(k);
     const bool upright = k == 2;
@@ -98,7 +98,7 @@ BoxFit fit_box(const ObjectMeasurement& object, const GroundFrame& ground, doubl
     if (stands) seen.low = *ground.floor();
     // A horizontal axis runs along the face that looks along the other one.
     const bool side_in_view = upright || std::abs(view.dot(axes.col(1 - k))) > kFacing;
-    Ends uncut = uncut_ends(object, axis, upright);
+    Ends uncut = visible_ends(object, axis, upright);
     uncut.low = uncut.low || stands;
     const Ends unhidden = unhidden_ends(axis.dot(object.sensor), seen, side_in_view);
     Ends ends = {uncut.low && unhidden.low, uncut.high && unhidden.high};
@@ -112,9 +112,9 @@ BoxFit fit_box(const ObjectMeasurement& object, const GroundFrame& ground, doubl
     fit.whole[i] = uncut.low && uncut.high && side_in_view;
     fit.anchored = fit.anchored && (ends.low || ends.high);
     fit.extent[k] = seen.high - seen.low;
-    middle[k] = middle_of(seen, ends, size[k]);
+    center[k] = center_of(seen, ends, size[k]);
   }
-  fit.center = axes * middle;
+  fit.center = axes * center;
   return fit;
 }
 

@@ -22,7 +22,7 @@ Eigen::Vector3d nominal_up(const LabeledCloud& cloud) {
 void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odometry) {
   if (cloud.stamp <= last_stamp_ || !odometry.T_world_sensor.is_finite()) return;
   last_stamp_ = cloud.stamp;
-  let_go();
+  prune();
   watch_ground(cloud, odometry.T_world_sensor);
   for (Track& track : tracks_) {
     track.set_ground(*ground_);
@@ -36,7 +36,7 @@ void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odome
   confirm_seen();
 }
 
-void DynamicMap::let_go() {
+void DynamicMap::prune() {
   for (const Track& track : tracks_) {
     if (track.confirmed() && is_over(track)) lost_.add(track);
   }
@@ -45,8 +45,9 @@ void DynamicMap::let_go() {
 }
 
 bool DynamicMap::is_over(const Track& track) const {
-  return track.confirmed() ? to_seconds(last_stamp_ - track.last_seen()) > config_.max_missed
-                           : to_seconds(last_stamp_ - track.last_told()) > config_.max_tentative;
+  return track.confirmed()
+             ? to_seconds(last_stamp_ - track.last_seen()) > config_.max_missed
+             : to_seconds(last_stamp_ - track.last_evidence()) > config_.max_tentative;
 }
 
 void DynamicMap::watch_ground(const LabeledCloud& cloud,
@@ -81,9 +82,9 @@ void DynamicMap::begin_new(const std::vector<ObjectMeasurement>& objects,
         std::find(followed.begin(), followed.end(), objects[i].instance) != followed.end();
     if (!objects[i].largest || is_spilled) continue;
     // What follows an object without a mask of its own begins none.
-    const bool is_told =
+    const bool has_evidence =
         objects[i].score > 0.0F || objects[i].object_class == ObjectClass::kUnknown;
-    if (track_of[i] >= 0 || !is_told || is_part_of_a_track(objects[i])) continue;
+    if (track_of[i] >= 0 || !has_evidence || is_part_of_a_track(objects[i])) continue;
     tracks_.emplace_back(next_id_++, objects[i], *ground_, config_.track);
   }
 }
@@ -92,7 +93,7 @@ void DynamicMap::confirm_seen() {
   std::vector<int> back;
   for (Track& track : tracks_) {
     if (track.confirmed() || track.last_seen() != last_stamp_ || !is_sure(track)) continue;
-    if (const std::optional<Track> lost = take_lost(track)) {
+    if (const std::optional<Track> lost = reidentify(track)) {
       track.continue_as(*lost);
       back.push_back(track.id());
     } else {
@@ -114,8 +115,8 @@ bool DynamicMap::is_sure(const Track& track) const {
 }
 
 /// What `track` continues of what was lost, or is out of view but still expected elsewhere.
-std::optional<Track> DynamicMap::take_lost(const Track& track) {
-  LostTracks away = lost_;
+std::optional<Track> DynamicMap::reidentify(const Track& track) {
+  TrackReidentifier away = lost_;
   for (const Track& other : tracks_) {
     if (other.confirmed() && other.last_seen() != last_stamp_) away.add(other);
   }
@@ -154,7 +155,7 @@ std::vector<TrackedObject> DynamicMap::objects() const {
     // What was hardly seen is not given for long when it is gone.
     const double known = to_seconds(track.last_seen() - track.first_seen());
     const double unseen = to_seconds(last_stamp_ - track.last_seen());
-    if (unseen > std::min(config_.max_shown, known)) continue;
+    if (unseen > std::min(config_.max_coast_output, known)) continue;
     const bool seen = track.last_seen() == last_stamp_;
     objects.push_back({track.box(), seen ? TrackState::kActive : TrackState::kCoasting,
                        track.motion(), track.first_seen(), track.last_seen()});

@@ -9,8 +9,8 @@
 #include "mms/core/odometry_estimate.hpp"
 #include "mms/mapping/ground/floor_tracker.hpp"
 #include "mms/mapping/tracking/association.hpp"
-#include "mms/mapping/tracking/lost_tracks.hpp"
 #include "mms/mapping/tracking/track.hpp"
+#include "mms/mapping/tracking/track_reidentifier.hpp"
 
 namespace mms {
 
@@ -19,11 +19,11 @@ struct DynamicMapConfig {
   TrackConfig track;
   int confirm_after = 4;
   int confirm_unknown_after = 10;
-  double max_missed = 1.5;     ///< [s]
-  double max_tentative = 1.0;  ///< [s]
-  double max_shown = 0.5;      ///< [s]
-  double history_lag = 1.0;    ///< [s]
-  ReturnConfig returning;
+  double max_missed = 1.5;        ///< [s]
+  double max_tentative = 1.0;     ///< [s]
+  double max_coast_output = 0.5;  ///< [s]
+  double history_lag = 1.0;       ///< [s]
+  ReidentificationConfig reidentification;
 
   void visit(ConfigVisitor& v) {
     v.group({"association", "", "which object continues which track"}, association);
@@ -35,12 +35,14 @@ struct DynamicMapConfig {
     v.number({"max_missed", "s", "longest time a track goes on unseen"}, max_missed, {0.0, 60.0});
     v.number({"max_tentative", "s", "the same for a tentative one, unseen by the network"},
              max_tentative, {0.0, 60.0});
-    v.number({"max_shown", "s", "longest time an unseen object is given as there"}, max_shown,
-             {0.0, 60.0});
+    v.number(
+        {"max_coast_output", "s", "longest time an unseen object is given as there", "max_shown"},
+        max_coast_output, {0.0, 60.0});
     v.number({"history_lag", "s",
               "objects' motions are written down as known so much later; 0: as known at once"},
              history_lag, {0.0, 60.0});
-    v.group({"returning", "", "objects that come back after they were lost"}, returning);
+    v.group({"reidentification", "", "objects that come back after they were lost", "returning"},
+            reidentification);
   }
 };
 
@@ -48,7 +50,7 @@ struct DynamicMapConfig {
 struct TrackedObject {
   ObjectBox box;
   TrackState state = TrackState::kActive;
-  MotionFilter motion;  ///< of the box's middle, with its covariance
+  MotionFilter motion;  ///< of the box's center, with its covariance
   Timestamp first_seen;
   Timestamp last_seen;
 };
@@ -59,7 +61,7 @@ struct TrackedObject {
 class DynamicMap {
  public:
   explicit DynamicMap(const DynamicMapConfig& config = {})
-      : config_(config), lost_(config.returning) {}
+      : config_(config), lost_(config.reidentification) {}
 
   /// Adds a frame; every frame, keyframe or not. A frame that is not later than the last one or has
   /// no finite pose changes nothing.
@@ -79,15 +81,15 @@ class DynamicMap {
   bool is_shared(const ObjectMeasurement& object, const std::vector<bool>& has_own) const;
   void confirm_seen();
   bool is_sure(const Track& track) const;
-  std::optional<Track> take_lost(const Track& track);
-  void let_go();
+  std::optional<Track> reidentify(const Track& track);
+  void prune();
   bool is_over(const Track& track) const;
 
   DynamicMapConfig config_;
-  FloorWatch floor_watch_;
+  FloorTracker floor_watch_;
   std::optional<GroundFrame> ground_;
   std::vector<Track> tracks_;
-  LostTracks lost_;
+  TrackReidentifier lost_;
   Timestamp last_stamp_{-1};
   int next_id_ = 1;
   int confirmed_ = 0;

@@ -46,9 +46,9 @@ Ends ends_along(const Group& group, const Eigen::Vector2d& axis) {
   std::vector<double> values;
   const std::size_t stride = 1 + (group.size() - 1) / kMaxPoints;
   for (std::size_t i = 0; i < group.size(); i += stride) values.push_back(axis.dot(group[i].place));
-  const auto cut = static_cast<std::ptrdiff_t>(kTrim * static_cast<double>(values.size()));
+  const auto truncation = static_cast<std::ptrdiff_t>(kTrim * static_cast<double>(values.size()));
   std::sort(values.begin(), values.end());
-  return {*(values.begin() + cut), *(values.end() - 1 - cut)};
+  return {*(values.begin() + truncation), *(values.end() - 1 - truncation)};
 }
 
 bool is_one(const Group& group, double max_extent) {
@@ -68,12 +68,12 @@ std::size_t nearest(const std::vector<Eigen::Vector2d>& means, const Eigen::Vect
 std::vector<Group> k_means(const Group& group, std::size_t count) {
   const Eigen::Vector2d axis = principal_axis(group);
   const Ends ends = ends_along(group, axis);
-  const Eigen::Vector2d middle = mean_of(group);
+  const Eigen::Vector2d center = mean_of(group);
   std::vector<Eigen::Vector2d> means;
   for (std::size_t k = 0; k < count; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(count - 1);
     const double along = ends.low + share * (ends.high - ends.low);
-    means.push_back(middle + (along - axis.dot(middle)) * axis);
+    means.push_back(center + (along - axis.dot(center)) * axis);
   }
   std::vector<Group> parts;
   for (int round = 0; round < kRounds; ++round) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mms/mapping/tracking/cluster_cuts.hpp"
+#include "mms/mapping/tracking/truncation.hpp"
 
 namespace mms {
 namespace {
@@ -45,7 +45,7 @@ std::vector<Eigen::Vector3d> corners(const DynamicCluster& cluster) {
   return points;
 }
 
-/// Points and middle in the world frame.
+/// Points and center in the world frame.
 void measure_points(const LabeledCloud& cloud, const std::vector<std::size_t>& indices,
                     const Transform<World, Sensor>& T_world_sensor, ObjectMeasurement& object) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -79,8 +79,8 @@ std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
                                                const TrackConfig& config) {
   const ClusterParts parts = divide_groups(cloud, T_world_sensor, ground, config);
   const auto indices = members(parts);
-  std::vector<ObjectMeasurement::Cut> cuts(parts.cluster.size());
-  if (cloud.organised()) cuts = find_cuts(cloud, parts);
+  std::vector<ObjectMeasurement::Truncation> truncations(parts.cluster.size());
+  if (cloud.organised()) truncations = find_truncations(cloud, parts);
   std::vector<ObjectMeasurement> objects;
   for (std::size_t p = 0; p < parts.cluster.size(); ++p) {
     const DynamicCluster& cluster = cloud.clusters[parts.cluster[p]];
@@ -95,7 +95,7 @@ std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
     object.largest = is_largest(cloud, parts.cluster[p]);
     object.sensor = T_world_sensor.translation();
     object.right = T_world_sensor.rotation().col(0);
-    object.cut = cuts[p];
+    object.truncation = truncations[p];
     if (indices[p].empty()) {
       for (const Eigen::Vector3d& corner : corners(cluster)) {
         object.points.push_back(T_world_sensor * corner);

@@ -25,13 +25,13 @@ struct ObjectMeasurement {
   Appearance appearance;  ///< empty without colours
 
   /// Where the object may go on unseen: at the image's border, or behind something nearer.
-  struct Cut {
+  struct Truncation {
     bool left = false;
     bool right = false;
     bool top = false;
     bool bottom = false;
     bool any() const { return left || right || top || bottom; }
-  } cut;
+  } truncation;
 };
 
 /// Measures the clusters of `cloud` in their order, of which the first under a mask is its largest,

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFirstPositionSigma = 0.2;  // [m]
 constexpr double kFirstVelocitySigma = 0.7;  // [m/s]
-constexpr double kRangeSigma = 0.005;        // of a middle per metre of range
+constexpr double kRangeSigma = 0.005;        // of a center per metre of range
 constexpr int kSizeMemory = 30;              // views over which a size is averaged
 constexpr double kGrowth = 0.3;              // share of an excess by which a size grows at once
 constexpr int kFirstViews = 5;               // that tell a size whatever it was taken for
@@ -19,7 +19,7 @@ constexpr float kColorGain = 0.1F;
 constexpr double kHeadingGain = 0.2;
 constexpr double kHeadingSpeed = 0.3;  // from which a way tells the heading [m/s]
 
-/// The middle of a body lies behind that of its visible side by so much of half its mean width: by
+/// The center of a body lies behind that of its visible side by so much of half its mean width: by
 /// less than the pi/4 of a cylinder, since limbs are thinner than the box about them.
 constexpr double kRoundDepth = 0.32;
 
@@ -46,7 +46,7 @@ Track::Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
       id_(id),
       first_seen_(first.stamp),
       last_seen_(first.stamp),
-      last_told_(first.stamp),
+      last_evidence_(first.stamp),
       predicted_(first.stamp),
       last_position_(first.centroid),
       motion_(first.centroid, ground.up(), kFirstPositionSigma, kFirstVelocitySigma),
@@ -74,7 +74,7 @@ void Track::predict(Timestamp stamp) {
 BoxFit Track::fit(const ObjectMeasurement& object,
                   const std::optional<Eigen::Vector3d>& expected) const {
   BoxFit fit = fit_box(object, ground_, heading_, size_, expected);
-  if (!is_round(object_class()) || object.cut.left || object.cut.right) return fit;
+  if (!is_round(object_class()) || object.truncation.left || object.truncation.right) return fit;
   const Eigen::Vector3d view = ground_.horizontal(object.centroid - object.sensor).normalized();
   const double radius = 0.25 * (size_.x() + size_.y());
   const double height = ground_.up().dot(fit.center);
@@ -83,7 +83,7 @@ BoxFit Track::fit(const ObjectMeasurement& object,
   return fit;
 }
 
-void Track::take_name(const ObjectMeasurement& object) {
+void Track::update_class(const ObjectMeasurement& object) {
   const ObjectClass before = object_class();
   ++votes_[static_cast<std::size_t>(object.object_class)];
   ++observations_;
@@ -94,10 +94,10 @@ void Track::take_name(const ObjectMeasurement& object) {
 }
 
 void Track::update(const ObjectMeasurement& object, bool shared) {
-  if (is_named(object)) take_name(object);
+  if (is_named(object)) update_class(object);
   const bool moves = object.object_class == ObjectClass::kUnknown;
-  if (moves) ++movements_;
-  if (is_named(object) || moves) last_told_ = object.stamp;
+  if (moves) ++motion_detections_;
+  if (is_named(object) || moves) last_evidence_ = object.stamp;
   last_seen_ = object.stamp;
   const BoxFit seen = fit(object);
   motion_.update(seen.center, error_of(object, shared || !seen.anchored));
@@ -107,22 +107,22 @@ void Track::update(const ObjectMeasurement& object, bool shared) {
   last_position_ = motion_.position();
 }
 
-PositionError Track::error_of(const ObjectMeasurement& object, bool is_loose) const {
+PositionError Track::error_of(const ObjectMeasurement& object, bool is_unanchored) const {
   PositionError error;
   const double range = (object.centroid - object.sensor).norm();
   error.noise = std::hypot(config_.position_sigma, kRangeSigma * range);
-  if (object.cut.left || object.cut.right) error.offset = config_.cut_sigma;
-  if (is_loose) error.offset = config_.loose_sigma;
+  if (object.truncation.left || object.truncation.right) error.offset = config_.truncated_sigma;
+  if (is_unanchored) error.offset = config_.unanchored_sigma;
   return error;
 }
 
 void Track::learn_shape(const ObjectMeasurement& object) {
   const Eigen::Vector3d expected = motion_.position();
   const Eigen::Vector3d before = fit(object, expected).center;
-  if (!object.cut.any()) learn_heading(object);
+  if (!object.truncation.any()) learn_heading(object);
   learn_size(fit(object, expected));
   appearance_.learn(object.appearance, kColorGain);
-  // Another size or heading puts the middle elsewhere, which is no motion.
+  // Another size or heading puts the center elsewhere, which is no motion.
   motion_.shift(fit(object, expected).center - before);
 }
 
@@ -147,7 +147,7 @@ void Track::learn_size(const BoxFit& fit) {
       const double gain = lacks_some ? kShrinking : 1.0 / (prior.views + whole_views_[k]);
       size += gain * (seen - size);
     } else if (seen > size) {
-      size += kGrowth * (seen - size);  // what is cut off can only be larger
+      size += kGrowth * (seen - size);  // what is truncation off can only be larger
     }
   }
   if (is_round(object_class())) return;

@@ -46,12 +46,14 @@ class Track {
   bool confirmed() const { return confirmed_; }
 
   int id() const { return id_; }
-  int observations() const { return observations_; }  ///< with a mask of their own
-  int movements() const { return movements_; }        ///< told by nothing but its movement
+  int observations() const { return observations_; }    ///< with a mask of their own
+  int movements() const { return motion_detections_; }  ///< told by nothing but its movement
   Timestamp first_seen() const { return first_seen_; }
   Timestamp last_seen() const { return last_seen_; }
   Eigen::Vector3d last_position() const { return last_position_; }  ///< at last_seen
-  Timestamp last_told() const { return last_told_; }  ///< seen with a mask of its own, or to move
+  Timestamp last_evidence() const {
+    return last_evidence_;
+  }  ///< seen with a mask of its own, or to move
   Eigen::Vector3d position() const { return motion_.position(); }
   Eigen::Matrix3d position_covariance() const { return motion_.position_covariance(); }
   const MotionFilter& motion() const { return motion_; }
@@ -67,8 +69,8 @@ class Track {
 
  private:
   BoxFit fit(const ObjectMeasurement& object, const std::optional<Eigen::Vector3d>& expected) const;
-  void take_name(const ObjectMeasurement& object);
-  PositionError error_of(const ObjectMeasurement& object, bool is_loose) const;
+  void update_class(const ObjectMeasurement& object);
+  PositionError error_of(const ObjectMeasurement& object, bool is_unanchored) const;
   void learn_shape(const ObjectMeasurement& object);
   void learn_size(const BoxFit& fit);
   void learn_heading(const ObjectMeasurement& object);
@@ -77,12 +79,12 @@ class Track {
   GroundFrame ground_;
   int id_;
   int observations_ = 0;
-  int movements_ = 0;
+  int motion_detections_ = 0;
   double score_ = 0.0;
   bool confirmed_ = false;
   Timestamp first_seen_;
   Timestamp last_seen_;
-  Timestamp last_told_;
+  Timestamp last_evidence_;
   Timestamp predicted_;
   Eigen::Vector3d last_position_;
   std::array<int, kObjectClassCount> votes_{};

@@ -36,9 +36,9 @@ struct ClassPrior {
 /// How a tracked object moves and is seen.
 struct TrackConfig {
   double acceleration_noise = 0.2;  ///< spectral density [m^2/s^3]
-  double position_sigma = 0.03;     ///< of a box's middle [m]
-  double cut_sigma = 0.1;           ///< of one with an end out of view [m]
-  double loose_sigma = 0.25;        ///< of one that no end in view holds [m]
+  double position_sigma = 0.03;     ///< of a box's center [m]
+  double truncated_sigma = 0.1;     ///< of one with an end out of view [m]
+  double unanchored_sigma = 0.25;   ///< of one that no end in view holds [m]
   double max_speed = 3.0;           ///< [m/s]
   double moving_speed = 0.2;        ///< [m/s]
   double stopped_speed = 0.12;      ///< [m/s]
@@ -56,10 +56,12 @@ struct TrackConfig {
              acceleration_noise, {1e-4, 100.0});
     v.number({"position_sigma", "m", "error of the middle of a box in view"}, position_sigma,
              {1e-3, 10.0});
-    v.number({"cut_sigma", "m", "error of the middle of a box with an end out of view"}, cut_sigma,
-             {1e-3, 10.0});
-    v.number({"loose_sigma", "m", "error of the middle of a box that no end in view holds"},
-             loose_sigma, {1e-3, 10.0});
+    v.number({"truncated_sigma", "m", "error of the middle of a box with an end out of view",
+              "cut_sigma"},
+             truncated_sigma, {1e-3, 10.0});
+    v.number({"unanchored_sigma", "m", "error of the middle of a box that no end in view holds",
+              "loose_sigma"},
+             unanchored_sigma, {1e-3, 10.0});
     v.number({"max_speed", "m/s", "fastest object"}, max_speed, {0.1, 100.0});
     v.number({"moving_speed", "m/s", "from which a standing object is said to move"}, moving_speed,
              {0.0, 10.0});

@@ -24,7 +24,7 @@ class ExpectedBox {
   float lowest_;
 };
 
-std::size_t leave_out(const ExpectedBox& box, LabeledCloud& cloud) {
+std::size_t mask(const ExpectedBox& box, LabeledCloud& cloud) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.labels[i] != PointLabel::kStatic || !box.contains(cloud.points[i])) continue;
@@ -36,12 +36,13 @@ std::size_t leave_out(const ExpectedBox& box, LabeledCloud& cloud) {
 
 }  // namespace
 
-std::size_t leave_out_unseen(const std::vector<TrackedObject>& objects,
-                             const Transform<World, Sensor>& T_world_sensor, LabeledCloud& cloud) {
+std::size_t mask_unseen_objects(const std::vector<TrackedObject>& objects,
+                                const Transform<World, Sensor>& T_world_sensor,
+                                LabeledCloud& cloud) {
   std::size_t count = 0;
   for (const TrackedObject& object : objects) {
     if (object.state != TrackState::kCoasting) continue;
-    count += leave_out(ExpectedBox(object.box, T_world_sensor), cloud);
+    count += mask(ExpectedBox(object.box, T_world_sensor), cloud);
   }
   return count;
 }

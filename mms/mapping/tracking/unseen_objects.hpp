@@ -14,7 +14,8 @@ namespace mms {
 /// `objects` that coast become dynamic ones of no cluster; the floor they stand on stays.
 ///
 /// @return  points that became dynamic
-std::size_t leave_out_unseen(const std::vector<TrackedObject>& objects,
-                             const Transform<World, Sensor>& T_world_sensor, LabeledCloud& cloud);
+std::size_t mask_unseen_objects(const std::vector<TrackedObject>& objects,
+                                const Transform<World, Sensor>& T_world_sensor,
+                                LabeledCloud& cloud);
 
 }  // namespace mms

@@ -23,9 +23,9 @@ RecoveredRun recover_run(const std::filesystem::path& journal) {
   StaticMap map = empty_map(run.header);
   while (const std::optional<JournalFrame> frame = reader.next()) {
     if (frame->map) map.apply(*frame->map);
-    const bool is_told_again =
+    const bool has_evidence_again =
         !run.trajectory.empty() && run.trajectory.back().stamp == frame->stamp;
-    if (is_told_again) continue;
+    if (has_evidence_again) continue;
     const StampedPose pose{frame->stamp, frame->T_world_sensor};
     run.trajectory.push_back(pose);
     if (frame->keyframe) run.keyframes.push_back(pose);

@@ -126,8 +126,8 @@ Detection cropped(const Detection& loose) {
 
 }  // namespace
 
-Detection enlarged_mask(const std::vector<float>& soft, int mask_width,
-                        const PreparedImage& prepared) {
+Detection upsampled_mask(const std::vector<float>& soft, int mask_width,
+                         const PreparedImage& prepared) {
   const Box box =
       bounds(soft, mask_width, [](float probability) { return probability > kThreshold; });
   if (box.right < box.left) return {};

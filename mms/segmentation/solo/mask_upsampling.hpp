@@ -10,7 +10,7 @@ namespace mms {
 /// where they exceed one half, cropped. Without category and score; an empty mask when nothing
 /// does.
 /// @param soft        probabilities at a quarter of the input's size, rows of mask_width
-Detection enlarged_mask(const std::vector<float>& soft, int mask_width,
-                        const PreparedImage& prepared);
+Detection upsampled_mask(const std::vector<float>& soft, int mask_width,
+                         const PreparedImage& prepared);
 
 }  // namespace mms

@@ -169,7 +169,8 @@ std::vector<Detection> decode(const HeadMaps& maps, const NetworkConfig& network
   suppress(candidates, config);
   std::vector<Detection> detections;
   for (const Candidate& candidate : candidates) {
-    Detection detection = enlarged_mask(probabilities(candidate.logits), maps.mask_width, prepared);
+    Detection detection =
+        upsampled_mask(probabilities(candidate.logits), maps.mask_width, prepared);
     if (detection.mask.empty()) continue;
     detection.category = candidate.nms.category;
     detection.score = candidate.nms.score;

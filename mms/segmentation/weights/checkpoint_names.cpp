@@ -49,7 +49,7 @@ constexpr std::array<Replacement, 25> kBeginnings = {{
 }};
 
 // Parts in the middle, which no other framework's names have.
-constexpr std::array<Replacement, 11> kMiddles = {{
+constexpr std::array<Replacement, 11> kCenters = {{
     // detectron2
     {".conv1.norm.", ".bn1."},
     {".conv2.norm.", ".bn2."},
@@ -85,8 +85,8 @@ void replace_beginning(std::string& name) {
   }
 }
 
-void replace_middle(std::string& name) {
-  for (const auto& [from, to] : kMiddles) {
+void replace_center(std::string& name) {
+  for (const auto& [from, to] : kCenters) {
     const std::size_t at = name.find(from);
     if (at == std::string::npos) continue;
     name.replace(at, from.size(), to);
@@ -115,7 +115,7 @@ std::optional<std::string> network_name(std::string published) {
   replace_beginning(published);
   replace_tower(published, "ins_head.cate_tower.", "mask_head.cls_convs.");
   replace_tower(published, "ins_head.kernel_tower.", "mask_head.kernel_convs.");
-  replace_middle(published);
+  replace_center(published);
   return published;
 }
 

@@ -46,7 +46,7 @@ class BackboneTransfer {
       const std::string norm = name.substr(0, name.size() - kMean.size());
       const std::string conv = conv_before(norm);
       if (find(conv + ".weight") == nullptr || !(take_norm(norm) || unfold_norm(conv, norm))) {
-        leave_out(conv, norm);
+        skip(conv, norm);
       } else {
         take_conv(conv);
       }
@@ -89,7 +89,7 @@ class BackboneTransfer {
 
   void take_conv(const std::string& conv) { taken(conv + ".weight") = *find(conv + ".weight"); }
 
-  void leave_out(const std::string& conv, const std::string& norm) {
+  void skip(const std::string& conv, const std::string& norm) {
     result_.left_out.push_back(conv + ".weight");
     for (const std::string_view part : kNormParts) {
       result_.left_out.push_back(norm + std::string(part));

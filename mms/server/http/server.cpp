@@ -134,7 +134,7 @@ class ViewerServer::Parts {
     });
   }
 
-  /// So that changes of the map do not pile up while nobody looks.
+  /// So that changes of the map do not pile up while nobody views.
   void take_over_map() {
     map_timer_.expires_after(kMapPeriod);
     map_timer_.async_wait([this](ErrorCode error) {

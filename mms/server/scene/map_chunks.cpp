@@ -105,7 +105,7 @@ class CellMeans {
 
 void MapChunks::apply(const MapChanges& changes) {
   ++version_;
-  ++looks_;
+  ++views_;
   if (changes.whole || changes.voxel_size != voxel_size_) {
     chunks_.clear();
     voxels_ = 0;
@@ -148,7 +148,7 @@ void MapChunks::erase(const VoxelKey& voxel) {
 }
 
 bool MapChunks::is_shown(const Block& block, const VoxelChange& voxel) const {
-  const std::size_t needed = std::min(static_cast<std::size_t>(min_observations_), looks_);
+  const std::size_t needed = std::min(static_cast<std::size_t>(min_observations_), views_);
   return is_voxel_shown(voxel.hits, block.views, needed);
 }
 

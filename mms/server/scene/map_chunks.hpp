@@ -31,7 +31,7 @@ struct ChunkState {
 };
 
 /// The static map in cubes of kSide^3 voxels that viewers are sent one by one. It repeats what the
-/// looks did to the map (MapChanges), and shows the voxels that the map itself would show.
+/// views did to the map (MapChanges), and shows the voxels that the map itself would show.
 class MapChunks {
  public:
   static constexpr int kBlockBits = 3;  ///< 8 voxels are a block's side
@@ -39,10 +39,10 @@ class MapChunks {
   static constexpr int kSide = 1 << kSideBits;  ///< voxels
   static constexpr int kLevels = 4;             ///< 0 to 3, the coarsest
 
-  /// @param min_observations  looks that have to see a voxel before it is shown
+  /// @param min_observations  views that have to see a voxel before it is shown
   explicit MapChunks(int min_observations) : min_observations_(min_observations) {}
 
-  /// Repeats the changes of a look. Voxels with no place in a block are passed over.
+  /// Repeats the changes of a view. Voxels with no place in a block are passed over.
   void apply(const MapChanges& changes);
 
   /// The chunks that have voxels, by key.
@@ -78,7 +78,7 @@ class MapChunks {
   int min_observations_;
   double voxel_size_ = 0.0;
   std::uint64_t version_ = 0;
-  std::size_t looks_ = 0;
+  std::size_t views_ = 0;
   std::size_t voxels_ = 0;
   std::map<VoxelKey, Chunk> chunks_;
 };

@@ -23,7 +23,7 @@ class Scene {
   /// in a thread of the server, one call at a time, and may take its time.
   using ViewLoader = std::function<std::shared_ptr<const SensorView>(std::size_t frame)>;
 
-  /// @param min_observations  looks that have to see a voxel of the map before it is shown
+  /// @param min_observations  views that have to see a voxel of the map before it is shown
   explicit Scene(SceneInfo info, int min_observations = 1);
 
   /// Adds a frame. @param view  replaces that of the frame before; may be null

@@ -34,7 +34,7 @@ class MapFeed {
 
   void set_budget(std::size_t points) { budget_ = points; }
 
-  /// Plans anew. @param focus  where the viewer looks, world frame [m]
+  /// Plans anew. @param focus  where the viewer views, world frame [m]
   void plan(const std::vector<ChunkState>& map, const Eigen::Vector3f& focus,
             Clock::time_point now);
 

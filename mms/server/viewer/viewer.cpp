@@ -10,7 +10,7 @@ namespace mms {
 namespace {
 
 constexpr std::chrono::milliseconds kLivePeriod{66};   ///< between a live run's frames
-constexpr std::chrono::milliseconds kPlanPeriod{500};  ///< between looks at the map
+constexpr std::chrono::milliseconds kPlanPeriod{500};  ///< between views at the map
 constexpr std::size_t kDefaultBudget = 5'000'000;      ///< points of the map
 constexpr std::size_t kMaxErrors = 8;                  ///< messages that wait
 constexpr float kFocusMoved = 2.0F;                    ///< [m]
@@ -215,7 +215,7 @@ std::optional<Viewer::Encode> Viewer::next_chunk(Clock::time_point now) {
   };
 }
 
-/// Where the viewer looks; where the sensor is, unless it said so.
+/// Where the viewer views; where the sensor is, unless it said so.
 Eigen::Vector3f Viewer::focus() const {
   if (focus_) return *focus_;
   const SceneFrames frame = scene_.frames(playhead_.frame(), playhead_.frame() + 1);

@@ -22,7 +22,7 @@ Eigen::Isometry3f turned(float x, float y, float z, float yaw) {
 
 /// Walls of a rectangular room about the origin: where each begins to count from, seen from inside.
 struct Side {
-  Eigen::Isometry3f T;  ///< foot of the wall's middle, x along it, y into the room
+  Eigen::Isometry3f T;  ///< foot of the wall's center, x along it, y into the room
   float length;
 };
 
@@ -90,11 +90,11 @@ void furnish_wall(Mesh& mesh, const Side& side, float clutter, bool gates, Rando
 /// Lines on the floor on both sides of a straight part of the lane.
 void mark_lane(Mesh& mesh, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                double half_width, const Material& paint) {
-  const Eigen::Vector2d middle = 0.5 * (from + to);
+  const Eigen::Vector2d center = 0.5 * (from + to);
   const Eigen::Vector2d along = to - from;
   const auto yaw = static_cast<float>(std::atan2(along.y(), along.x()));
   const Eigen::Isometry3f T =
-      turned(static_cast<float>(middle.x()), static_cast<float>(middle.y()), 0.0F, yaw);
+      turned(static_cast<float>(center.x()), static_cast<float>(center.y()), 0.0F, yaw);
   const auto length = static_cast<float>(along.norm() - 2.0 * half_width);
   for (const float side : {-1.0F, 1.0F}) {
     add_marking(mesh, T * at(0.0F, side * static_cast<float>(half_width), 0.0F), length, 0.1F,
@@ -124,7 +124,7 @@ void add_workplaces(Building& building, double x_from, double x_to, double y, do
   }
 }
 
-/// 26 x 18 m with two double rows of racks in the middle and a lane of about 60 m round them.
+/// 26 x 18 m with two double rows of racks in the center and a lane of about 60 m round them.
 Building build_hall(const SceneConfig& config, RandomStream& random) {
   constexpr float kHalfX = 13.0F;
   constexpr float kHalfY = 9.0F;

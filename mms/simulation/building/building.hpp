@@ -19,7 +19,7 @@ struct Workplace {
 struct Building {
   Mesh mesh;
   Lights lights;
-  std::vector<Eigen::Vector2d> lane;  ///< corners of the middle of the lane that is driven on
+  std::vector<Eigen::Vector2d> lane;  ///< corners of the center of the lane that is driven on
   bool lane_closed = false;
   double lane_half_width = 1.0;  ///< [m]
   std::vector<Workplace> workplaces;

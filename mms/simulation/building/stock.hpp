@@ -8,7 +8,7 @@
 namespace mms {
 
 /// Things that stand about in a warehouse. All are added with the origin of `T` on the floor in
-/// their middle and z up; x is along their length [m].
+/// their center and z up; x is along their length [m].
 
 /// A wooden pallet of 1.2 x 0.8 x 0.14 m.
 void add_pallet(Mesh& mesh, const Eigen::Isometry3f& T, RandomStream& random);

@@ -10,7 +10,7 @@ namespace mms {
 namespace {
 
 constexpr std::array<std::string_view, 3> kLayouts = {"hall", "corridor", "aisle"};
-constexpr std::array<std::string_view, 4> kRides = {"still", "loop", "along", "shaken"};
+constexpr std::array<std::string_view, 4> kTrajectories = {"still", "loop", "along", "shaken"};
 constexpr std::array<std::string_view, 8> kScenes = {"warehouse_loop", "still_walker", "crowd",
                                                      "stop_and_go",    "corridor",     "static",
                                                      "fast",           "rack_aisle"};
@@ -29,7 +29,7 @@ SceneConfig warehouse_loop() {
 SceneConfig still_walker() {
   SceneConfig config = nobody(warehouse_loop());
   config.duration = 20.0;
-  config.ride = CameraRide::kStill;
+  config.trajectory = CameraTrajectory::kStill;
   config.crossing = 1;
   config.pause_share = 0.0;
   return config;
@@ -38,7 +38,7 @@ SceneConfig still_walker() {
 SceneConfig crowd() {
   SceneConfig config = nobody(warehouse_loop());
   config.duration = 20.0;
-  config.ride = CameraRide::kAlong;
+  config.trajectory = CameraTrajectory::kAlong;
   config.speed = 0.03;
   config.crossing_from = 1.25;
   config.crossing_beyond = 4.5;
@@ -52,7 +52,7 @@ SceneConfig crowd() {
 SceneConfig stop_and_go() {
   SceneConfig config = warehouse_loop();
   config.duration = 40.0;
-  config.ride = CameraRide::kAlong;
+  config.trajectory = CameraTrajectory::kAlong;
   config.speed = 0.4;
   config.crossing = 4;
   config.leading = 0;
@@ -66,7 +66,7 @@ SceneConfig corridor() {
   SceneConfig config = nobody(warehouse_loop());
   config.duration = 30.0;
   config.layout = Layout::kCorridor;
-  config.ride = CameraRide::kAlong;
+  config.trajectory = CameraTrajectory::kAlong;
   config.speed = 0.8;
   config.leading = 1;
   return config;
@@ -82,7 +82,7 @@ SceneConfig fast() {
   SceneConfig config = warehouse_loop();
   config.duration = 15.0;
   config.hz = 30.0;
-  config.ride = CameraRide::kShaken;
+  config.trajectory = CameraTrajectory::kShaken;
   config.speed = 1.2;
   config.exposure = 0.016;
   config.blur_samples = 4;
@@ -95,7 +95,7 @@ SceneConfig rack_aisle() {
   SceneConfig config = nobody(warehouse_loop());
   config.duration = 30.0;
   config.layout = Layout::kAisle;
-  config.ride = CameraRide::kAlong;
+  config.trajectory = CameraTrajectory::kAlong;
   config.speed = 0.9;
   config.leading = 1;
   config.working = 1;
@@ -120,7 +120,8 @@ void SceneConfig::visit(ConfigVisitor& v) {
   v.integer({"blur_samples", "", "instants an exposure is made of; 1: no motion blur"},
             blur_samples, {1.0, 64.0});
   v.enumeration({"layout", "", "what is built"}, layout, kLayouts);
-  v.enumeration({"ride", "", "how the sensor rides through it"}, ride, kRides);
+  v.enumeration({"trajectory", "", "how the sensor rides through it", "ride"}, trajectory,
+                kTrajectories);
   v.number({"speed", "m/s", "of the sensor"}, speed, {0.01, 5.0});
   v.number({"camera_height", "m", "over the floor"}, camera_height, {0.2, 2.5});
   v.number({"clutter", "", "density of pallets and signs"}, clutter, {0.0, 1.0});

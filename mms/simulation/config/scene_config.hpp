@@ -11,12 +11,12 @@
 namespace mms {
 
 enum class Layout : std::uint8_t {
-  kHall,      ///< racks in the middle, a lane all round them
+  kHall,      ///< racks in the center, a lane all round them
   kCorridor,  ///< bare walls, few features
   kAisle,     ///< a long aisle between two equal racks
 };
 
-enum class CameraRide : std::uint8_t {
+enum class CameraTrajectory : std::uint8_t {
   kStill,   ///< stands and looks down a lane
   kLoop,    ///< once round the racks, back to where it began
   kAlong,   ///< to the end of the lane, corridor or aisle and on
@@ -28,7 +28,7 @@ enum class CameraRide : std::uint8_t {
 struct SceneConfig {
   std::string name = "warehouse_loop";
   int seed = 1;
-  double duration = 64.0;  ///< how long the ride lasts and everybody has ways for [s]
+  double duration = 64.0;  ///< how long the trajectory lasts and everybody has ways for [s]
   int frames = 0;          ///< how many of its frames are played; 0: all
   double hz = 0.0;         ///< frames a second; 0: the sensor's own
   int sensor = 0;          ///< index into sensor_names()
@@ -37,7 +37,7 @@ struct SceneConfig {
   double exposure = 0.0;   ///< [s]; 0: the camera's own
   int blur_samples = 1;    ///< instants that an exposure is made of; 1: no motion blur
   Layout layout = Layout::kHall;
-  CameraRide ride = CameraRide::kLoop;
+  CameraTrajectory trajectory = CameraTrajectory::kLoop;
   double speed = 1.0;            ///< of the sensor [m/s]
   double camera_height = 1.0;    ///< [m]
   double clutter = 1.0;          ///< density of pallets, boxes and signs, in [0, 1]

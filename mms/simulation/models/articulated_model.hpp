@@ -17,7 +17,7 @@ struct Activity {
 };
 
 /// A person or an AGV: rigid parts that move against each other. Object frame: origin on the floor
-/// below the middle, x forward, z up.
+/// below the center, x forward, z up.
 class ArticulatedModel {
  public:
   virtual ~ArticulatedModel() = default;

@@ -10,7 +10,7 @@ enum class Pattern : std::uint8_t {
   kPlaster,    ///< a wall: stains of several sizes
   kPlanks,     ///< a floor of boards
   kTiles,      ///< square panels with dark joints
-  kPoster,     ///< random coloured blocks with a white rim
+  kPoster,     ///< random coloured blocks with a white boundary
   kHazard,     ///< two colours in turn along the diagonal
   kConcrete,   ///< slabs with stains, cracks and tyre marks
   kCardboard,  ///< brown board with tape, prints of the second colour and a white label

@@ -36,15 +36,17 @@ void add_fan(Mesh& mesh, const Eigen::Isometry3f& T, const std::vector<Eigen::Ve
   const Eigen::Vector3f u = normal.unitOrthogonal();
   const Eigen::Vector3f v = normal.cross(u);
   const auto uv_of = [&](const Eigen::Vector3f& p) { return Eigen::Vector2f(p.dot(u), p.dot(v)); };
-  const std::uint32_t middle = add_vertex(mesh, T, center, normal, uv_of(center));
-  std::vector<std::uint32_t> rim;
-  for (const Eigen::Vector3f& p : outline) rim.push_back(add_vertex(mesh, T, p, normal, uv_of(p)));
-  for (std::size_t i = 0; i < rim.size(); ++i) {
-    const std::size_t next = (i + 1) % rim.size();
+  const std::uint32_t hub = add_vertex(mesh, T, center, normal, uv_of(center));
+  std::vector<std::uint32_t> boundary;
+  for (const Eigen::Vector3f& p : outline)
+    boundary.push_back(add_vertex(mesh, T, p, normal, uv_of(p)));
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    const std::size_t next = (i + 1) % boundary.size();
     const Eigen::Vector3f turn = (outline[i] - center).cross(outline[next] - center);
     const bool forward = turn.dot(normal) > 0.0F;
     mesh.triangles.push_back(
-        {{middle, forward ? rim[i] : rim[next], forward ? rim[next] : rim[i]}, material});
+        {{hub, forward ? boundary[i] : boundary[next], forward ? boundary[next] : boundary[i]},
+         material});
   }
 }
 

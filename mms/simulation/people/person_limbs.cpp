@@ -132,11 +132,11 @@ Mesh make_shoe(const PersonStyle& style, const PersonProportions& body) {
                                     {floor + 0.10F, 0.043F, 0.038F, -0.006F},
                                     {floor + 0.125F, 0.042F, 0.038F, -0.008F}};
   add_loft(mesh, at(0, 0, 0), rounded_rings(scaled_rings(collar, body.scale), 1), upper, 12);
-  const float middle = 0.5F * (body.toe - body.heel) / body.scale;
+  const float center = 0.5F * (body.toe - body.heel) / body.scale;
   const float half = 0.5F * (body.toe + body.heel) / body.scale;
-  const std::vector<Ring> plate = {{floor, half, 0.043F, middle},
-                                   {floor + 0.012F, half, 0.047F, middle},
-                                   {floor + 0.026F, half - 0.004F, 0.045F, middle}};
+  const std::vector<Ring> plate = {{floor, half, 0.043F, center},
+                                   {floor + 0.012F, half, 0.047F, center},
+                                   {floor + 0.026F, half - 0.004F, 0.045F, center}};
   add_loft(mesh, at(0, 0, 0), scaled_rings(plate, body.scale), sole, 18);
   return mesh;
 }

@@ -13,9 +13,9 @@ struct PersonProportions {
   float ankle;         ///< from the floor to the ankle joint
   float shank;         ///< ankle to knee
   float thigh;         ///< knee to hip
-  float hip_y;         ///< from the middle to a hip joint
+  float hip_y;         ///< from the center to a hip joint
   float waist;         ///< from the hips to where the torso turns
-  float shoulder_y;    ///< from the middle to a shoulder
+  float shoulder_y;    ///< from the center to a shoulder
   float shoulder_z;    ///< from the waist to the shoulders
   float neck;          ///< from the waist to where the head turns
   float upper_arm;     ///< shoulder to elbow

@@ -20,7 +20,7 @@ std::vector<Ring> scaled_rings(std::vector<Ring> rings, float factor);
 /// Material at height z [m] and angle about the z axis (0 in front, pi/2 left), in [0, 2 pi).
 using Paint = std::function<std::uint32_t(float z, float angle)>;
 
-/// A loft whose skin has the material that `paint` says for the middle of each of its patches.
+/// A loft whose skin has the material that `paint` says for the center of each of its patches.
 void add_painted_loft(Mesh& mesh, const std::vector<Ring>& rings, const Paint& paint, int segments);
 
 /// Rotation about an axis through the origin, as a pose.

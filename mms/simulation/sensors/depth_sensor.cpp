@@ -13,7 +13,7 @@ namespace mms {
 namespace {
 
 constexpr std::size_t kRowsAtOnce = 16;
-constexpr float kJump = 0.06F;      // of inverse depth, relative, that makes a rim
+constexpr float kJump = 0.06F;      // of inverse depth, relative, that makes a boundary
 constexpr float kMaxGrowth = 4.0F;  // of sigma with the angle
 constexpr int kMaxReach = 8;        // [px]
 
@@ -53,13 +53,14 @@ void look_across(const float* here, std::ptrdiff_t step, int width, float* beyon
     const float limit = kJump * std::max(d, other);
     const float jump = std::abs(other - d);
     const float bend = std::abs(other - 2.0F * d + here[x - step]);
-    const bool rim = (jump > limit) & (bend > limit);
-    beyond[x] = rim & (jump > std::abs(beyond[x] - d)) ? other : beyond[x];
+    const bool boundary = (jump > limit) & (bend > limit);
+    beyond[x] = boundary & (jump > std::abs(beyond[x] - d)) ? other : beyond[x];
   }
 }
 
-/// Inverse depths across the rim for the pixels of row `y`: their own where there is no rim.
-void find_rims(const InverseDepth& inverse, int y, int reach, std::vector<float>& beyond) {
+/// Inverse depths across the boundary for the pixels of row `y`: their own where there is no
+/// boundary.
+void find_boundaries(const InverseDepth& inverse, int y, int reach, std::vector<float>& beyond) {
   const float* here = inverse.row(y);
   const int width = static_cast<int>(beyond.size());
   std::copy(here, here + width, beyond.begin());
@@ -73,8 +74,9 @@ void find_rims(const InverseDepth& inverse, int y, int reach, std::vector<float>
 
 /// A pixel's exact surface.
 struct Surface {
-  float z = 0.0F;       // [m]
-  float beyond = 0.0F;  // depth across the rim [m], infinite for nothing there; z away from rims
+  float z = 0.0F;  // [m]
+  float beyond =
+      0.0F;  // depth across the boundary [m], infinite for nothing there; z away from boundaries
   float cosine = 0.0F;
   float reflectance = 0.0F;
   float gloss = 0.0F;
@@ -92,8 +94,8 @@ class Measurement {
         step_(static_cast<float>(sensor.step)),
         lost_cosine_(static_cast<float>(std::max(sensor.lost_cosine, 1e-6))),
         darkness_(static_cast<float>(sensor.lost_darkness / (sensor.max_range * sensor.max_range))),
-        rim_lost_(static_cast<float>(sensor.rim_lost)),
-        rim_mixed_(static_cast<float>(sensor.rim_mixed)) {}
+        boundary_lost_(static_cast<float>(sensor.boundary_lost)),
+        boundary_mixed_(static_cast<float>(sensor.boundary_mixed)) {}
 
   /// Depth measured, 0 for none; `hash` decides.
   float operator()(const Surface& s, std::uint64_t hash) const {
@@ -101,8 +103,9 @@ class Measurement {
     float z = s.z;
     if (s.beyond != s.z) {
       const float chance = uniform_of(hash_of(hash, 1));
-      if (chance < rim_lost_) return 0.0F;
-      if (chance < rim_lost_ + rim_mixed_) z += (s.beyond - z) * uniform_of(hash_of(hash, 2));
+      if (chance < boundary_lost_) return 0.0F;
+      if (chance < boundary_lost_ + boundary_mixed_)
+        z += (s.beyond - z) * uniform_of(hash_of(hash, 2));
     }
     if (!in_range(z)) return 0.0F;
     z = quantised(z + sigma(z, s.cosine) * normal_of(hash_of(hash)));
@@ -140,8 +143,8 @@ class Measurement {
   float step_;
   float lost_cosine_;
   float darkness_;  // reflectance needed at 1 m
-  float rim_lost_;
-  float rim_mixed_;
+  float boundary_lost_;
+  float boundary_mixed_;
 };
 
 /// `value`, or 0 where it is no number or negative.
@@ -153,7 +156,7 @@ float sane(float value) {
 
 Image<float> measured_depth(const ExactView& view, const DepthSensor& sensor, std::uint64_t key) {
   const int width = view.depth.width();
-  const int reach = std::clamp(sensor.rim_reach, 0, kMaxReach);
+  const int reach = std::clamp(sensor.boundary_reach, 0, kMaxReach);
   const InverseDepth inverse(view.depth, reach);
   const Measurement measure(sensor);
   const std::uint64_t stream = hash_of(key);
@@ -168,7 +171,7 @@ Image<float> measured_depth(const ExactView& view, const DepthSensor& sensor, st
                   [&](auto begin, auto end) {
                     std::vector<float> beyond(static_cast<std::size_t>(width));
                     for (std::size_t y = begin; y < end; ++y) {
-                      find_rims(inverse, static_cast<int>(y), reach, beyond);
+                      find_boundaries(inverse, static_cast<int>(y), reach, beyond);
                       const float* own = inverse.row(static_cast<int>(y));
                       const std::size_t first = y * beyond.size();
                       for (std::size_t x = 0; x < beyond.size(); ++x) {

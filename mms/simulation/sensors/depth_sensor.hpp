@@ -26,9 +26,9 @@ struct DepthSensor {
   /// Darker materials give nothing at `max_range`; nearer by the inverse square of the range
   /// (light that returns), and half of those 1.5 times as bright.
   double lost_darkness = 0.03;
-  double rim_lost = 0.4;   ///< share of pixels at rims of objects that give nothing
-  double rim_mixed = 0.2;  ///< ... and a depth between both surfaces ("flying pixels")
-  int rim_reach = 2;       ///< pixels this near to a jump of depth are its rim [px], at most 8
+  double boundary_lost = 0.4;   ///< share of pixels at boundaries of objects that give nothing
+  double boundary_mixed = 0.2;  ///< ... and a depth between both surfaces ("flying pixels")
+  int boundary_reach = 2;  ///< pixels this near to a jump of depth are its boundary [px], at most 8
 };
 
 /// Depth as the camera measures it [m], 0 for none and else within the sensor's range. Besides what

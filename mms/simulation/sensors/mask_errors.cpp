@@ -12,11 +12,11 @@ namespace mms {
 namespace {
 
 constexpr float kWave = 24.0F;      // length over which the retreat varies [px of 640]
-constexpr int kFramesOfShape = 4;   // over which the rim's shape changes
+constexpr int kFramesOfShape = 4;   // over which the boundary's shape changes
 constexpr double kThinnest = 5.0;   // objects narrower than this many retreats lose less
 constexpr float kSpillMin = 4.0F;   // [px of 640]
 constexpr float kSpillMax = 10.0F;  // [px of 640]
-enum Kind : std::uint64_t { kMissed = 1, kLostPart, kSpill, kRim };
+enum Kind : std::uint64_t { kMissed = 1, kLostPart, kSpill, kBoundary };
 
 /// What became of a pixel of the window around an object.
 enum State : std::uint8_t { kFree, kOwn, kEroded, kCutOff, kOthers };
@@ -34,10 +34,10 @@ std::optional<std::uint64_t> spell_at(double share, double mean, std::uint64_t k
   const auto draw = [&](std::uint64_t i) {
     return static_cast<double>(uniform_of(hash_of(hash, i)));
   };
-  const double middle = share * static_cast<double>(block);
+  const double center = share * static_cast<double>(block);
   const double longest =
-      std::min(std::max(2.0 * middle - 1.0, middle), static_cast<double>(block - 1));
-  const double drawn = middle + (longest - middle) * (2.0 * draw(1) - 1.0);
+      std::min(std::max(2.0 * center - 1.0, center), static_cast<double>(block - 1));
+  const double drawn = center + (longest - center) * (2.0 * draw(1) - 1.0);
   const auto length = static_cast<std::int64_t>(drawn + draw(2));
   const auto start = static_cast<std::int64_t>(draw(3) * static_cast<double>(block - length));
   const std::int64_t inside = time % block - start;
@@ -78,7 +78,7 @@ class ObjectMask {
     const double limit = box.shorter_side() / kThinnest;
     const double strength = wanted > limit ? limit / wanted : 1.0;
     retreat_ = static_cast<float>(strength * wanted);
-    ragged_ = static_cast<float>(strength * config.raggedness) * scale_;
+    jitter_ = static_cast<float>(strength * config.boundary_jitter) * scale_;
     const int margin = static_cast<int>(std::ceil(retreat_ + 1.5F * kSpillMax * scale_)) + 1;
     x0_ = std::max(box.x0 - margin, 0);
     y0_ = std::max(box.y0 - margin, 0);
@@ -92,21 +92,21 @@ class ObjectMask {
     }
   }
 
-  /// Takes a ragged band off the rim; its shape changes over some frames.
+  /// Takes a ragged band off the boundary; its shape changes over some frames.
   void erode(std::uint64_t key, int index) {
-    if (!(retreat_ + ragged_ > 0.0F)) return;
-    const int limit = static_cast<int>(std::ceil(retreat_ + ragged_)) + 1;
-    const Image<int> rows = rows_to_rim(limit);
+    if (!(retreat_ + jitter_ > 0.0F)) return;
+    const int limit = static_cast<int>(std::ceil(retreat_ + jitter_)) + 1;
+    const Image<int> rows = rows_to_boundary(limit);
     const auto shape = static_cast<std::uint64_t>(index / kFramesOfShape);
     const std::array seeds{hash_of(key, shape), hash_of(key, shape + 1)};
     const float share = static_cast<float>(index % kFramesOfShape) / kFramesOfShape;
     for (int y = 0; y < state_.height(); ++y) {
       for (int x = 0; x < state_.width(); ++x) {
         if (state_(x, y) != kOwn) continue;
-        const float inside = distance_to_rim(rows, x, y, limit);
+        const float inside = distance_to_boundary(rows, x, y, limit);
         if (inside >= static_cast<float>(limit)) continue;
         const float noise = (1.0F - share) * wave(seeds[0], x, y) + share * wave(seeds[1], x, y);
-        if (inside < retreat_ + ragged_ * noise) state_(x, y) = kEroded;
+        if (inside < retreat_ + jitter_ * noise) state_(x, y) = kEroded;
       }
     }
   }
@@ -135,7 +135,7 @@ class ObjectMask {
     }
   }
 
-  /// Sweeps the mask to one side, over the eroded rim and some pixels of what stands behind.
+  /// Sweeps the mask to one side, over the eroded boundary and some pixels of what stands behind.
   void spill(std::uint64_t hash) {
     const float angle = 2.0F * std::numbers::pi_v<float> * uniform_of(hash_of(hash, 21));
     const float reach =
@@ -168,7 +168,7 @@ class ObjectMask {
 
   /// Rows from each pixel to the nearest one that is not the object's, at most `limit` + 1. Beyond
   /// the image the object goes on.
-  Image<int> rows_to_rim(int limit) const {
+  Image<int> rows_to_boundary(int limit) const {
     Image<int> rows(state_.width(), state_.height());
     for (int x = 0; x < state_.width(); ++x) {
       int count = limit + 1;
@@ -183,9 +183,9 @@ class ObjectMask {
     return rows;
   }
 
-  /// Distance [px] of a pixel's centre to the rim, which is half a pixel before the nearest pixel
-  /// that is not the object's; `limit` or more for far.
-  float distance_to_rim(const Image<int>& rows, int x, int y, int limit) const {
+  /// Distance [px] of a pixel's centre to the boundary, which is half a pixel before the nearest
+  /// pixel that is not the object's; `limit` or more for far.
+  float distance_to_boundary(const Image<int>& rows, int x, int y, int limit) const {
     int nearest2 = (limit + 1) * (limit + 1);
     const int last = std::min(x + limit, state_.width() - 1);
     for (int other = std::max(x - limit, 0); other <= last; ++other) {
@@ -208,7 +208,7 @@ class ObjectMask {
   Box box_;
   float scale_;           // pixels for one of a 640 px wide image
   float retreat_ = 0.0F;  // [px]
-  float ragged_ = 0.0F;   // [px]
+  float jitter_ = 0.0F;   // [px]
   int x0_ = 0;            // left column of the window
   int y0_ = 0;            // top row of the window
   Image<std::uint8_t> state_;
@@ -223,7 +223,7 @@ void segment(const Image<std::uint8_t>& instances, std::uint8_t id, const Box& b
   };
   if (spell(config.missed, kMissed)) return;
   ObjectMask mask(instances, id, box, config);
-  mask.erode(hash_of(key, kRim), index);
+  mask.erode(hash_of(key, kBoundary), index);
   if (const auto hash = spell(config.lost_parts, kLostPart)) mask.cut(*hash);
   if (const auto hash = spell(config.spill, kSpill)) mask.spill(*hash);
   mask.write(labels, label);
@@ -250,8 +250,9 @@ void MaskErrorConfig::visit(ConfigVisitor& v) {
            {1.0, 1000.0});
   v.number({"erosion", "px", "mean retreat of the rim, for images 640 px wide"}, erosion,
            {0.0, 50.0});
-  v.number({"raggedness", "px", "how much the retreat varies, for images 640 px wide"}, raggedness,
-           {0.0, 50.0});
+  v.number({"boundary_jitter", "px", "how much the retreat varies, for images 640 px wide",
+            "raggedness"},
+           boundary_jitter, {0.0, 50.0});
   v.number({"lost_parts", "", "share of an object's frames in which its mask lacks a part"},
            lost_parts, {0.0, 0.9});
   v.number({"spill", "", "share of an object's frames in which its mask covers background too"},

@@ -16,10 +16,10 @@ struct MaskErrorConfig {
   bool enabled = false;
   double missed = 0.15;  ///< share of an object's frames without any mask
   double spell = 4.0;    ///< mean length of every kind of spell [frames]
-  /// Mean retreat of the rim [px of a 640 px wide image]; less on objects narrower than five times
-  /// that, which would vanish.
+  /// Mean retreat of the boundary [px of a 640 px wide image]; less on objects narrower than five
+  /// times that, which would vanish.
   double erosion = 3.0;
-  double raggedness = 3.0;   ///< how much the retreat varies along the rim [px of 640]
+  double boundary_jitter = 3.0;  ///< how much the retreat varies along the boundary [px of 640]
   double lost_parts = 0.15;  ///< share of frames in which an object lacks a part (legs, arm, half)
   double spill = 0.1;        ///< share of frames in which the mask covers some background too
 

@@ -13,7 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::array<std::string_view, 6> kNames{"l515",    "d435",    "kinect",
                                                  "lidar16", "lidar64", "livox"};
 
-/// 640x480 camera of focal length `f` [px] with an optical centre slightly off the middle.
+/// 640x480 camera of focal length `f` [px] with an optical centre slightly off the center.
 CameraIntrinsics vga_camera(double f, double cx, double cy, std::array<double, 5> distortion) {
   return {
       .fx = f, .fy = f, .cx = cx, .cy = cy, .width = 640, .height = 480, .distortion = distortion};
@@ -34,9 +34,9 @@ SensorPreset l515() {
   depth.step = 0.00025;
   depth.lost_cosine = 0.08;
   depth.lost_darkness = 0.5;  // half of a 15 % target lost at 4 m, hardly any of a 95 % one at 9 m
-  depth.rim_lost = 0.3;
-  depth.rim_mixed = 0.25;
-  depth.rim_reach = 1;
+  depth.boundary_lost = 0.3;
+  depth.boundary_mixed = 0.25;
+  depth.boundary_reach = 1;
   head.depth = depth;
   head.depth_scale = 4000.0;
   return head;
@@ -59,9 +59,9 @@ SensorPreset d435() {
   depth.step = 1.0 / (32.0 * 447.0 * 0.050);
   depth.lost_cosine = 0.06;
   depth.lost_darkness = 0.02;  // passive light and a projector: darkness matters little
-  depth.rim_lost = 0.35;
-  depth.rim_mixed = 0.35;
-  depth.rim_reach = 4;  // half of a matching window
+  depth.boundary_lost = 0.35;
+  depth.boundary_mixed = 0.35;
+  depth.boundary_reach = 4;  // half of a matching window
   head.depth = depth;
   return head;
 }

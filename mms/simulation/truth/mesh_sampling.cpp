@@ -31,7 +31,7 @@ std::array<const Vertex*, 3> widest_first(const Mesh& mesh, const Triangle& tria
   return corners;
 }
 
-/// Takes the middles of cells of at most spacing x spacing along two sides.
+/// Takes the centers of cells of at most spacing x spacing along two sides.
 void sample_triangle(const Mesh& mesh, const Triangle& triangle, float spacing, TruthCloud& cloud) {
   const auto [a, b, c] = widest_first(mesh, triangle);
   const Eigen::Vector3f ab = b->position - a->position;

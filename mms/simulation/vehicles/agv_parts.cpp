@@ -29,7 +29,7 @@ void add_block(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& hi
 
 void add_bevelled(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& high, float bevel,
                   std::uint32_t material) {
-  const Eigen::Vector3f middle = 0.5F * (low + high);
+  const Eigen::Vector3f center = 0.5F * (low + high);
   const Eigen::Vector3f half = 0.5F * (high - low);
   const auto outline = [&](float length, float inset) {
     const float top = half.z() - inset;
@@ -38,7 +38,7 @@ void add_bevelled(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f&
                                         {bevel - length, top}, {-length, top - bevel}};
   };
   Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
-  T.translation() = middle;
+  T.translation() = center;
   add_prism(mesh, T, outline(half.x(), 0.0F), half.y() - bevel, material);
   add_prism(mesh, T, outline(half.x() - bevel, 0.6F * bevel), half.y(), material);
 }

@@ -49,10 +49,10 @@ float AgvStyle::wave(std::uint64_t what, float period, double seconds) const {
 }
 
 AgvAssembly::Joint AgvStyle::swing(std::uint64_t what, float period, const Eigen::Vector3f& axis,
-                                   float middle, float amplitude,
+                                   float center, float amplitude,
                                    const Eigen::Isometry3f& T) const {
-  return [style = *this, what, period, axis, middle, amplitude, T](const Activity& activity) {
-    const float angle = middle + amplitude * style.wave(what, period, activity.seconds);
+  return [style = *this, what, period, axis, center, amplitude, T](const Activity& activity) {
+    const float angle = center + amplitude * style.wave(what, period, activity.seconds);
     return T * Eigen::Isometry3f(Eigen::AngleAxisf(angle, axis));
   };
 }

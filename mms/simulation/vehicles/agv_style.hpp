@@ -20,9 +20,9 @@ class AgvStyle {
   /// Sine of time with a period of about `period` [s]; another beginning for every `what`.
   float wave(std::uint64_t what, float period, double seconds) const;
 
-  /// Joint at `T` that swings about `axis` by `middle` +- `amplitude` [rad] as wave() says.
+  /// Joint at `T` that swings about `axis` by `center` +- `amplitude` [rad] as wave() says.
   AgvAssembly::Joint swing(std::uint64_t what, float period, const Eigen::Vector3f& axis,
-                           float middle, float amplitude, const Eigen::Isometry3f& T) const;
+                           float center, float amplitude, const Eigen::Isometry3f& T) const;
 
   Material paint() const;  ///< of the body
   Material trim() const;   ///< of what stands out from it

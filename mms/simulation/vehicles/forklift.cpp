@@ -7,7 +7,7 @@ namespace mms {
 namespace {
 
 constexpr float kMast = 0.42F;     ///< x of the mast in the frame of the body [m]
-constexpr float kMiddle = -0.23F;  ///< x of that frame in the object frame [m]
+constexpr float kCenter = -0.23F;  ///< x of that frame in the object frame [m]
 
 /// Body with counterweight and, on half of them, a seat below an overhead guard.
 Mesh make_body(const AgvStyle& style, bool guard, float top) {
@@ -135,11 +135,11 @@ std::unique_ptr<ArticulatedModel> make_forklift(std::uint64_t seed) {
   const bool guard = style.chance(30, 0.55F);
   const float top = style.between(32, 1.95F, 2.05F);
   const std::size_t body =
-      agv.add(make_body(style, guard, top), AgvAssembly::kBody, at(kMiddle, 0, 0));
+      agv.add(make_body(style, guard, top), AgvAssembly::kBody, at(kCenter, 0, 0));
   if (guard) agv.add(make_guard(style, top), body, at(0, 0, 0));
   for (const float y : {-0.46F, 0.46F}) {
-    add_wheel(agv, style, 0.16F + kMiddle, y, 0.24F, 0.16F, style.trim());
-    add_wheel(agv, style, -0.66F + kMiddle, 0.96F * y, 0.19F, 0.15F, style.trim());
+    add_wheel(agv, style, 0.16F + kCenter, y, 0.24F, 0.16F, style.trim());
+    add_wheel(agv, style, -0.66F + kCenter, 0.96F * y, 0.19F, 0.15F, style.trim());
   }
   // The inner mast rises half as far as the forks.
   const auto lift = [style](const Activity& activity) {

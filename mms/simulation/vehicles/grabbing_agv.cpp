@@ -82,9 +82,9 @@ Mesh make_finger(const AgvStyle& style) {
 void add_arm(AgvAssembly& agv, const AgvStyle& style) {
   const Eigen::Vector3f y = Eigen::Vector3f::UnitY();
   const Eigen::Vector3f z = Eigen::Vector3f::UnitZ();
-  const auto turn = [&](std::uint64_t what, float period, const Eigen::Vector3f& axis, float middle,
+  const auto turn = [&](std::uint64_t what, float period, const Eigen::Vector3f& axis, float center,
                         float amplitude, float height) {
-    return style.swing(what, period, axis, middle, amplitude, at(0, 0, height));
+    return style.swing(what, period, axis, center, amplitude, at(0, 0, height));
   };
   const std::size_t table =
       agv.add(make_turntable(style), AgvAssembly::kBody,

@@ -24,7 +24,7 @@ struct Station {
   Eigen::Vector2d across() const { return {-along.y(), along.x()}; }
 };
 
-/// The lane's middle, measured in metres from where the sensor starts.
+/// The lane's center, measured in metres from where the sensor starts.
 class Lane {
  public:
   Lane(const Building& building, const Motion& robot)
@@ -134,21 +134,21 @@ class Casting {
   /// The lane's corners moved sideways, from the sensor's start on.
   std::vector<Eigen::Vector2d> lane_corners(double aside) const {
     std::vector<Eigen::Vector2d> corners;
-    const std::vector<Eigen::Vector2d>& middle = lane_.corners();
-    const std::size_t count = lane_.closed() ? middle.size() - 1 : middle.size();
+    const std::vector<Eigen::Vector2d>& center = lane_.corners();
+    const std::size_t count = lane_.closed() ? center.size() - 1 : center.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector2d before =
-          i == 0 && !lane_.closed() ? middle[0] : middle[(i + count - 1) % count];
+          i == 0 && !lane_.closed() ? center[0] : center[(i + count - 1) % count];
       const Eigen::Vector2d after =
-          i + 1 == count && !lane_.closed() ? middle[i] : middle[(i + 1) % count];
-      const Eigen::Vector2d in = (middle[i] - before).norm() > 0.0
-                                     ? Eigen::Vector2d((middle[i] - before).normalized())
-                                     : Eigen::Vector2d((after - middle[i]).normalized());
+          i + 1 == count && !lane_.closed() ? center[i] : center[(i + 1) % count];
+      const Eigen::Vector2d in = (center[i] - before).norm() > 0.0
+                                     ? Eigen::Vector2d((center[i] - before).normalized())
+                                     : Eigen::Vector2d((after - center[i]).normalized());
       const Eigen::Vector2d out =
-          (after - middle[i]).norm() > 0.0 ? Eigen::Vector2d((after - middle[i]).normalized()) : in;
+          (after - center[i]).norm() > 0.0 ? Eigen::Vector2d((after - center[i]).normalized()) : in;
       Eigen::Vector2d side(-in.y() - out.y(), in.x() + out.x());
       side /= std::max(1e-9, 0.5 * side.squaredNorm());
-      corners.push_back(middle[i] + aside * side);
+      corners.push_back(center[i] + aside * side);
     }
     return corners;
   }

@@ -24,7 +24,7 @@ void add_eval_command(CLI::App& app) {
   add_eval_trajectory(*eval);
   add_eval_drift(*eval);
   add_eval_map(*eval);
-  add_eval_residue(*eval);
+  add_eval_ghost_points(*eval);
   add_eval_segmentation(*eval);
   add_eval_objects(*eval);
 }

@@ -7,17 +7,18 @@
 #include <vector>
 
 #include "apps/mms/commands/eval/eval_parts.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
+#include "mms/evaluation/map/ghost_points.hpp"
 #include "mms/evaluation/map/map_error.hpp"
-#include "mms/evaluation/map/map_residue.hpp"
 #include "mms/io/cloud/ply_io.hpp"
 
 namespace mms {
 namespace {
 
 struct MapArguments {
-  std::string truth;  ///< PLY with labels, or the recording a residue is seen by
+  std::string truth;  ///< PLY with labels, or the recording a ghost_points is seen by
   std::string map;
   bool json = false;
 };
@@ -43,7 +44,7 @@ void evaluate_cleanness(const MapArguments& arguments) {
   print_metrics(metric_values(error), arguments.json);
 }
 
-void evaluate_residue_of(const MapArguments& arguments) {
+void evaluate_ghost_points_of(const MapArguments& arguments) {
   const auto source = open_dataset(arguments.truth, {.masks = {}, .load_masks = false});
   source->on_warning(
       [](const std::string& message) { fmt::print(stderr, "warning: {}\n", message); });
@@ -51,14 +52,16 @@ void evaluate_residue_of(const MapArguments& arguments) {
   std::optional<CameraIntrinsics> camera;
   while (const auto frame = source->next()) {
     if (!frame->has_depth()) {
-      throw DataError(arguments.truth, "has no depth images", "the residue is seen by a camera");
+      throw DataError(arguments.truth, "has no depth images",
+                      "ghost points are counted in the view of a camera");
     }
     room.add(frame->depth);
     camera = frame->calibration->camera;
   }
   if (!camera) throw DataError(arguments.truth, "has no readable frame");
   const auto map = read_ply(arguments.map).points;
-  print_metrics(metric_values(evaluate_residue(map, room.far_mode(), *camera)), arguments.json);
+  print_metrics(metric_values(evaluate_ghost_points(map, room.far_mode(), *camera)),
+                arguments.json);
 }
 
 }  // namespace
@@ -75,15 +78,28 @@ void add_eval_map(CLI::App& eval) {
   command->callback([arguments] { evaluate_cleanness(*arguments); });
 }
 
-void add_eval_residue(CLI::App& eval) {
+namespace {
+
+void add_ghost_points(CLI::App& command, bool is_former_name) {
   const auto arguments = std::make_shared<MapArguments>();
-  CLI::App* command = eval.add_subcommand(
-      "residue", "What moving things left in a map, seen by a camera that stood still");
-  command->add_option("DATA", arguments->truth, "recording of the camera that stood still")
+  command.add_option("DATA", arguments->truth, "recording of the camera that stood still")
       ->required();
-  command->add_option("MAP", arguments->map, "PLY of its static map")->required();
-  add_json_flag(*command, arguments->json);
-  command->callback([arguments] { evaluate_residue_of(*arguments); });
+  command.add_option("MAP", arguments->map, "PLY of its static map")->required();
+  add_json_flag(command, arguments->json);
+  command.callback([arguments, is_former_name] {
+    if (is_former_name) print_warnings({"mms eval residue is now called mms eval ghost-points"});
+    evaluate_ghost_points_of(*arguments);
+  });
+}
+
+}  // namespace
+
+void add_eval_ghost_points(CLI::App& eval) {
+  add_ghost_points(*eval.add_subcommand("ghost-points",
+                                        "Points that people and vehicles left in a static map, "
+                                        "seen by a camera that stood still"),
+                   false);
+  add_ghost_points(*eval.add_subcommand("residue", "Former name of ghost-points")->group(""), true);
 }
 
 }  // namespace mms

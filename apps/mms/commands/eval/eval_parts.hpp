@@ -11,7 +11,7 @@ namespace mms {
 void add_eval_trajectory(CLI::App& eval);
 void add_eval_drift(CLI::App& eval);
 void add_eval_map(CLI::App& eval);
-void add_eval_residue(CLI::App& eval);
+void add_eval_ghost_points(CLI::App& eval);
 void add_eval_segmentation(CLI::App& eval);
 void add_eval_objects(CLI::App& eval);
 

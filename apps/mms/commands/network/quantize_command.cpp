@@ -10,6 +10,7 @@
 #include "apps/mms/commands/network/picture_source.hpp"
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/rate_progress.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 #include "mms/io/weights/safetensors.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
@@ -28,7 +29,7 @@ struct QuantizeArguments {
   std::size_t images = 300;
   int long_side = 0;
   std::size_t judged = 8;
-  bool bytes = false;
+  bool int8_weights = false;
   bool sensitivity = false;
 };
 
@@ -109,9 +110,9 @@ void quantize(const QuantizeArguments& arguments) {
   const std::vector<PreparedImage> judged = some_of(pictures, arguments.judged);
   if (arguments.sensitivity) print_sensitivities(model, arguments, quantization, judged);
   const double error = engine::output_error(model, where, quantization, judged);
-  if (arguments.bytes) model.weights = engine::weights_in_bytes(model, quantization);
+  if (arguments.int8_weights) model.weights = engine::weights_in_bytes(model, quantization);
   engine::pack_quantization(quantization, model.weights);
-  const TensorType type = arguments.bytes ? TensorType::kInt8 : TensorType::kFloat16;
+  const TensorType type = arguments.int8_weights ? TensorType::kInt8 : TensorType::kFloat16;
   write_safetensors(arguments.output, pack_model(std::move(model)), type);
   fmt::print("{}: calibrated on {} pictures, the outputs change by {:.1f} %\n",
              arguments.output.string(), pictures.size(), 100.0 * error);
@@ -146,11 +147,15 @@ void add_quantize_command(CLI::App& app) {
       ->add_option("--float-layers", arguments->float_layers,
                    "convolutions to leave in float32, with commas")
       ->delimiter(',');
-  command->add_flag("--bytes", arguments->bytes,
-                    "write the weights in bytes as well: half the file, the same results in int8");
+  command->add_flag("--int8-weights", arguments->int8_weights,
+                    "write the weights in int8 as well: half the file, the same results in int8");
+  CLI::Option* former = command->add_flag("--bytes", arguments->int8_weights)->group("");
   command->add_flag("--sensitivity", arguments->sensitivity,
                     "say what each convolution alone costs in accuracy");
-  command->callback([arguments] { quantize(*arguments); });
+  command->callback([arguments, former] {
+    if (former->count() > 0) print_warnings({"--bytes is now called --int8-weights"});
+    quantize(*arguments);
+  });
 }
 
 }  // namespace mms

@@ -13,6 +13,7 @@
 #include "apps/mms/commands/network/picture_source.hpp"
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/rate_progress.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/io/image/coco_io.hpp"
@@ -43,7 +44,7 @@ struct SegmentArguments {
 
 SegmentationConfig settings_of(const SegmentArguments& arguments) {
   SystemConfig config;
-  if (!arguments.config.empty()) load_config(arguments.config, config);
+  if (!arguments.config.empty()) print_warnings(load_config(arguments.config, config));
   if (!arguments.weights.empty()) config.segmentation.weights = arguments.weights.string();
   config.segmentation.threads = arguments.threads;
   return config.segmentation;

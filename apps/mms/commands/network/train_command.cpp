@@ -8,6 +8,7 @@
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/thread_limit.hpp"
 #include "apps/mms/console/training_progress.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/training/run/training_run.hpp"
 
@@ -22,7 +23,7 @@ struct TrainArguments {
 
 void train(const TrainArguments& arguments) {
   TrainingConfig config;
-  load_config(arguments.config, config);
+  print_warnings(load_config(arguments.config, config));
   const ThreadLimit limit(arguments.threads);
   const InterruptGuard interrupt;
   TrainingProgress progress;

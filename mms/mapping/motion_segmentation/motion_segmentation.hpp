@@ -8,23 +8,24 @@
 #include "mms/core/transform.hpp"
 #include "mms/geometry/depth_noise.hpp"
 #include "mms/mapping/free_space/free_space.hpp"
-#include "mms/mapping/motion_segmentation/movement_config.hpp"
-#include "mms/mapping/motion_segmentation/view_memory.hpp"
+#include "mms/mapping/motion_segmentation/free_space_history.hpp"
+#include "mms/mapping/motion_segmentation/motion_segmentation_config.hpp"
 
 namespace mms {
 
 /// Finds what moves without a name (beyond the paper, which knows only what the network was
 /// taught): points that stand where a view some moments ago looked through. A person whom the
-/// network missed is found like a cart that it never learned. Of organised clouds; `ScanMovement`
-/// is that of LiDAR scans.
-class Movement {
+/// network missed is found like a cart that it never learned. Of organised clouds;
+/// `ScanMotionSegmentation` is that of LiDAR scans.
+class MotionSegmentation {
  public:
-  Movement(const MovementConfig& config, const DepthNoise& noise)
+  MotionSegmentation(const MotionSegmentationConfig& config, const DepthNoise& noise)
       : config_(config), noise_(noise), views_(config) {}
 
   /// Makes static points of `cloud` dynamic that stand in free space, as far as they belong to
-  /// things wider than the rims that an error of `T_world_sensor`, the expected pose, gives. A
-  /// thing that adjoins a cluster becomes a part of it, any other one a cluster of unknown class.
+  /// components wider than the boundaries that an error of `T_world_sensor`, the expected pose,
+  /// gives. A component that adjoins a cluster becomes a part of it, any other one a cluster of
+  /// unknown class.
   /// @returns non-zero at their pixels; empty where there are none
   Image<std::uint8_t> relabel(LabeledCloud& cloud,
                               const Transform<World, Sensor>& T_world_sensor) const;
@@ -33,9 +34,9 @@ class Movement {
   void remember(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
 
  private:
-  MovementConfig config_;
+  MotionSegmentationConfig config_;
   DepthNoise noise_;
-  ViewMemory<FreeSpace> views_;
+  FreeSpaceHistory<FreeSpace> views_;
 };
 
 }  // namespace mms

@@ -1,4 +1,4 @@
-#include "mms/mapping/tracking/lost_tracks.hpp"
+#include "mms/mapping/tracking/track_reidentifier.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ std::vector<int> ids(const DynamicMap& map) {
   return ids;
 }
 
-TEST(LostTracks, WhoComesBackElsewhereInTheSameDressKeepsTheId) {
+TEST(TrackReidentifier, WhoComesBackElsewhereInTheSameDressKeepsTheId) {
   DynamicMap map;
   show(map, 0.0, {{3.0, -2.0, kRed}, {3.0, 2.0, kBlue}});
   show(map, 1.0, {});
@@ -76,7 +76,7 @@ TEST(LostTracks, WhoComesBackElsewhereInTheSameDressKeepsTheId) {
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-TEST(LostTracks, WhoComesBackWhileExpectedElsewhereKeepsTheId) {
+TEST(TrackReidentifier, WhoComesBackWhileExpectedElsewhereKeepsTheId) {
   DynamicMap map;
   show(map, 0.0, {{3.0, -2.0, kRed}});
   // Half a second unseen, and farther away than where an object may be expected.
@@ -86,7 +86,7 @@ TEST(LostTracks, WhoComesBackWhileExpectedElsewhereKeepsTheId) {
   EXPECT_EQ(map.confirmed(), 1);
 }
 
-TEST(LostTracks, WhoStandsBesideOneInTheSameDressIsSomebodyElse) {
+TEST(TrackReidentifier, WhoStandsBesideOneInTheSameDressIsSomebodyElse) {
   DynamicMap map;
   show(map, 0.0, {{3.0, -2.0, kRed}});
   show(map, 1.0, {{3.0, -2.0, kRed}, {3.0, -0.5, kRed}});
@@ -94,7 +94,7 @@ TEST(LostTracks, WhoStandsBesideOneInTheSameDressIsSomebodyElse) {
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-TEST(LostTracks, WhoIsDressedOtherwiseIsSomebodyElse) {
+TEST(TrackReidentifier, WhoIsDressedOtherwiseIsSomebodyElse) {
   DynamicMap map;
   show(map, 0.0, {{3.0, -2.0, kRed}});
   show(map, 1.0, {});
@@ -113,13 +113,13 @@ bool is_known_again(double seconds, const Person& who) {
   return ids(map) == std::vector<int>{1};
 }
 
-TEST(LostTracks, TheLongerAndFartherTheMoreAlikeOneHasToBe) {
+TEST(TrackReidentifier, TheLongerAndFartherTheMoreAlikeOneHasToBe) {
   EXPECT_TRUE(is_known_again(2.0, {3.0, -2.0, kRed, kBlue}));
   EXPECT_FALSE(is_known_again(30.0, {3.0, 3.0, kRed, kBlue}));
   EXPECT_TRUE(is_known_again(30.0, {3.0, 3.0, kRed}));
 }
 
-TEST(LostTracks, WhoCannotHaveComeSoFarIsSomebodyElse) {
+TEST(TrackReidentifier, WhoCannotHaveComeSoFarIsSomebodyElse) {
   DynamicMap map;
   show(map, 0.0, {{3.0, -2.0, kRed}});
   show(map, 1.0, {});
@@ -127,7 +127,7 @@ TEST(LostTracks, WhoCannotHaveComeSoFarIsSomebodyElse) {
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-TEST(LostTracks, OfTwoInTheSameDressNeitherIsGuessed) {
+TEST(TrackReidentifier, OfTwoInTheSameDressNeitherIsGuessed) {
   DynamicMap map;
   show(map, 0.0, {{3.0, -2.0, kRed}, {3.0, 2.0, kRed}});
   show(map, 1.0, {});
@@ -135,9 +135,9 @@ TEST(LostTracks, OfTwoInTheSameDressNeitherIsGuessed) {
   EXPECT_EQ(map.confirmed(), 3);
 }
 
-TEST(LostTracks, AreForgottenInTheEnd) {
+TEST(TrackReidentifier, AreForgottenInTheEnd) {
   DynamicMapConfig config;
-  config.returning.max_away = 5.0;
+  config.reidentification.max_away = 5.0;
   DynamicMap map(config);
   show(map, 0.0, {{3.0, -2.0, kRed}});
   show(map, 10.0, {});

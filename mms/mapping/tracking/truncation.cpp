@@ -1,4 +1,4 @@
-#include "mms/mapping/tracking/cluster_cuts.hpp"
+#include "mms/mapping/tracking/truncation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,34 +7,34 @@
 namespace mms {
 namespace {
 
-constexpr int kGap = 4;             // pixels without a return that a rim may have beside it
+constexpr int kGap = 4;             // pixels without a return that a boundary may have beside it
 constexpr float kNearer = 0.25F;    // by which an occluder is before the object [m]
-constexpr double kCutShare = 0.25;  // of a side's rim
+constexpr double kCutShare = 0.25;  // of a side's boundary
 
 enum Side : std::size_t { kLeft, kRight, kTop, kBottom, kSideCount };
 
-/// Rim pixels of a part by side.
-struct Rim {
+/// Boundary pixels of a part by side.
+struct Boundary {
   std::array<int, kSideCount> all{};
-  std::array<int, kSideCount> cut{};
-  bool is_cut(Side side) const { return cut[side] > kCutShare * all[side]; }
+  std::array<int, kSideCount> truncation{};
+  bool is_truncated(Side side) const { return truncation[side] > kCutShare * all[side]; }
 };
 
-class RimCounter {
+class BoundaryCounter {
  public:
-  RimCounter(const LabeledCloud& cloud, const ClusterParts& parts)
-      : cloud_(cloud), part_(parts.part), rims_(parts.cluster.size()) {}
+  BoundaryCounter(const LabeledCloud& cloud, const ClusterParts& parts)
+      : cloud_(cloud), part_(parts.part), boundaries_(parts.cluster.size()) {}
 
-  std::vector<Rim> count() {
+  std::vector<Boundary> count() {
     for (int y = 0; y < cloud_.height; ++y) scan_line(0, y, 1, 0, cloud_.width, kLeft, kRight);
     for (int x = 0; x < cloud_.width; ++x) scan_line(x, 0, 0, 1, cloud_.height, kTop, kBottom);
-    return std::move(rims_);
+    return std::move(boundaries_);
   }
 
  private:
-  /// The first and the last pixel of every part along a row or column are its rim there.
+  /// The first and the last pixel of every part along a row or column are its boundary there.
   void scan_line(int x, int y, int dx, int dy, int length, Side low, Side high) {
-    ends_.assign(rims_.size(), {-1, -1});
+    ends_.assign(boundaries_.size(), {-1, -1});
     for (int i = 0; i < length; ++i) {
       const int c = part_[index(x + i * dx, y + i * dy)];
       if (c < 0) continue;
@@ -42,7 +42,7 @@ class RimCounter {
       if (first < 0) first = i;
       last = i;
     }
-    for (std::size_t c = 0; c < rims_.size(); ++c) {
+    for (std::size_t c = 0; c < boundaries_.size(); ++c) {
       const auto [first, last] = ends_[c];
       if (first < 0) continue;
       note(c, low, x + first * dx, y + first * dy, -dx, -dy);
@@ -51,8 +51,8 @@ class RimCounter {
   }
 
   void note(std::size_t part, Side side, int x, int y, int dx, int dy) {
-    ++rims_[part].all[side];
-    if (ends_at_border_or_occluder(x, y, dx, dy)) ++rims_[part].cut[side];
+    ++boundaries_[part].all[side];
+    if (ends_at_border_or_occluder(x, y, dx, dy)) ++boundaries_[part].truncation[side];
   }
 
   bool ends_at_border_or_occluder(int x, int y, int dx, int dy) const {
@@ -71,19 +71,20 @@ class RimCounter {
 
   const LabeledCloud& cloud_;
   const std::vector<std::int16_t>& part_;
-  std::vector<Rim> rims_;
+  std::vector<Boundary> boundaries_;
   std::vector<std::pair<int, int>> ends_;
 };
 
 }  // namespace
 
-std::vector<ObjectMeasurement::Cut> find_cuts(const LabeledCloud& cloud,
-                                              const ClusterParts& parts) {
-  std::vector<ObjectMeasurement::Cut> cuts;
-  for (const Rim& rim : RimCounter(cloud, parts).count()) {
-    cuts.push_back({rim.is_cut(kLeft), rim.is_cut(kRight), rim.is_cut(kTop), rim.is_cut(kBottom)});
+std::vector<ObjectMeasurement::Truncation> find_truncations(const LabeledCloud& cloud,
+                                                            const ClusterParts& parts) {
+  std::vector<ObjectMeasurement::Truncation> truncations;
+  for (const Boundary& boundary : BoundaryCounter(cloud, parts).count()) {
+    truncations.push_back({boundary.is_truncated(kLeft), boundary.is_truncated(kRight),
+                           boundary.is_truncated(kTop), boundary.is_truncated(kBottom)});
   }
-  return cuts;
+  return truncations;
 }
 
 }  // namespace mms

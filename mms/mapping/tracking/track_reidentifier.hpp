@@ -8,18 +8,19 @@
 
 namespace mms {
 
-struct ReturnConfig {
-  double max_away = 60.0;   ///< [s]
-  double spread = 0.25;     ///< [m/s]
-  double strangers = 0.02;  ///< [1/m^2]
+struct ReidentificationConfig {
+  double max_away = 60.0;            ///< [s]
+  double spread = 0.25;              ///< [m/s]
+  double new_object_density = 0.02;  ///< [1/m^2]
   double min_probability = 0.67;
 
   void visit(ConfigVisitor& v) {
     v.number({"max_away", "s", "longest time after which an object is known again"}, max_away,
              {0.0, 3600.0});
     v.number({"spread", "m/s", "at which its place becomes uncertain"}, spread, {0.0, 100.0});
-    v.number({"strangers", "1/m^2", "objects never seen before, over the floor"}, strangers,
-             {1e-9, 100.0});
+    v.number(
+        {"new_object_density", "1/m^2", "objects never seen before, over the floor", "strangers"},
+        new_object_density, {1e-9, 100.0});
     v.number({"min_probability", "", "that it is the one it is taken for"}, min_probability,
              {0.5, 1.0});
   }
@@ -28,9 +29,9 @@ struct ReturnConfig {
 /// Objects that went out of view. A new one is one of them, by Bayes' rule, if its looks and its
 /// place say so: who looks a little different is known again where he was seen a moment ago, who
 /// was away for long only in the same dress.
-class LostTracks {
+class TrackReidentifier {
  public:
-  explicit LostTracks(const ReturnConfig& config) : config_(config) {}
+  explicit TrackReidentifier(const ReidentificationConfig& config) : config_(config) {}
 
   /// Keeps a track; the oldest goes when there are many.
   void add(const Track& track);
@@ -47,7 +48,7 @@ class LostTracks {
  private:
   double likelihood(const Track& lost, const Track& track) const;
 
-  ReturnConfig config_;
+  ReidentificationConfig config_;
   std::vector<Track> lost_;
 };
 

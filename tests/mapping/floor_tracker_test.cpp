@@ -10,15 +10,15 @@ namespace {
 const Eigen::Vector3d kCameraUp(0, -1, 0);
 
 /// Gives the watch `frames` views of the room; the world is the first camera's frame.
-void watch(FloorWatch& watch, const Room& room, const Transform<RoomFrame, Sensor>& first,
+void watch(FloorTracker& watch, const Room& room, const Transform<RoomFrame, Sensor>& first,
            const Transform<RoomFrame, Sensor>& now, int frames) {
   const Transform<World, Sensor> T_world_sensor(first.isometry().inverse() * now.isometry());
   for (int i = 0; i < frames; ++i) watch.update(view(room, now), T_world_sensor, kCameraUp);
 }
 
-TEST(FloorWatch, FindsTheFloorUnderACameraThatLooksDown) {
+TEST(FloorTracker, FindsTheFloorUnderACameraThatLooksDown) {
   const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.3);
-  FloorWatch floor;
+  FloorTracker floor;
   watch(floor, Room(), camera, camera, 20);
   ASSERT_TRUE(floor.floor().has_value());
   const Eigen::Vector3d up = camera.rotation().transpose() * Eigen::Vector3d::UnitZ();
@@ -26,10 +26,10 @@ TEST(FloorWatch, FindsTheFloorUnderACameraThatLooksDown) {
   EXPECT_NEAR(floor.floor()->height, -1.4, 0.02);
 }
 
-TEST(FloorWatch, ATableIsNotTheFloor) {
+TEST(FloorTracker, ATableIsNotTheFloor) {
   Room room;
   const auto first = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.3);
-  FloorWatch floor;
+  FloorTracker floor;
   watch(floor, room, first, first, 10);
   room.things.push_back({{-1.5, -1.9, 0.0}, {2.9, 1.9, 0.8}});
   watch(floor, room, first, camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.6), 10);
@@ -37,20 +37,20 @@ TEST(FloorWatch, ATableIsNotTheFloor) {
   EXPECT_NEAR(floor.floor()->height, -1.4, 0.03);
 }
 
-TEST(FloorWatch, ALowerFloorTakesItsPlaceAtOnce) {
+TEST(FloorTracker, ALowerFloorTakesItsPlaceAtOnce) {
   Room room;
   room.things.push_back({{-2.9, -1.9, 0.0}, {2.9, 1.9, 0.5}});
   const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.4);
-  FloorWatch floor;
+  FloorTracker floor;
   watch(floor, room, camera, camera, 10);
   EXPECT_NEAR(floor.floor().value().height, -0.9, 0.03);
   watch(floor, Room(), camera, camera, 5);
   EXPECT_NEAR(floor.floor().value().height, -1.4, 0.03);
 }
 
-TEST(FloorWatch, WithoutAFloorInViewThereIsNone) {
+TEST(FloorTracker, WithoutAFloorInViewThereIsNone) {
   const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, -0.6);
-  FloorWatch floor;
+  FloorTracker floor;
   watch(floor, Room(), camera, camera, 10);
   EXPECT_FALSE(floor.floor().has_value());
 }

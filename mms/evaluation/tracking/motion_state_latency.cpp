@@ -1,4 +1,4 @@
-#include "mms/evaluation/tracking/turn_delays.hpp"
+#include "mms/evaluation/tracking/motion_state_latency.hpp"
 
 namespace mms {
 namespace {
@@ -8,7 +8,7 @@ constexpr double kLongEnough = 1.0;
 
 }  // namespace
 
-void TurnDelays::see(int id, Timestamp stamp, bool moving, bool recognised) {
+void MotionStateLatency::see(int id, Timestamp stamp, bool moving, bool recognised) {
   const auto [place, is_new] = objects_.try_emplace(id, Object{moving, false, stamp, stamp});
   Object& object = place->second;
   if (!is_new && moving != object.moving) {
@@ -21,19 +21,19 @@ void TurnDelays::see(int id, Timestamp stamp, bool moving, bool recognised) {
   object.pending = false;
 }
 
-void TurnDelays::lose(int id) {
+void MotionStateLatency::lose(int id) {
   const auto place = objects_.find(id);
   if (place == objects_.end()) return;
   if (place->second.pending) give_up(place->second);
   objects_.erase(place);
 }
 
-void TurnDelays::settle(double delay) {
+void MotionStateLatency::settle(double delay) {
   ++count_;
   if (!(delay <= longest_)) longest_ = delay;
 }
 
-void TurnDelays::give_up(const Object& object) {
+void MotionStateLatency::give_up(const Object& object) {
   const double waited = to_seconds(object.seen - object.since);
   if (waited >= kLongEnough) settle(waited);
 }

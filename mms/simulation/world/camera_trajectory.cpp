@@ -1,4 +1,4 @@
-#include "mms/simulation/world/camera_ride.hpp"
+#include "mms/simulation/world/camera_trajectory.hpp"
 
 #include <cmath>
 
@@ -23,14 +23,14 @@ Motion still_robot(const Building& building) {
 }
 
 Motion robot_motion(const SceneConfig& config, const Building& building, double seconds) {
-  if (config.ride == CameraRide::kStill) return still_robot(building);
+  if (config.trajectory == CameraTrajectory::kStill) return still_robot(building);
   Route route;
   route.corners = building.lane;
   route.end = building.lane_closed ? RouteEnd::kLoop : RouteEnd::kStop;
   route.speed = config.speed;
   route.acceleration = 0.5;
   route.look_ahead = 0.9;
-  if (config.ride == CameraRide::kAlong && building.lane_closed) route.start = 2.0;
+  if (config.trajectory == CameraTrajectory::kAlong && building.lane_closed) route.start = 2.0;
   return drive(route, seconds);
 }
 
@@ -51,9 +51,9 @@ double shake(std::uint64_t seed, double seconds) {
 CameraMotion::CameraMotion(const SceneConfig& config, const Building& building, double seconds)
     : robot_(robot_motion(config, building, seconds)),
       height_(config.camera_height),
-      still_(config.ride == CameraRide::kStill),
-      swing_amplitude_(config.ride == CameraRide::kShaken ? 0.55 : 0.12),
-      swing_rate_(config.ride == CameraRide::kShaken ? 2.4 : 0.5),
+      still_(config.trajectory == CameraTrajectory::kStill),
+      swing_amplitude_(config.trajectory == CameraTrajectory::kShaken ? 0.55 : 0.12),
+      swing_rate_(config.trajectory == CameraTrajectory::kShaken ? 2.4 : 0.5),
       seed_(hash_of(static_cast<std::uint64_t>(config.seed), 0xca3)) {}
 
 double CameraMotion::swing(double seconds) const {

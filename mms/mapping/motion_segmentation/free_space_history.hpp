@@ -8,24 +8,24 @@
 
 #include "mms/core/time.hpp"
 #include "mms/core/transform.hpp"
-#include "mms/mapping/motion_segmentation/movement_config.hpp"
+#include "mms/mapping/motion_segmentation/motion_segmentation_config.hpp"
 
 namespace mms {
 
-/// What earlier views say of a place.
-enum class Place : std::uint8_t {
-  kNone,     ///< there is no static point
-  kSurface,  ///< it was there before
-  kUnknown,  ///< hidden or out of view
-  kBlank,    ///< looked at, but nothing was measured there or behind
-  kFree,     ///< it was looked through
+/// What earlier views say of a state.
+enum class SpaceState : std::uint8_t {
+  kNone,      ///< there is no static point
+  kSurface,   ///< it was there before
+  kUnknown,   ///< hidden or out of view
+  kNoReturn,  ///< looked at, but nothing was measured there or behind
+  kFree,      ///< it was looked through
 };
 
 /// The free space that the last moments' views saw; `Space` is that of one view.
 template <class Space>
-class ViewMemory {
+class FreeSpaceHistory {
  public:
-  explicit ViewMemory(const MovementConfig& config) : config_(config) {}
+  explicit FreeSpaceHistory(const MotionSegmentationConfig& config) : config_(config) {}
 
   /// Whether a view of this time is one to remember; old ones are forgotten.
   bool wants(Timestamp stamp) {
@@ -44,19 +44,20 @@ class ViewMemory {
   class Query {
    public:
     /// @param point  in the frame's sensor frame [m]
-    Place place_of(const Eigen::Vector3f& point) const {
-      Place place = Place::kUnknown;
+    SpaceState state_of(const Eigen::Vector3f& point) const {
+      SpaceState state = SpaceState::kUnknown;
       for (const auto& [space, T_view_sensor] : views_) {
         const Eigen::Vector3f there = T_view_sensor * point;
-        if (space->sees_through(there)) return Place::kFree;
-        if (space->touches(there)) place = Place::kSurface;
-        if (place == Place::kUnknown && space->is_blank(there)) place = Place::kBlank;
+        if (space->sees_through(there)) return SpaceState::kFree;
+        if (space->touches(there)) state = SpaceState::kSurface;
+        if (state == SpaceState::kUnknown && space->has_no_return(there))
+          state = SpaceState::kNoReturn;
       }
-      return place;
+      return state;
     }
 
    private:
-    friend class ViewMemory;
+    friend class FreeSpaceHistory;
     std::vector<std::pair<const Space*, Eigen::Isometry3f>> views_;
   };
 
@@ -81,7 +82,7 @@ class ViewMemory {
     return to_seconds(now - view.stamp) > config_.memory;
   }
 
-  MovementConfig config_;
+  MotionSegmentationConfig config_;
   std::deque<View> views_;
 };
 

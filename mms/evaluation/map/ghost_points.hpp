@@ -29,19 +29,20 @@ class RoomDepth {
 };
 
 /// What moving things left in a static map.
-struct MapResidue {
-  std::size_t points = 0;   ///< of the map
-  std::size_t seen = 0;     ///< of these in front of the camera, on a pixel with a room depth
-  std::size_t residue = 0;  ///< of these more than the margin in front of the room
-  double percent = 0.0;     ///< residue over points
+struct GhostPointCount {
+  std::size_t points = 0;        ///< of the map
+  std::size_t seen = 0;          ///< of these in front of the camera, on a pixel with a room depth
+  std::size_t ghost_points = 0;  ///< of these more than the margin in front of the room
+  double percent = 0.0;          ///< ghost_points over points
 };
 
 /// Counts map points that stand more than `margin` [m] in front of the room's own depth at their
 /// pixel. The camera stands at the origin of the map's world.
-MapResidue evaluate_residue(std::span<const Eigen::Vector3f> map, const Image<float>& room_depth,
-                            const CameraIntrinsics& camera, double margin = 0.15);
+GhostPointCount evaluate_ghost_points(std::span<const Eigen::Vector3f> map,
+                                      const Image<float>& room_depth,
+                                      const CameraIntrinsics& camera, double margin = 0.15);
 
-/// points, seen, residue, residue_percent.
-std::vector<MetricValue> metric_values(const MapResidue& residue);
+/// points, seen, ghost_points, ghost_percent.
+std::vector<MetricValue> metric_values(const GhostPointCount& ghost_points);
 
 }  // namespace mms

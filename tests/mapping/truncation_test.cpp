@@ -1,4 +1,4 @@
-#include "mms/mapping/tracking/cluster_cuts.hpp"
+#include "mms/mapping/tracking/truncation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ LabeledCloud board(int x_begin, int x_end, int y_begin, int y_end) {
   return cloud;
 }
 
-std::vector<ObjectMeasurement::Cut> cuts_of(const LabeledCloud& cloud) {
-  return find_cuts(cloud, {cloud.cluster, {0}});
+std::vector<ObjectMeasurement::Truncation> truncations_of(const LabeledCloud& cloud) {
+  return find_truncations(cloud, {cloud.cluster, {0}});
 }
 
 /// Puts something at a depth over pixels; no return for NaN.
@@ -40,32 +40,32 @@ void cover(LabeledCloud& cloud, int x_begin, int x_end, int y_begin, int y_end, 
   }
 }
 
-TEST(ClusterCuts, FreeOnAllSidesIsNotCut) {
-  EXPECT_FALSE(cuts_of(board(40, 90, 30, 100)).at(0).any());
+TEST(ClusterTruncations, FreeOnAllSidesIsNotCut) {
+  EXPECT_FALSE(truncations_of(board(40, 90, 30, 100)).at(0).any());
 }
 
-TEST(ClusterCuts, TheImagesBordersCut) {
-  const auto corner = cuts_of(board(0, 50, 60, 120)).at(0);
+TEST(ClusterTruncations, TheImagesBordersCut) {
+  const auto corner = truncations_of(board(0, 50, 60, 120)).at(0);
   EXPECT_TRUE(corner.left);
   EXPECT_TRUE(corner.bottom);
   EXPECT_FALSE(corner.right);
   EXPECT_FALSE(corner.top);
 }
 
-TEST(ClusterCuts, SomethingNearerCutsThoughNoReturnLiesBetween) {
+TEST(ClusterTruncations, SomethingNearerCutsThoughNoReturnLiesBetween) {
   LabeledCloud cloud = board(40, 90, 30, 100);
   cover(cloud, 80, 110, 20, 110, 2.0F);
   cover(cloud, 78, 80, 20, 110, NAN);
-  const auto cut = cuts_of(cloud).at(0);
-  EXPECT_TRUE(cut.right);
-  EXPECT_FALSE(cut.left);
-  EXPECT_FALSE(cut.top);
+  const auto truncation = truncations_of(cloud).at(0);
+  EXPECT_TRUE(truncation.right);
+  EXPECT_FALSE(truncation.left);
+  EXPECT_FALSE(truncation.top);
 }
 
-TEST(ClusterCuts, ASmallThingBeforeTheRimDoesNotCut) {
+TEST(ClusterTruncations, ASmallThingBeforeTheRimDoesNotCut) {
   LabeledCloud cloud = board(40, 90, 30, 100);
   cover(cloud, 86, 100, 30, 40, 2.0F);
-  EXPECT_FALSE(cuts_of(cloud).at(0).right);
+  EXPECT_FALSE(truncations_of(cloud).at(0).right);
 }
 
 }  // namespace

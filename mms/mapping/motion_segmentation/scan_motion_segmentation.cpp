@@ -1,4 +1,4 @@
-#include "mms/mapping/motion_segmentation/scan_movement.hpp"
+#include "mms/mapping/motion_segmentation/scan_motion_segmentation.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -19,12 +19,12 @@ constexpr float kVoxel = 0.1F;      // a node is the mean of a voxel's points [m
 constexpr float kReach = 0.4F;      // between neighbours: above the spacing of a scan's rings [m]
 constexpr double kOpenShare = 0.9;  // of the nodes about a core that are on no known surface
 constexpr double kFreeShare = 0.5;  // of them that stand in free space
-constexpr std::size_t kMinNodes = 10;  // of a thing
-constexpr double kMaxBlank = 0.5;      // share of a thing's nodes in space that was blank
-constexpr float kMinWidth = 0.08F;     // standard deviation along a thing's second direction [m]
-constexpr float kMaxSize = 6.0F;       // of a thing [m]
+constexpr std::size_t kMinNodes = 10;  // of a component
+constexpr double kMaxNoReturn = 0.5;   // share of a component's nodes in space that was no_return
+constexpr float kMinWidth = 0.08F;  // standard deviation along a component's second direction [m]
+constexpr float kMaxSize = 6.0F;    // of a component [m]
 
-using Thing = std::vector<std::size_t>;  // of nodes
+using Component = std::vector<std::size_t>;  // of nodes
 
 /// The means of the voxels with static points, and those points' nodes.
 struct Nodes {
@@ -64,81 +64,82 @@ class Search {
 };
 
 bool is_core(std::size_t node, const Nodes& nodes, const Search& search,
-             const std::vector<Place>& places) {
-  if (places[node] != Place::kFree) return false;
+             const std::vector<SpaceState>& states) {
+  if (states[node] != SpaceState::kFree) return false;
   std::size_t all = 0;
   std::size_t surface = 0;
   std::size_t free = 0;
   search.for_each_near(nodes.positions[node], [&](std::size_t i) {
-    if (places[i] == Place::kNone) return;  // taken by another thing
+    if (states[i] == SpaceState::kNone) return;  // taken by another component
     ++all;
-    surface += places[i] == Place::kSurface;
-    free += places[i] == Place::kFree;
+    surface += states[i] == SpaceState::kSurface;
+    free += states[i] == SpaceState::kFree;
   });
   const auto count = static_cast<double>(all);
   return static_cast<double>(surface) <= (1.0 - kOpenShare) * count &&
          static_cast<double>(free) >= kFreeShare * count;
 }
 
-/// The nodes that hang together with `core` and were not there before; taken out of `places`.
+/// The nodes that hang together with `core` and were not there before; taken out of `states`.
 /// Empty where the views tell little of them.
-Thing take_thing(std::size_t core, const Nodes& nodes, const Search& search,
-                 std::vector<Place>& places) {
-  Thing thing{core};
-  places[core] = Place::kNone;
-  std::size_t blank = 0;
-  for (std::size_t k = 0; k < thing.size(); ++k) {
-    search.for_each_near(nodes.positions[thing[k]], [&](std::size_t i) {
-      if (places[i] != Place::kFree && places[i] != Place::kBlank) return;
-      blank += places[i] == Place::kBlank;
-      places[i] = Place::kNone;
-      thing.push_back(i);
+Component take_component(std::size_t core, const Nodes& nodes, const Search& search,
+                         std::vector<SpaceState>& states) {
+  Component component{core};
+  states[core] = SpaceState::kNone;
+  std::size_t no_return = 0;
+  for (std::size_t k = 0; k < component.size(); ++k) {
+    search.for_each_near(nodes.positions[component[k]], [&](std::size_t i) {
+      if (states[i] != SpaceState::kFree && states[i] != SpaceState::kNoReturn) return;
+      no_return += states[i] == SpaceState::kNoReturn;
+      states[i] = SpaceState::kNone;
+      component.push_back(i);
     });
   }
-  if (static_cast<double>(blank) > kMaxBlank * static_cast<double>(thing.size())) thing.clear();
-  return thing;
+  if (static_cast<double>(no_return) > kMaxNoReturn * static_cast<double>(component.size()))
+    component.clear();
+  return component;
 }
 
-/// Whether it is as large as things that move are, and no line: of a shelf's edge or a cable the
-/// rings of a scan hit one part now and another then.
-bool is_body(const Thing& thing, const Nodes& nodes) {
-  if (thing.size() < kMinNodes) return false;
+/// Whether it is as large as components that move are, and no line: of a shelf's edge or a cable
+/// the rings of a scan hit one part now and another then.
+bool is_body(const Component& component, const Nodes& nodes) {
+  if (component.size() < kMinNodes) return false;
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   Eigen::AlignedBox3f box;
-  for (const std::size_t i : thing) {
-    mean += nodes.positions[i] / static_cast<float>(thing.size());
+  for (const std::size_t i : component) {
+    mean += nodes.positions[i] / static_cast<float>(component.size());
     box.extend(nodes.positions[i]);
   }
   Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
-  for (const std::size_t i : thing) {
+  for (const std::size_t i : component) {
     const Eigen::Vector3f d = nodes.positions[i] - mean;
-    covariance += d * d.transpose() / static_cast<float>(thing.size());
+    covariance += d * d.transpose() / static_cast<float>(component.size());
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen(covariance, Eigen::EigenvaluesOnly);
   return eigen.eigenvalues()(1) >= kMinWidth * kMinWidth && box.sizes().maxCoeff() <= kMaxSize;
 }
 
-std::vector<Thing> find_things(const Nodes& nodes, std::vector<Place> places) {
+std::vector<Component> find_components(const Nodes& nodes, std::vector<SpaceState> states) {
   const Search search(nodes.positions);
-  std::vector<Thing> things;
-  for (std::size_t core = 0; core < places.size(); ++core) {
-    if (!is_core(core, nodes, search, places)) continue;
-    Thing thing = take_thing(core, nodes, search, places);
-    if (is_body(thing, nodes)) things.push_back(std::move(thing));
+  std::vector<Component> components;
+  for (std::size_t core = 0; core < states.size(); ++core) {
+    if (!is_core(core, nodes, search, states)) continue;
+    Component component = take_component(core, nodes, search, states);
+    if (is_body(component, nodes)) components.push_back(std::move(component));
   }
-  return things;
+  return components;
 }
 
-/// The points of the clusters that there are, to be searched by place.
+/// The points of the clusters that there are, to be searched by state.
 class ClusterSearch {
  public:
   explicit ClusterSearch(const LabeledCloud& cloud)
       : clusters_(cloud.clusters.size()), points_(take_points(cloud)), search_(points_) {}
 
-  /// The cluster next to which most of a thing's nodes are; -1 where there is none.
-  int adjoining(const Thing& thing, const Nodes& nodes) const {
+  /// The cluster next to which most of a component's nodes are; -1 where there is none.
+  int adjoining(const Component& component, const Nodes& nodes) const {
     std::vector<int> votes(clusters_, 0);
-    for (const std::size_t node : thing) {
+    for (const std::size_t node : component) {
       search_.for_each_near(nodes.positions[node],
                             [&](std::size_t i) { ++votes[static_cast<std::size_t>(cluster_[i])]; });
     }
@@ -163,13 +164,14 @@ class ClusterSearch {
   Search search_;
 };
 
-void make_dynamic(const std::vector<Thing>& things, const Nodes& nodes, LabeledCloud& cloud) {
+void make_dynamic(const std::vector<Component>& components, const Nodes& nodes,
+                  LabeledCloud& cloud) {
   const ClusterSearch named(cloud);
   std::vector<int> cluster(nodes.positions.size(), -1);
-  for (const Thing& thing : things) {
-    const int next_to = named.adjoining(thing, nodes);
+  for (const Component& component : components) {
+    const int next_to = named.adjoining(component, nodes);
     const int whole = next_to < 0 ? add_unknown_cluster(cloud) : next_to;
-    for (const std::size_t i : thing) cluster[i] = whole;
+    for (const std::size_t i : component) cluster[i] = whole;
   }
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const int node = nodes.node[i];
@@ -180,23 +182,24 @@ void make_dynamic(const std::vector<Thing>& things, const Nodes& nodes, LabeledC
 
 }  // namespace
 
-bool ScanMovement::relabel(LabeledCloud& cloud,
-                           const Transform<World, Sensor>& T_world_sensor) const {
+bool ScanMotionSegmentation::relabel(LabeledCloud& cloud,
+                                     const Transform<World, Sensor>& T_world_sensor) const {
   if (!config_.enabled || cloud.organised() || views_.empty()) return false;
   const Nodes nodes(cloud);
   const auto views = views_.query(cloud.stamp, T_world_sensor);
-  std::vector<Place> places(nodes.positions.size());
-  std::transform(nodes.positions.begin(), nodes.positions.end(), places.begin(),
-                 [&](const Eigen::Vector3f& point) { return views.place_of(point); });
-  const auto free = static_cast<double>(std::count(places.begin(), places.end(), Place::kFree));
-  if (free > config_.max_share * static_cast<double>(places.size())) return false;
-  const std::vector<Thing> things = find_things(nodes, std::move(places));
-  if (!things.empty()) make_dynamic(things, nodes, cloud);
-  return !things.empty();
+  std::vector<SpaceState> states(nodes.positions.size());
+  std::transform(nodes.positions.begin(), nodes.positions.end(), states.begin(),
+                 [&](const Eigen::Vector3f& point) { return views.state_of(point); });
+  const auto free =
+      static_cast<double>(std::count(states.begin(), states.end(), SpaceState::kFree));
+  if (free > config_.max_share * static_cast<double>(states.size())) return false;
+  const std::vector<Component> components = find_components(nodes, std::move(states));
+  if (!components.empty()) make_dynamic(components, nodes, cloud);
+  return !components.empty();
 }
 
-void ScanMovement::remember(const LabeledCloud& cloud,
-                            const Transform<World, Sensor>& T_world_sensor) {
+void ScanMotionSegmentation::remember(const LabeledCloud& cloud,
+                                      const Transform<World, Sensor>& T_world_sensor) {
   if (!config_.enabled || cloud.organised() || !views_.wants(cloud.stamp)) return;
   views_.add(cloud.stamp, ScanFreeSpace(cloud, config_.margin + 2.0 * noise_), T_world_sensor);
 }

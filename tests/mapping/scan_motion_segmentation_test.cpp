@@ -1,4 +1,4 @@
-#include "mms/mapping/motion_segmentation/scan_movement.hpp"
+#include "mms/mapping/motion_segmentation/scan_motion_segmentation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ std::size_t dynamic_points(const LabeledCloud& cloud) {
       std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kDynamic));
 }
 
-/// Points of the box, with some 15 cm about it for the voxels at its rims.
+/// Points of the box, with some 15 cm about it for the voxels at its boundaries.
 bool is_of(const StandingBox& box, const Eigen::Vector3d& point) {
   return ((point - box.low).array() > -0.15).all() && ((box.high - point).array() > -0.15).all();
 }
@@ -46,13 +46,13 @@ std::size_t points_of(const StandingBox& box, const LabeledCloud& cloud) {
                     [&](const auto& p) { return is_of(box, p.template cast<double>()); }));
 }
 
-ScanMovement after_a_view_of_the_hall(const std::vector<StandingBox>& boxes = {}) {
-  ScanMovement movement({}, kNoise);
+ScanMotionSegmentation after_a_view_of_the_hall(const std::vector<StandingBox>& boxes = {}) {
+  ScanMotionSegmentation movement({}, kNoise);
   movement.remember(scan_at(0.0, boxes), kHere);
   return movement;
 }
 
-TEST(ScanMovement, IsWhatStandsWhereSpaceWasFree) {
+TEST(ScanMotionSegmentation, IsWhatStandsWhereSpaceWasFree) {
   LabeledCloud cloud = scan_at(0.5, {somebody()});
   EXPECT_TRUE(after_a_view_of_the_hall().relabel(cloud, kHere));
   EXPECT_GT(dynamic_points(cloud), points_of(somebody(), cloud) * 7 / 10);
@@ -67,20 +67,20 @@ TEST(ScanMovement, IsWhatStandsWhereSpaceWasFree) {
   EXPECT_EQ(cloud.clusters[0].points, static_cast<int>(dynamic_points(cloud)));
 }
 
-TEST(ScanMovement, IsFoundFromAnotherPlace) {
+TEST(ScanMotionSegmentation, IsFoundFromAnotherPlace) {
   const Transform<World, Sensor> T_world_sensor = pose({0.5, 0.2, 0});
   LabeledCloud cloud = scan_at(0.5, {somebody()}, T_world_sensor);
   after_a_view_of_the_hall().relabel(cloud, T_world_sensor);
   EXPECT_GT(dynamic_points(cloud), 60U);
 }
 
-TEST(ScanMovement, WhatStoodThereBeforeIsNone) {
+TEST(ScanMotionSegmentation, WhatStoodThereBeforeIsNone) {
   LabeledCloud cloud = scan_at(0.5, {somebody()});
   EXPECT_FALSE(after_a_view_of_the_hall({somebody()}).relabel(cloud, kHere));
   EXPECT_EQ(dynamic_points(cloud), 0U);
 }
 
-TEST(ScanMovement, WhatComesIntoViewIsNone) {
+TEST(ScanMotionSegmentation, WhatComesIntoViewIsNone) {
   // Behind a screen before, seen past it now.
   const StandingBox screen{{-1.5, 1.5, -1.0}, {0.4, 1.6, 4.0}};
   const Transform<World, Sensor> T_world_sensor = pose({1.2, 0.0, 0});
@@ -88,7 +88,7 @@ TEST(ScanMovement, WhatComesIntoViewIsNone) {
   EXPECT_FALSE(after_a_view_of_the_hall({screen}).relabel(cloud, T_world_sensor));
 }
 
-TEST(ScanMovement, APartOfANamedThingBelongsToIt) {
+TEST(ScanMotionSegmentation, APartOfANamedThingBelongsToIt) {
   LabeledCloud cloud = scan_at(0.5, {somebody()});
   cloud.clusters.emplace_back();
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -102,7 +102,7 @@ TEST(ScanMovement, APartOfANamedThingBelongsToIt) {
   EXPECT_GT(dynamic_points(cloud), named + 20);
 }
 
-TEST(ScanMovement, LinesAreNone) {
+TEST(ScanMotionSegmentation, LinesAreNone) {
   // A cable that hangs between two rings' heights before, and is hit now.
   const StandingBox cable{{-2.0, 2.9, 0.05}, {2.0, 2.93, 0.07}};
   LabeledCloud cloud = scan_at(0.5, {cable});
@@ -110,22 +110,22 @@ TEST(ScanMovement, LinesAreNone) {
   EXPECT_FALSE(after_a_view_of_the_hall().relabel(cloud, kHere));
 }
 
-TEST(ScanMovement, AWrongPoseMakesNoMovement) {
+TEST(ScanMotionSegmentation, AWrongPoseMakesNoMovement) {
   const Transform<World, Sensor> wrong = pose({0.6, 0.0, 0});
   LabeledCloud cloud = scan_at(0.5, {});
   after_a_view_of_the_hall().relabel(cloud, wrong);
   EXPECT_LT(dynamic_points(cloud), cloud.points.size() / 50);
 }
 
-TEST(ScanMovement, IsForgotten) {
+TEST(ScanMotionSegmentation, IsForgotten) {
   LabeledCloud cloud = scan_at(30.0, {somebody()});
   EXPECT_FALSE(after_a_view_of_the_hall().relabel(cloud, kHere));
 }
 
-TEST(ScanMovement, CanBeSwitchedOff) {
-  MovementConfig config;
+TEST(ScanMotionSegmentation, CanBeSwitchedOff) {
+  MotionSegmentationConfig config;
   config.enabled = false;
-  ScanMovement movement(config, kNoise);
+  ScanMotionSegmentation movement(config, kNoise);
   movement.remember(scan_at(0.0, {}), kHere);
   LabeledCloud cloud = scan_at(0.5, {somebody()});
   EXPECT_FALSE(movement.relabel(cloud, kHere));

@@ -13,7 +13,7 @@ namespace mms {
 /// side to side, and shakes a little.
 class CameraMotion {
  public:
-  /// @param seconds  how long the ride lasts
+  /// @param seconds  how long the trajectory lasts
   CameraMotion(const SceneConfig& config, const Building& building, double seconds);
 
   /// Pose of the optical frame (x right, y down, z forward) in the building's frame.

@@ -1,4 +1,4 @@
-#include "mms/evaluation/map/map_residue.hpp"
+#include "mms/evaluation/map/ghost_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,10 +59,11 @@ Image<float> RoomDepth::far_mode() const {
   return room;
 }
 
-MapResidue evaluate_residue(std::span<const Eigen::Vector3f> map, const Image<float>& room_depth,
-                            const CameraIntrinsics& camera, double margin) {
+GhostPointCount evaluate_ghost_points(std::span<const Eigen::Vector3f> map,
+                                      const Image<float>& room_depth,
+                                      const CameraIntrinsics& camera, double margin) {
   const CameraModel model(camera);
-  MapResidue result;
+  GhostPointCount result;
   result.points = map.size();
   for (const Eigen::Vector3f& point : map) {
     const Eigen::Vector3d p = point.cast<double>();
@@ -72,20 +73,21 @@ MapResidue evaluate_residue(std::span<const Eigen::Vector3f> map, const Image<fl
     const int y = static_cast<int>(std::lround(pixel.y()));
     if (!room_depth.contains(x, y) || room_depth(x, y) <= 0.0F) continue;
     ++result.seen;
-    if (p.z() < static_cast<double>(room_depth(x, y)) - margin) ++result.residue;
+    if (p.z() < static_cast<double>(room_depth(x, y)) - margin) ++result.ghost_points;
   }
   if (result.points > 0) {
     result.percent =
-        100.0 * static_cast<double>(result.residue) / static_cast<double>(result.points);
+        100.0 * static_cast<double>(result.ghost_points) / static_cast<double>(result.points);
   }
   return result;
 }
 
-std::vector<MetricValue> metric_values(const MapResidue& residue) {
-  return {{"points", "map points", static_cast<double>(residue.points), "", 0},
-          {"seen", "seen by the camera", static_cast<double>(residue.seen), "", 0},
-          {"residue", "in front of the room", static_cast<double>(residue.residue), "", 0},
-          {"residue_percent", "share of the map", residue.percent, "%", 3}};
+std::vector<MetricValue> metric_values(const GhostPointCount& ghost_points) {
+  return {{"points", "map points", static_cast<double>(ghost_points.points), "", 0},
+          {"seen", "seen by the camera", static_cast<double>(ghost_points.seen), "", 0},
+          {"ghost_points", "in front of the room", static_cast<double>(ghost_points.ghost_points),
+           "", 0},
+          {"ghost_percent", "share of the map", ghost_points.percent, "%", 3}};
 }
 
 }  // namespace mms

@@ -1,4 +1,4 @@
-#include "mms/mapping/motion_segmentation/movement.hpp"
+#include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 using test::organised_cloud;
 using test::pose;
 
-constexpr std::size_t kThing = 40 * 60;  // pixels
+constexpr std::size_t kComponent = 40 * 60;  // pixels
 
 Timestamp at(double seconds) {
   return Timestamp(static_cast<std::int64_t>(1e9 * seconds));
@@ -34,16 +34,16 @@ std::size_t dynamic_points(const LabeledCloud& cloud) {
 
 const Transform<World, Sensor> kHere = pose({0, 0, 0});
 
-Movement after_a_view_of_the_wall(const MovementConfig& config = {}) {
-  Movement movement(config, {});
+MotionSegmentation after_a_view_of_the_wall(const MotionSegmentationConfig& config = {}) {
+  MotionSegmentation movement(config, {});
   movement.remember(wall_with_thing(0.0), kHere);
   return movement;
 }
 
-TEST(Movement, IsWhatStandsWhereSpaceWasFree) {
+TEST(MotionSegmentation, IsWhatStandsWhereSpaceWasFree) {
   LabeledCloud cloud = wall_with_thing(0.5, 60);
   const Image<std::uint8_t> moved = after_a_view_of_the_wall().relabel(cloud, kHere);
-  EXPECT_EQ(dynamic_points(cloud), kThing);
+  EXPECT_EQ(dynamic_points(cloud), kComponent);
   ASSERT_FALSE(moved.empty());
   for (std::size_t i = 0; i < moved.size(); ++i) {
     EXPECT_EQ(moved[i] != 0, cloud.labels[i] == PointLabel::kDynamic);
@@ -52,24 +52,24 @@ TEST(Movement, IsWhatStandsWhereSpaceWasFree) {
   }
 }
 
-TEST(Movement, IsAClusterOfUnknownClass) {
+TEST(MotionSegmentation, IsAClusterOfUnknownClass) {
   LabeledCloud cloud = wall_with_thing(0.5, 60);
   after_a_view_of_the_wall().relabel(cloud, kHere);
   ASSERT_EQ(cloud.clusters.size(), 1U);
-  const DynamicCluster& thing = cloud.clusters[0];
-  EXPECT_EQ(thing.object_class, ObjectClass::kUnknown);
-  EXPECT_EQ(thing.score, 0.0F);
-  EXPECT_EQ(thing.instance, -1);
-  EXPECT_EQ(thing.points, static_cast<int>(kThing));
-  EXPECT_TRUE(thing.centroid.isApprox(0.5F * (thing.box_min + thing.box_max), 1e-3F));
-  EXPECT_NEAR(thing.box_max.x() - thing.box_min.x(), 39 * 2.0F / 130.0F, 1e-3F);
-  EXPECT_EQ(thing.box_min.z(), 2.0F);
+  const DynamicCluster& component = cloud.clusters[0];
+  EXPECT_EQ(component.object_class, ObjectClass::kUnknown);
+  EXPECT_EQ(component.score, 0.0F);
+  EXPECT_EQ(component.instance, -1);
+  EXPECT_EQ(component.points, static_cast<int>(kComponent));
+  EXPECT_TRUE(component.centroid.isApprox(0.5F * (component.box_min + component.box_max), 1e-3F));
+  EXPECT_NEAR(component.box_max.x() - component.box_min.x(), 39 * 2.0F / 130.0F, 1e-3F);
+  EXPECT_EQ(component.box_min.z(), 2.0F);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     EXPECT_EQ(cloud.cluster[i] == 0, cloud.labels[i] == PointLabel::kDynamic);
   }
 }
 
-/// Makes the points of `wall_with_thing`'s thing with y in [low, high) those of a person.
+/// Makes the points of `wall_with_thing`'s component with y in [low, high) those of a person.
 void name_rows(LabeledCloud& cloud, int low, int high) {
   cloud.clusters.emplace_back().points = 40 * (high - low);
   for (int y = low; y < high; ++y) {
@@ -81,18 +81,18 @@ void name_rows(LabeledCloud& cloud, int low, int high) {
   }
 }
 
-TEST(Movement, ThatAMaskLeftOutBelongsToTheObject) {
+TEST(MotionSegmentation, ThatAMaskLeftOutBelongsToTheObject) {
   LabeledCloud cloud = wall_with_thing(0.5, 60);
   name_rows(cloud, 30, 60);
   EXPECT_FALSE(after_a_view_of_the_wall().relabel(cloud, kHere).empty());
   ASSERT_EQ(cloud.clusters.size(), 1U);
   EXPECT_EQ(cloud.clusters[0].object_class, ObjectClass::kPerson);
-  EXPECT_EQ(cloud.clusters[0].points, static_cast<int>(kThing));
+  EXPECT_EQ(cloud.clusters[0].points, static_cast<int>(kComponent));
   EXPECT_EQ(std::count(cloud.cluster.begin(), cloud.cluster.end(), 0),
-            static_cast<std::ptrdiff_t>(kThing));
+            static_cast<std::ptrdiff_t>(kComponent));
 }
 
-/// All of `wall_with_thing`'s thing but the 4 pixels at its right, too few for a disc.
+/// All of `wall_with_thing`'s component but the 4 pixels at its right, too few for a disc.
 void name_all_but_a_strip(LabeledCloud& cloud) {
   name_rows(cloud, 30, 90);
   for (int y = 30; y < 90; ++y) {
@@ -105,16 +105,16 @@ void name_all_but_a_strip(LabeledCloud& cloud) {
   cloud.clusters[0].points = 36 * 60;
 }
 
-TEST(Movement, TooThinForADiscBelongsToTheObjectBeside) {
+TEST(MotionSegmentation, TooThinForADiscBelongsToTheObjectBeside) {
   LabeledCloud cloud = wall_with_thing(0.5, 60);
   name_all_but_a_strip(cloud);
   EXPECT_FALSE(after_a_view_of_the_wall().relabel(cloud, kHere).empty());
-  EXPECT_EQ(dynamic_points(cloud), kThing);
+  EXPECT_EQ(dynamic_points(cloud), kComponent);
   ASSERT_EQ(cloud.clusters.size(), 1U);
-  EXPECT_EQ(cloud.clusters[0].points, static_cast<int>(kThing));
+  EXPECT_EQ(cloud.clusters[0].points, static_cast<int>(kComponent));
 }
 
-TEST(Movement, AStripThatOnlyTheImageJoinsToAnObjectStays) {
+TEST(MotionSegmentation, AStripThatOnlyTheImageJoinsToAnObjectStays) {
   LabeledCloud cloud = wall_with_thing(0.5, 60);
   name_all_but_a_strip(cloud);
   for (int y = 30; y < 90; ++y) {
@@ -124,7 +124,7 @@ TEST(Movement, AStripThatOnlyTheImageJoinsToAnObjectStays) {
   EXPECT_EQ(dynamic_points(cloud), std::size_t{36 * 60});
 }
 
-TEST(Movement, BesideAnObjectInTheImageButNotInSpaceIsAnotherThing) {
+TEST(MotionSegmentation, BesideAnObjectInTheImageButNotInSpaceIsAnotherThing) {
   LabeledCloud cloud = wall_with_thing(0.5, 60);
   name_rows(cloud, 30, 60);
   for (int y = 60; y < 90; ++y) {
@@ -135,24 +135,24 @@ TEST(Movement, BesideAnObjectInTheImageButNotInSpaceIsAnotherThing) {
   EXPECT_EQ(cloud.clusters[1].object_class, ObjectClass::kUnknown);
 }
 
-TEST(Movement, IsSeenByACameraThatMoves) {
+TEST(MotionSegmentation, IsSeenByACameraThatMoves) {
   // Half a metre nearer to both.
   LabeledCloud cloud = organised_cloud([](int x, int y, const Eigen::Vector3f&) {
     return x >= 60 && x < 100 && y >= 30 && y < 90 ? 1.5F : 2.5F;
   });
   after_a_view_of_the_wall().relabel(cloud, pose({0, 0, 0.5}));
-  EXPECT_EQ(dynamic_points(cloud), kThing);
+  EXPECT_EQ(dynamic_points(cloud), kComponent);
 }
 
-TEST(Movement, IsNothingWithoutAViewOrWhenSwitchedOff) {
+TEST(MotionSegmentation, IsNothingWithoutAViewOrWhenSwitchedOff) {
   LabeledCloud cloud = wall_with_thing(0.5, 60);
-  EXPECT_TRUE(Movement({}, {}).relabel(cloud, kHere).empty());
+  EXPECT_TRUE(MotionSegmentation({}, {}).relabel(cloud, kHere).empty());
   EXPECT_TRUE(after_a_view_of_the_wall({.enabled = false}).relabel(cloud, kHere).empty());
   EXPECT_EQ(dynamic_points(cloud), 0U);
 }
 
-TEST(Movement, IsNotWhatStoodThereOrWasHidden) {
-  Movement movement({}, {});
+TEST(MotionSegmentation, IsNotWhatStoodThereOrWasHidden) {
+  MotionSegmentation movement({}, {});
   movement.remember(wall_with_thing(0.0, 60), kHere);
   LabeledCloud standing = wall_with_thing(0.5, 60);
   EXPECT_TRUE(movement.relabel(standing, kHere).empty());
@@ -160,8 +160,8 @@ TEST(Movement, IsNotWhatStoodThereOrWasHidden) {
   EXPECT_TRUE(movement.relabel(behind, kHere).empty());
 }
 
-TEST(Movement, IsNotTheRimThatAnErrorOfThePoseGives) {
-  Movement movement({}, {});
+TEST(MotionSegmentation, IsNotTheRimThatAnErrorOfThePoseGives) {
+  MotionSegmentation movement({}, {});
   movement.remember(wall_with_thing(0.0, 60), kHere);
   for (const double error : {-0.06, -0.03, 0.03, 0.06}) {
     LabeledCloud cloud = wall_with_thing(0.5, 60);
@@ -170,14 +170,14 @@ TEST(Movement, IsNotTheRimThatAnErrorOfThePoseGives) {
   }
 }
 
-TEST(Movement, OfNearlyAllIsAnErrorOfThePose) {
+TEST(MotionSegmentation, OfNearlyAllIsAnErrorOfThePose) {
   LabeledCloud cloud = wall_with_thing(0.5);
   EXPECT_TRUE(after_a_view_of_the_wall().relabel(cloud, pose({0, 0, -0.6})).empty());
   EXPECT_EQ(dynamic_points(cloud), 0U);
 }
 
-TEST(Movement, EndsSomeTimeAfterAThingCameToRest) {
-  Movement movement = after_a_view_of_the_wall({.memory = 2.0});
+TEST(MotionSegmentation, EndsSomeTimeAfterAThingCameToRest) {
+  MotionSegmentation movement = after_a_view_of_the_wall({.memory = 2.0});
   for (const double seconds : {1.0, 1.9}) {
     LabeledCloud cloud = wall_with_thing(seconds, 60);
     EXPECT_FALSE(movement.relabel(cloud, kHere).empty()) << seconds;
@@ -188,14 +188,14 @@ TEST(Movement, EndsSomeTimeAfterAThingCameToRest) {
   EXPECT_TRUE(movement.relabel(cloud, kHere).empty());
 }
 
-TEST(Movement, IsNotToldByViewsOfLongAgo) {
+TEST(MotionSegmentation, IsNotToldByViewsOfLongAgo) {
   LabeledCloud cloud = wall_with_thing(2.1, 60);
   EXPECT_TRUE(after_a_view_of_the_wall({.memory = 2.0}).relabel(cloud, kHere).empty());
   EXPECT_EQ(dynamic_points(cloud), 0U);
 }
 
-TEST(Movement, TakesInWhatHangsTogetherWithItBeforeSpaceWithoutReturns) {
-  // The lower half of the wall gives returns; a thing stands before both halves.
+TEST(MotionSegmentation, TakesInWhatHangsTogetherWithItBeforeSpaceWithoutReturns) {
+  // The lower half of the wall gives returns; a component stands before both halves.
   const auto scene_at = [](double seconds, bool with_thing) {
     LabeledCloud cloud = organised_cloud([=](int x, int y, const Eigen::Vector3f&) {
       if (with_thing && x >= 60 && x < 100 && y >= 20 && y < 100) return 2.0F;
@@ -204,7 +204,7 @@ TEST(Movement, TakesInWhatHangsTogetherWithItBeforeSpaceWithoutReturns) {
     cloud.stamp = at(seconds);
     return cloud;
   };
-  Movement movement({}, {});
+  MotionSegmentation movement({}, {});
   movement.remember(scene_at(0.0, false), kHere);
   LabeledCloud cloud = scene_at(0.5, true);
   movement.relabel(cloud, kHere);
@@ -214,7 +214,7 @@ TEST(Movement, TakesInWhatHangsTogetherWithItBeforeSpaceWithoutReturns) {
     if (x >= 80) return 1.0F;  // hides what is behind
     return y >= 60 ? 3.0F : 0.0F;
   });
-  Movement other({}, {});
+  MotionSegmentation other({}, {});
   other.remember(narrow, kHere);
   cloud = scene_at(0.5, true);
   other.relabel(cloud, kHere);
@@ -223,7 +223,7 @@ TEST(Movement, TakesInWhatHangsTogetherWithItBeforeSpaceWithoutReturns) {
   }
 }
 
-TEST(Movement, IsNotLookedForInScans) {
+TEST(MotionSegmentation, IsNotLookedForInScans) {
   LabeledCloud scan = wall_with_thing(0.5, 60);
   scan.width *= scan.height;
   scan.height = 1;

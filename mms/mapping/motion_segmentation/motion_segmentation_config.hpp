@@ -4,7 +4,7 @@
 
 namespace mms {
 
-struct MovementConfig {
+struct MotionSegmentationConfig {
   bool enabled = true;
   double memory = 3.0;     ///< [s]
   double interval = 0.5;   ///< [s]

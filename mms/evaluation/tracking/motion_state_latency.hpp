@@ -9,7 +9,7 @@
 namespace mms {
 
 /// Measures how long it takes until an object's start or stop is recognised.
-class TurnDelays {
+class MotionStateLatency {
  public:
   /// Takes in an object that is in view at `stamp`.
   /// @param moving      whether it truly moves

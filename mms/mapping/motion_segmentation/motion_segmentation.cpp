@@ -1,4 +1,4 @@
-#include "mms/mapping/motion_segmentation/movement.hpp"
+#include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@ namespace mms {
 namespace {
 
 constexpr int kStep = 2;               // cloud points a side that share a node
-constexpr float kGap = 0.1F;           // between the depths of neighbours on one thing [m]
+constexpr float kGap = 0.1F;           // between the depths of neighbours on one component [m]
 constexpr double kOpenShare = 0.9;     // of the nodes in a disc that are on no known surface
 constexpr double kFreeShare = 0.3;     // of them that stand in free space
-constexpr std::size_t kMinNodes = 30;  // of a thing
-constexpr double kMaxBlank = 0.8;      // share of a thing's nodes in space that was blank
-constexpr int kNextTo = 2;             // nodes from a thing to a cluster that it adjoins
+constexpr std::size_t kMinNodes = 30;  // of a component
+constexpr double kMaxNoReturn = 0.8;   // share of a component's nodes in space that was no_return
+constexpr int kNextTo = 2;             // nodes from a component to a cluster that it adjoins
 constexpr int kFewestNext = 5;         // of its nodes next to such a cluster
 
 /// Every `kStep`-th point a row and column.
@@ -41,7 +41,7 @@ struct Nodes {
 class Sums {
  public:
   template <class Counts>
-  Sums(const Image<Place>& image, const Counts& counts)
+  Sums(const Image<SpaceState>& image, const Counts& counts)
       : sums_(image.width() + 1, image.height() + 1) {
     for (int y = 0; y < image.height(); ++y) {
       int row = 0;
@@ -66,15 +66,15 @@ class Sums {
 };
 
 /// Nodes in free space about which hardly anything was there before.
-std::vector<std::pair<int, int>> find_cores(const Nodes& nodes, const Image<Place>& places,
+std::vector<std::pair<int, int>> find_cores(const Nodes& nodes, const Image<SpaceState>& states,
                                             double radius) {
-  const Sums all(places, [](Place place) { return place != Place::kNone; });
-  const Sums surface(places, [](Place place) { return place == Place::kSurface; });
-  const Sums free(places, [](Place place) { return place == Place::kFree; });
+  const Sums all(states, [](SpaceState state) { return state != SpaceState::kNone; });
+  const Sums surface(states, [](SpaceState state) { return state == SpaceState::kSurface; });
+  const Sums free(states, [](SpaceState state) { return state == SpaceState::kFree; });
   std::vector<std::pair<int, int>> cores;
   for (int y = 0; y < nodes.height; ++y) {
     for (int x = 0; x < nodes.width; ++x) {
-      if (places(x, y) != Place::kFree) continue;
+      if (states(x, y) != SpaceState::kFree) continue;
       const double pixels = radius * nodes.cloud.camera.fx / nodes.depth(x, y);
       const int reach = std::clamp(static_cast<int>(std::lround(pixels / kStep)), 1, nodes.width);
       const int side = 2 * reach + 1;
@@ -88,30 +88,33 @@ std::vector<std::pair<int, int>> find_cores(const Nodes& nodes, const Image<Plac
 }
 
 /// The nodes that hang together with `core` and were not there before; they are taken out of
-/// `places`. Empty for what is next to nothing, or of which the views tell little.
-std::vector<std::pair<int, int>> take_thing(const Nodes& nodes, std::pair<int, int> core,
-                                            const DepthNoise& noise, Image<Place>& places) {
-  std::vector<std::pair<int, int>> thing{core};
-  places(core.first, core.second) = Place::kNone;
-  std::size_t blank = 0;
-  for (std::size_t i = 0; i < thing.size(); ++i) {
-    const auto [cx, cy] = thing[i];
+/// `states`. Empty for what is next to nothing, or of which the views tell little.
+std::vector<std::pair<int, int>> take_component(const Nodes& nodes, std::pair<int, int> core,
+                                                const DepthNoise& noise,
+                                                Image<SpaceState>& states) {
+  std::vector<std::pair<int, int>> component{core};
+  states(core.first, core.second) = SpaceState::kNone;
+  std::size_t no_return = 0;
+  for (std::size_t i = 0; i < component.size(); ++i) {
+    const auto [cx, cy] = component[i];
     const float z = nodes.depth(cx, cy);
     const float gap = kGap + 2.0F * noise.sigma(z);
     for (int y = std::max(0, cy - 1); y <= std::min(cy + 1, nodes.height - 1); ++y) {
       for (int x = std::max(0, cx - 1); x <= std::min(cx + 1, nodes.width - 1); ++x) {
-        const bool is_open = places(x, y) == Place::kFree || places(x, y) == Place::kBlank;
+        const bool is_open =
+            states(x, y) == SpaceState::kFree || states(x, y) == SpaceState::kNoReturn;
         if (!is_open || std::abs(nodes.depth(x, y) - z) > gap) continue;
-        blank += places(x, y) == Place::kBlank;
-        places(x, y) = Place::kNone;
-        thing.emplace_back(x, y);
+        no_return += states(x, y) == SpaceState::kNoReturn;
+        states(x, y) = SpaceState::kNone;
+        component.emplace_back(x, y);
       }
     }
   }
-  const auto size = static_cast<double>(thing.size());
-  const bool is_told = thing.size() >= kMinNodes && static_cast<double>(blank) <= kMaxBlank * size;
-  if (!is_told) thing.clear();
-  return thing;
+  const auto size = static_cast<double>(component.size());
+  const bool has_evidence =
+      component.size() >= kMinNodes && static_cast<double>(no_return) <= kMaxNoReturn * size;
+  if (!has_evidence) component.clear();
+  return component;
 }
 
 /// Calls `visit` with the cluster of every node of one that a node adjoins, in the image and in
@@ -131,27 +134,28 @@ void for_each_adjoining(const Nodes& nodes, std::pair<int, int> node, const Dept
 }
 
 /// Nodes in free space next to a cluster: what a mask left out may be too thin for a disc.
-std::vector<std::pair<int, int>> find_rims(const Nodes& nodes, const Image<Place>& places,
-                                           const DepthNoise& noise) {
-  std::vector<std::pair<int, int>> rims;
-  if (nodes.cloud.clusters.empty()) return rims;
+std::vector<std::pair<int, int>> find_boundaries(const Nodes& nodes,
+                                                 const Image<SpaceState>& states,
+                                                 const DepthNoise& noise) {
+  std::vector<std::pair<int, int>> boundaries;
+  if (nodes.cloud.clusters.empty()) return boundaries;
   for (int y = 0; y < nodes.height; ++y) {
     for (int x = 0; x < nodes.width; ++x) {
-      if (places(x, y) != Place::kFree) continue;
+      if (states(x, y) != SpaceState::kFree) continue;
       int adjoining = 0;
       for_each_adjoining(nodes, {x, y}, noise, [&](int) { ++adjoining; });
-      if (adjoining > 0) rims.emplace_back(x, y);
+      if (adjoining > 0) boundaries.emplace_back(x, y);
     }
   }
-  return rims;
+  return boundaries;
 }
 
-/// The cluster that most of the thing hangs together with, of which it is what the mask left out;
-/// -1 where there is none.
-int adjoining_cluster(const Nodes& nodes, const std::vector<std::pair<int, int>>& thing,
+/// The cluster that most of the component hangs together with, of which it is what the mask left
+/// out; -1 where there is none.
+int adjoining_cluster(const Nodes& nodes, const std::vector<std::pair<int, int>>& component,
                       const DepthNoise& noise) {
   std::vector<int> next_to(nodes.cloud.clusters.size(), 0);
-  for (const auto& node : thing) {
+  for (const auto& node : component) {
     for_each_adjoining(nodes, node, noise,
                        [&](int cluster) { ++next_to[static_cast<std::size_t>(cluster)]; });
   }
@@ -160,9 +164,9 @@ int adjoining_cluster(const Nodes& nodes, const std::vector<std::pair<int, int>>
   return static_cast<int>(most - next_to.begin());
 }
 
-void make_dynamic(const std::vector<std::pair<int, int>>& thing, int cluster, LabeledCloud& cloud,
-                  Image<std::uint8_t>& moved) {
-  for (const auto& [nx, ny] : thing) {
+void make_dynamic(const std::vector<std::pair<int, int>>& component, int cluster,
+                  LabeledCloud& cloud, Image<std::uint8_t>& moved) {
+  for (const auto& [nx, ny] : component) {
     for (int y = kStep * ny; y < kStep * (ny + 1); ++y) {
       for (int x = kStep * nx; x < kStep * (nx + 1); ++x) {
         const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
@@ -178,20 +182,20 @@ void make_dynamic(const std::vector<std::pair<int, int>>& thing, int cluster, La
 
 }  // namespace
 
-Image<std::uint8_t> Movement::relabel(LabeledCloud& cloud,
-                                      const Transform<World, Sensor>& T_world_sensor) const {
+Image<std::uint8_t> MotionSegmentation::relabel(
+    LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor) const {
   if (!config_.enabled || !cloud.organised() || views_.empty()) return {};
   const Nodes nodes(cloud);
   const auto views = views_.query(cloud.stamp, T_world_sensor);
-  Image<Place> places(nodes.width, nodes.height, Place::kNone);
+  Image<SpaceState> states(nodes.width, nodes.height, SpaceState::kNone);
   std::size_t count = 0;
   std::size_t free = 0;
   for (int y = 0; y < nodes.height; ++y) {
     for (int x = 0; x < nodes.width; ++x) {
       if (!nodes.is_static(x, y)) continue;
-      places(x, y) = views.place_of(cloud.points[nodes.pixel(x, y)]);
+      states(x, y) = views.state_of(cloud.points[nodes.pixel(x, y)]);
       ++count;
-      free += places(x, y) == Place::kFree;
+      free += states(x, y) == SpaceState::kFree;
     }
   }
   if (static_cast<double>(free) > config_.max_share * static_cast<double>(count)) return {};
@@ -201,20 +205,21 @@ Image<std::uint8_t> Movement::relabel(LabeledCloud& cloud,
   if (cloud.cluster.empty()) cloud.cluster.assign(cloud.points.size(), -1);
   Image<std::uint8_t> moved;
   const auto take = [&](std::pair<int, int> seed, bool is_thin) {
-    if (places(seed.first, seed.second) != Place::kFree) return;
-    const auto thing = take_thing(nodes, seed, noise_, places);
-    if (thing.empty()) return;
-    const int cluster = adjoining_cluster(nodes, thing, noise_);
+    if (states(seed.first, seed.second) != SpaceState::kFree) return;
+    const auto component = take_component(nodes, seed, noise_, states);
+    if (component.empty()) return;
+    const int cluster = adjoining_cluster(nodes, component, noise_);
     if (is_thin && cluster < 0) return;
     if (moved.empty()) moved = Image<std::uint8_t>(cloud.width, cloud.height);
-    make_dynamic(thing, cluster < 0 ? add_unknown_cluster(cloud) : cluster, cloud, moved);
+    make_dynamic(component, cluster < 0 ? add_unknown_cluster(cloud) : cluster, cloud, moved);
   };
-  for (const auto& core : find_cores(nodes, places, config_.radius)) take(core, false);
-  for (const auto& rim : find_rims(nodes, places, noise_)) take(rim, true);
+  for (const auto& core : find_cores(nodes, states, config_.radius)) take(core, false);
+  for (const auto& boundary : find_boundaries(nodes, states, noise_)) take(boundary, true);
   return moved;
 }
 
-void Movement::remember(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor) {
+void MotionSegmentation::remember(const LabeledCloud& cloud,
+                                  const Transform<World, Sensor>& T_world_sensor) {
   if (!config_.enabled || !cloud.organised() || !views_.wants(cloud.stamp)) return;
   views_.add(cloud.stamp, FreeSpace(cloud, config_.margin, noise_), T_world_sensor);
 }

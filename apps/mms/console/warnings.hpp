@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mms {
+
+/// Writes a line "warning: ..." each to stderr.
+void print_warnings(const std::vector<std::string>& warnings);
+
+}  // namespace mms
