@@ -87,10 +87,10 @@ TEST(Architecture, DetoursAroundTheRootAreCaught) {
 
 TEST(Architecture, AHeaderWithoutGuardIsCaught) {
   const TempFolder tree;
-  tree.write("mms/io/bare.hpp", "int x();\n");
+  tree.write("mms/core/bare.hpp", "int x();\n");
   const auto faults = faults_of(tree);
   ASSERT_EQ(faults.size(), 1U);
-  expect_in("mms/io/bare.hpp:1: a header without #pragma once", faults[0]);
+  expect_in("mms/core/bare.hpp:1: a header without #pragma once", faults[0]);
 }
 
 TEST(Architecture, AModuleWithoutArrowsIsCaught) {

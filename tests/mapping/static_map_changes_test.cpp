@@ -71,7 +71,7 @@ void expect_changes_suffice(const StaticMapConfig& config, int keyframes, int be
     expect_same_surface(map, replayed);
     if (::testing::Test::HasFailure()) return;
   }
-  EXPECT_EQ(replayed.looks(), map.looks());
+  EXPECT_EQ(replayed.views(), map.views());
 }
 
 TEST(StaticMapChanges, TellOfTheFramesAfterTheLastKeyframe) {

@@ -53,7 +53,7 @@ TEST(StaticMap, CountsKeyframesNotPoints) {
   const LabeledCloud cloud = plane_cloud(kForward, 2.1, pose({0, 0, 0}));
   for (int i = 0; i < 3; ++i) map.integrate(cloud, pose({0, 0, 0}));
   for (const int observations : map.cloud().observations) EXPECT_EQ(observations, 3);
-  EXPECT_EQ(map.looks(), 3U);
+  EXPECT_EQ(map.views(), 3U);
 }
 
 TEST(StaticMap, ShowsWhatWasSeenOnceOnlyWhereNobodyLookedAgain) {
@@ -85,7 +85,7 @@ TEST(StaticMap, FramesBetweenKeyframesFillTheirHoles) {
   const std::size_t before = map.cloud().size();
   EXPECT_GT(map.add(striped_wall(1), pose({0, 0, 0})), 1000U);
   EXPECT_GT(map.cloud().size(), before + before / 2);
-  EXPECT_EQ(map.looks(), 1U);
+  EXPECT_EQ(map.views(), 1U);
   for (const Eigen::Vector3f& normal : map.cloud().normals) EXPECT_LT(normal.z(), 0.1F);
 }
 

@@ -279,7 +279,7 @@ TEST(MaskErrors, DeclareAllTheirFields) {
   MaskErrorConfig config;
   config.visit(visitor);
   EXPECT_EQ(visitor.keys, (std::vector<std::string>{"enabled", "missed", "spell", "erosion",
-                                                    "raggedness", "lost_parts", "spill"}));
+                                                    "boundary_jitter", "lost_parts", "spill"}));
 }
 
 }  // namespace
