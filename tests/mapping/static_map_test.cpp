@@ -99,6 +99,27 @@ TEST(StaticMap, FramesUpToAKeyframeCountAsOneLook) {
   for (const int observations : map.cloud().observations) EXPECT_EQ(observations, 3);
 }
 
+/// A scan of `count` points on a line to the right, from the third metre on.
+LabeledCloud small_scan(int count) {
+  LabeledCloud cloud;
+  for (int i = 0; i < count; ++i) cloud.points.emplace_back(3.0F + static_cast<float>(i), 0, 0);
+  cloud.width = count;
+  cloud.height = 1;
+  cloud.labels.assign(cloud.points.size(), PointLabel::kStatic);
+  cloud.cluster.assign(cloud.points.size(), -1);
+  return cloud;
+}
+
+TEST(StaticMap, LongRunsKeepTheViewpointsThatVoxelsNeed) {
+  StaticMap map({.carving = {.enabled = false}});
+  map.integrate(small_scan(3), pose({0, 0, 0}));
+  for (int i = 0; i < 9000; ++i) map.integrate(small_scan(1), pose({0, 0, 0}));
+  map.add(small_scan(2), pose({0, 0, 0.25}));
+  EXPECT_EQ(map.cloud().size(), 5U);
+  EXPECT_TRUE(map.finalize());
+  EXPECT_EQ(map.changes().viewpoint.z(), 0.25F);
+}
+
 TEST(StaticMap, AKeyframeSeesThroughWhatTheFrameBeforeMeasured) {
   StaticMap map({.min_observations = 1});
   map.add(wall_with_ghost(1.5F), pose({0, 0, 0}));

@@ -35,7 +35,7 @@ std::size_t StaticMap::add(const LabeledCloud& cloud,
                            const Transform<World, Sensor>& T_world_sensor) {
   if (!T_world_sensor.is_finite()) return 0;
   const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
-  viewpoints_.emplace_back(T.translation());
+  viewpoints_.add(T.translation());
   const std::vector<SurfacePoint> points = surface_points(cloud, config_.surface);
   insert(points, T);
   return points.size();
@@ -66,6 +66,16 @@ void StaticMap::count_view() {
   coarsened_ = keep_to_budget();
   ++views_;
   previous_view_ = std::exchange(last_view_, last_frame());
+  if (viewpoints_.wants_pruning()) prune_viewpoints();
+}
+
+void StaticMap::prune_viewpoints() {
+  std::vector<bool> is_needed(std::size_t{last_frame()} + 1);
+  is_needed[last_view_] = true;
+  for (const VoxelBlock& block : grid_.blocks()) {
+    for (const Voxel& voxel : block.voxels) is_needed[voxel.last_frame] = true;
+  }
+  viewpoints_.prune(is_needed);
 }
 
 void StaticMap::insert(const std::vector<SurfacePoint>& points,
@@ -145,7 +155,7 @@ bool StaticMap::keep_to_budget() {
 
 Eigen::Vector3f StaticMap::normal_of(const VoxelBlock& block, const Voxel& voxel) const {
   if (has_normal(voxel)) return voxel.normal.normalized();
-  return neighbourhood_normal(grid_, block, voxel, viewpoints_[voxel.last_frame - 1]);
+  return neighbourhood_normal(grid_, block, voxel, viewpoints_.at(voxel.last_frame));
 }
 
 MapCloud StaticMap::cloud() const {

@@ -8,6 +8,7 @@
 #include "mms/core/transform.hpp"
 #include "mms/geometry/voxels/map_changes.hpp"
 #include "mms/mapping/free_space/free_space.hpp"
+#include "mms/mapping/static_map/frame_viewpoints.hpp"
 #include "mms/mapping/static_map/map_cloud.hpp"
 #include "mms/mapping/static_map/surface_points.hpp"
 #include "mms/mapping/static_map/surface_voxels.hpp"
@@ -93,12 +94,13 @@ class StaticMap {
                     const Eigen::Isometry3f& T_sensor_world);
   void count_view();
   bool keep_to_budget();
-  std::uint32_t last_frame() const { return static_cast<std::uint32_t>(viewpoints_.size()); }
+  void prune_viewpoints();
+  std::uint32_t last_frame() const { return viewpoints_.last(); }
   Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
 
   StaticMapConfig config_;
   VoxelGrid grid_;
-  std::vector<Eigen::Vector3f> viewpoints_;  // of all frames; frame n is at n - 1
+  FrameViewpoints viewpoints_;
   std::size_t views_ = 0;
   std::uint32_t last_view_ = 0;      // the frame that ended it
   std::uint32_t previous_view_ = 0;  // the frame that ended the one before

@@ -62,7 +62,7 @@ MapChanges StaticMap::changes() const {
   MapChanges changes;
   changes.voxel_size = grid_.voxel_size();
   if (views_ == 0) return changes;
-  changes.viewpoint = viewpoints_[last_view_ - 1];
+  changes.viewpoint = viewpoints_.at(last_view_);
   changes.whole = coarsened_;
   if (!coarsened_) changes.erased = carved_;
   for (const VoxelBlock& block : grid_.blocks()) {
@@ -83,9 +83,10 @@ MapChanges StaticMap::changes() const {
 
 void StaticMap::apply(const MapChanges& changes) {
   if (changes.whole) grid_ = VoxelGrid(changes.voxel_size);
-  viewpoints_.push_back(changes.viewpoint);
+  viewpoints_.add(changes.viewpoint);
   ++views_;
   last_view_ = last_frame();
+  if (viewpoints_.wants_pruning()) prune_viewpoints();
   for (const BlockChange& change : changes.blocks) {
     for (const VoxelChange& voxel_change : change.voxels) {
       check(voxel_change);

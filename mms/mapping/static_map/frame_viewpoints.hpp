@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace mms {
+
+/// Sensor positions of a map's frames, numbered from 1. Those that no voxel refers to are pruned,
+/// so that memory follows the size of the map and not the length of the run.
+class FrameViewpoints {
+ public:
+  /// @param viewpoint  in the world frame [m]
+  void add(const Eigen::Vector3f& viewpoint) { entries_.push_back({++last_, viewpoint}); }
+
+  /// Number of the frame added last; 0 before the first.
+  std::uint32_t last() const { return last_; }
+
+  /// @param frame  number of a frame that was not pruned
+  const Eigen::Vector3f& at(std::uint32_t frame) const;
+
+  /// Whether so many were added since the last pruning that another one is worth its time.
+  bool wants_pruning() const { return entries_.size() >= limit_; }
+
+  /// Removes the viewpoints that are not needed.
+  /// @param is_needed  by frame number, for 0 to `last`
+  void prune(const std::vector<bool>& is_needed);
+
+  std::size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    std::uint32_t frame = 0;
+    Eigen::Vector3f viewpoint;
+  };
+
+  static constexpr std::size_t kFirstLimit = 4096;  ///< [frames], two minutes at 30 Hz, 64 KiB
+
+  std::vector<Entry> entries_;  // by frame
+  std::uint32_t last_ = 0;
+  std::size_t limit_ = kFirstLimit;
+};
+
+}  // namespace mms
