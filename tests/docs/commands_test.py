@@ -1,0 +1,344 @@
+#!/usr/bin/env python3
+"""Keeps README and docs true: runs their commands and checks links, words, lines and files.
+
+usage: commands_test.py PROGRAM SOURCE_DIR
+
+Every ```sh block is run by bash in a temporary folder of its page, with PROGRAM first in the PATH.
+A block after a comment `<!-- not run: REASON -->` is not run; its options are still compared with
+the program's help. Exits with 1 and one line a fault.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+MAX_LINE = 100  # characters of a line of text
+MAX_WORDS = 25  # of a sentence
+BLOCK_TIMEOUT = 100  # seconds
+GENERATED = ("cli.md", "configuration.md")
+SOURCE_FOLDERS = ("mms", "apps", "interfaces", "benchmarks", "examples", "tests", "config",
+                  "weights", "docs", "viewer", "packaging", "cmake")
+
+# Words that the project does not use, and what it says in their place.
+OLD_WORDS = (
+    (r"looks", "view, observation, or a verb such as appears"),
+    (r"(?:an?|the|one|two|last|first|each|every|per|of) look", "view, observation"),
+    (r"ways", "trajectories"),
+    (r"(?:its|his|their) way", "trajectory, direction of motion"),
+    (r"things?", "object, component, or its name"),
+    (r"no name|without a name|what has no", "unknown class"),
+    (r"rims?", "boundary"),
+    (r"slack", "annealed scale"),
+    (r"middle", "center"),
+    (r"trunks?", "torso, backbone"),
+    (r"written down", "recorded"),
+    (r"off the truth", "error"),
+    (r"told", "estimated, known, given"),
+    (r"by heart", "overfit"),
+    (r"at once", "immediately, live, simultaneously"),
+    (r"true objects?", "ground-truth objects"),
+    (r"identity F1", "IDF1"),
+    (r"ms a frame", "ms/frame"),
+    (r"99 % within", "p99"),
+    (r"people's points", "person point recall"),
+    (r"on nothing", "false positives"),
+    (r"strangers?", "new objects"),
+    (r"raggedness", "boundary jitter"),
+    (r"rides?|ridden", "trajectory"),
+    (r"residues?", "ghost points"),
+    (r"trustworthy", "valid"),
+    (r"(?<!ID )switches", "ID switches"),
+    (r"cut_sigma|loose_sigma|max_shown|weight_bytes|mask_enlargement|nearest_seed",
+     "the present name"),
+)
+OLD_METRICS = re.compile(r"\|\s*(found|extra|switches|turns)\s*\|")
+# Right uses of such words in ordinary English.
+ALLOWED = re.compile(r"(?i)\b(?:two ways|both ways|SAC switches)\b")
+
+
+class Page:
+    """A page in pieces: code blocks, and lines of text."""
+
+    def __init__(self, path):
+        self.path = path
+        self.blocks = []  # (line number, language, text, reason it is not run or None)
+        self.text = []  # (line number, line) outside of code blocks
+        fence, language, start, code, comment = None, "", 0, [], None
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            if fence is None and (match := re.match(r"(```+)(\w*)", line)):
+                fence, language, start, code = match[1], match[2], number, []
+            elif fence is not None and line.startswith(fence):
+                self.blocks.append((start, language, "\n".join(code), comment))
+                fence, comment = None, None
+            elif fence is not None:
+                code.append(line)
+            else:
+                self.text.append((number, line))
+                if match := re.match(r"<!--\s*not run: (.+?)\s*-->", line):
+                    comment = match[1]
+                elif line.strip():
+                    comment = None
+
+    def prose(self):
+        """Paragraphs and list items as (line number, text), without tables, headings, comments."""
+        parts, number, words = [], 0, []
+
+        def finish():
+            if words:
+                parts.append((number, " ".join(words)))
+            words.clear()
+
+        for at, line in self.text:
+            bare = line.strip()
+            item = re.match(r"(?:[-*]|\d+\.)\s+", bare)
+            if not bare or bare[0] in "|#<!>" or item:
+                finish()
+            if not bare or bare[0] in "|#<!>":
+                continue
+            if not words:
+                number = at
+            words.append(bare[item.end():] if item else bare)
+        finish()
+        return parts
+
+
+def plain(text):
+    """Text with code spans as one word and links as their label."""
+    text = re.sub(r"`[^`]*`", "CODE", text)
+    return re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)
+
+
+def check_words(name, lines, faults):
+    for number, line in lines:
+        line = ALLOWED.sub("", line)
+        for pattern, better in OLD_WORDS:
+            for match in re.finditer(r"(?i)(?<![\w-])(?:" + pattern + r")(?![\w-])", line):
+                faults.append(f"{name}:{number}: '{match[0]}': say {better}")
+        if match := OLD_METRICS.search(line):
+            faults.append(f"{name}:{number}: '{match[1]}' is no metric's name any more")
+
+
+def check_lines(name, page, faults):
+    for number, line in page.text:
+        bare = re.sub(r"\]\([^)]*\)", "]", line)
+        exempt = line.startswith(("|", "!", "<!--"))
+        if not exempt and len(bare) > MAX_LINE:
+            faults.append(f"{name}:{number}: {len(bare)} characters, at most {MAX_LINE}")
+
+
+def check_sentences(name, page, faults):
+    for number, text in page.prose():
+        for sentence in re.split(r"(?<=[.!?:;])[)\"*]*\s+", plain(text)):
+            words = re.findall(r"[^\s()]*\w[^\s()]*", sentence)
+            if len(words) > MAX_WORDS:
+                faults.append(f"{name}:{number}: {len(words)} words in '{sentence[:50]}...'")
+
+
+def anchors(page):
+    names = set()
+    for _, line in page.text:
+        if match := re.match(r"#+\s+(.*)", line):
+            heading = re.sub(r"[^\w\- ]", "", plain(match[1]).replace("CODE", "").lower()
+                             if "`" not in match[1] else match[1].replace("`", "").lower())
+            names.add(heading.strip().replace(" ", "-"))
+    return names
+
+
+def links(page):
+    for number, line in page.text:
+        for match in re.finditer(r"\]\(([^)\s]+)\)", re.sub(r"`[^`]*`", "", line)):
+            if not re.match(r"[a-z]+:", match[1]):
+                yield number, match[1]
+
+
+def check_links(root, pages, faults):
+    """Relative links resolve, and every page can be reached from README."""
+    targets = {path: set() for path in pages}
+    for path, page in pages.items():
+        for number, link in links(page):
+            file, _, anchor = link.partition("#")
+            target = (path.parent / file).resolve() if file else path
+            if not target.exists():
+                faults.append(f"{path.relative_to(root)}:{number}: link {link} leads nowhere")
+            elif target in pages:
+                targets[path].add(target)
+                if anchor and anchor not in anchors(pages[target]):
+                    faults.append(f"{path.relative_to(root)}:{number}: no heading for {link}")
+    reached, queue = set(), [root / "README.md"]
+    while queue:
+        path = queue.pop()
+        if path not in reached:
+            reached.add(path)
+            queue += targets[path]
+    for path in sorted(set(pages) - reached):
+        faults.append(f"{path.relative_to(root)}: no link from README leads here")
+
+
+def check_files(root, page, name, faults):
+    """Files of the repository that the text names are there, with or without extension."""
+    for number, line in page.text:
+        for span in re.findall(r"`([\w.-]+/[\w./-]*\w)`", line):
+            if span.split("/")[0] not in SOURCE_FOLDERS:
+                continue
+            if not (root / span).exists() and not list(root.glob(span + ".*")):
+                faults.append(f"{name}:{number}: the repository has no {span}")
+
+
+class Help:
+    """What the program says about its commands."""
+
+    def __init__(self, program):
+        self.program = program
+        self.texts = {}
+        self.visit(())
+
+    def visit(self, command):
+        result = subprocess.run([self.program, *command, "--help"], capture_output=True, text=True,
+                                check=False)
+        if result.returncode != 0:
+            if command == ("train",):  # mms-torch is not part of every build
+                return
+            sys.exit(f"mms {' '.join(command)} --help: {result.stderr}")
+        self.texts[command] = result.stdout
+        below = re.search(r"^Subcommands:\n((?:[ \n].*\n?)*)", result.stdout, re.M)
+        for name in re.findall(r"^  ([a-z][\w-]*)", below[1] if below else "", re.M):
+            self.visit((*command, name))
+
+    def check(self, where, call, faults):
+        """`call`: what follows "mms" on a command line."""
+        words = call.split()
+        if not words or not re.fullmatch(r"[a-z][\w-]*", words[0]):
+            return
+        if words[0] == "train":
+            return
+        command = ()
+        while words and (*command, words[0]) in self.texts:
+            command = (*command, words.pop(0))
+        if not command:
+            faults.append(f"{where}: there is no command 'mms {words[0]}'")
+            return
+        for option in re.findall(r"(?<=\s)--[a-z][\w-]*", " " + " ".join(words)):
+            if not re.search(re.escape(option) + r"(?![\w-])", self.texts[command]):
+                faults.append(f"{where}: mms {' '.join(command)} has no option {option}")
+
+
+def calls(text):
+    """Calls of mms in a shell text, each without the program's name."""
+    text = re.sub(r"\\\n", " ", text)
+    for line in text.splitlines():
+        line = re.sub(r"(^|\s)#.*", "", line)
+        for part in re.split(r"[;|&]+(?=(?:[^\"]*\"[^\"]*\")*[^\"]*$)", line):
+            if match := re.match(r"\s*(?:\S*/)?mms\s+(.*)", part):
+                yield match[1]
+
+
+def check_calls(name, page, program_help, faults):
+    for number, language, text, _ in page.blocks:
+        if language == "sh":
+            for call in calls(text):
+                program_help.check(f"{name}:{number}", call, faults)
+    for number, line in page.text:
+        for span in re.findall(r"`(mms [^`]+)`", line):
+            for call in calls(span):
+                program_help.check(f"{name}:{number}", call, faults)
+
+
+def commands_of(text):
+    joined = re.sub(r"\\\n", " ", text)
+    return [line for line in joined.splitlines() if line.strip() and line.strip()[0] != "#"]
+
+
+def run_page(name, page, program, faults):
+    """Runs the page's commands.
+
+    Returns the numbers of commands run and marked.
+    """
+    ran, marked = 0, 0
+    environment = dict(os.environ, PATH=f"{Path(program).parent}:{os.environ['PATH']}")
+    with tempfile.TemporaryDirectory(prefix="mms_docs_") as folder:
+        for number, language, text, reason in page.blocks:
+            if language != "sh":
+                continue
+            count = len(commands_of(text))
+            if reason is not None:
+                marked += count
+                continue
+            ran += count
+            try:
+                result = subprocess.run(["bash", "-euo", "pipefail", "-c", text], cwd=folder,
+                                        env=environment, capture_output=True, text=True,
+                                        stdin=subprocess.DEVNULL, timeout=BLOCK_TIMEOUT,
+                                        check=False)
+            except subprocess.TimeoutExpired:
+                faults.append(f"{name}:{number}: takes more than {BLOCK_TIMEOUT} s")
+                continue
+            if result.returncode != 0:
+                output = (result.stdout + result.stderr).strip()[-600:]
+                faults.append(f"{name}:{number}: exit code {result.returncode}: {output}")
+    return ran, marked
+
+
+def without_train(text):
+    """Training is not part of every build."""
+    return re.sub(r"\n## mms train\n.*?(?=\n## |\Z)", "", text, flags=re.S)
+
+
+def check_generated(root, program, faults):
+    with tempfile.TemporaryDirectory(prefix="mms_docs_") as folder:
+        subprocess.run([root / "docs/generate.sh", program, folder], check=True)
+        for name in GENERATED:
+            fresh = without_train((Path(folder) / name).read_text(encoding="utf-8"))
+            if fresh != without_train((root / "docs" / name).read_text(encoding="utf-8")):
+                faults.append(f"docs/{name}: differs from the program: run docs/generate.sh")
+
+
+def check_page(root, path, page, program_help, faults):
+    name = str(path.relative_to(root))
+    check_lines(name, page, faults)
+    check_files(root, page, name, faults)
+    check_calls(name, page, program_help, faults)
+    if path.name == "CHANGELOG.md":  # has the former names
+        return
+    check_words(name, enumerate(path.read_text(encoding="utf-8").splitlines(), 1), faults)
+    if path.name in GENERATED:
+        return
+    check_sentences(name, page, faults)
+    first = page.prose()[:1]
+    if path.parent.name == "docs" and not (first and first[0][1].startswith("For ")):
+        faults.append(f"{name}: the first paragraph has to say who needs the page: 'For ...'")
+
+
+def main(program, root):
+    start, faults = time.monotonic(), []
+    program_help = Help(program)
+    paths = [root / "README.md", root / "CHANGELOG.md", *sorted((root / "docs").glob("*.md"))]
+    pages = {path: Page(path) for path in paths}
+    check_links(root, pages, faults)
+    for path, page in pages.items():
+        check_page(root, path, page, program_help, faults)
+    for command, text in program_help.texts.items():
+        name = " ".join(("mms", *command, "--help"))
+        check_words(name, enumerate(text.splitlines(), 1), faults)
+    dump = subprocess.run([program, "config", "dump"], capture_output=True, text=True, check=True)
+    check_words("mms config dump", enumerate(dump.stdout.splitlines(), 1), faults)
+    check_generated(root, program, faults)
+    ran, marked = 0, 0
+    for path, page in pages.items():
+        counts = run_page(str(path.relative_to(root)), page, program, faults)
+        ran, marked = ran + counts[0], marked + counts[1]
+    if ran == 0:
+        faults.append("no command was run")
+    for fault in faults:
+        print(fault)
+    print(f"{len(pages)} pages, {ran} commands run, {marked} marked as not run, "
+          f"{len(faults)} faults, {time.monotonic() - start:.0f} s")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    sys.exit(main(os.path.realpath(sys.argv[1]), Path(sys.argv[2]).resolve()))
