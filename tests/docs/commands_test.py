@@ -295,20 +295,45 @@ def check_generated(root, program, faults):
                 faults.append(f"docs/{name}: differs from the program: run docs/generate.sh")
 
 
+def check_architecture(root, faults):
+    """The tables of modules and folders are those of the architecture test."""
+    rules = (root / "tests/architecture/include_rules.cpp").read_text(encoding="utf-8")
+    page = (root / "docs/architecture.md").read_text(encoding="utf-8")
+    split = rules.index("rules.folders = {")
+    for part, row in ((rules[:split], "| `{}` | {} |"), (rules[split:], "| {} | {} |")):
+        for name, targets in re.findall(r'\{"(\w+)",\s*\{([^{}]*)\}\}', part):
+            names = [target or "." for target in re.findall(r'"([^"]*)"', targets)]
+            shown = "apps/mms" if name == "apps" else name
+            line = row.format(shown, ", ".join(names) or "-")
+            if line not in page:
+                faults.append(f"docs/architecture.md: the table has to have the row {line}")
+
+
 def check_page(root, path, page, program_help, faults):
     name = str(path.relative_to(root))
     check_lines(name, page, faults)
     check_files(root, page, name, faults)
-    check_calls(name, page, program_help, faults)
     if path.name == "CHANGELOG.md":  # has the former names
         return
-    check_words(name, enumerate(path.read_text(encoding="utf-8").splitlines(), 1), faults)
-    if path.name in GENERATED:
+    check_calls(name, page, program_help, faults)
+    if path.name in GENERATED:  # the program's output is checked
         return
+    check_words(name, enumerate(path.read_text(encoding="utf-8").splitlines(), 1), faults)
     check_sentences(name, page, faults)
     first = page.prose()[:1]
-    if path.parent.name == "docs" and not (first and first[0][1].startswith("For ")):
+    if path.parent == root / "docs" and not (first and first[0][1].startswith("For ")):
         faults.append(f"{name}: the first paragraph has to say who needs the page: 'For ...'")
+
+
+def check_output(program, program_help, faults):
+    """Words of the help of every command, and of all settings."""
+    for command, text in program_help.texts.items():
+        name = " ".join(("mms", *command, "--help"))
+        check_words(name, enumerate(text.splitlines(), 1), faults)
+    for arguments in (("config", "dump"), ("simulate", "crowd", "--print")):
+        result = subprocess.run([program, *arguments], capture_output=True, text=True, check=True)
+        name = " ".join(("mms", *arguments))
+        check_words(name, enumerate(result.stdout.splitlines(), 1), faults)
 
 
 def main(program, root):
@@ -319,12 +344,9 @@ def main(program, root):
     check_links(root, pages, faults)
     for path, page in pages.items():
         check_page(root, path, page, program_help, faults)
-    for command, text in program_help.texts.items():
-        name = " ".join(("mms", *command, "--help"))
-        check_words(name, enumerate(text.splitlines(), 1), faults)
-    dump = subprocess.run([program, "config", "dump"], capture_output=True, text=True, check=True)
-    check_words("mms config dump", enumerate(dump.stdout.splitlines(), 1), faults)
+    check_output(program, program_help, faults)
     check_generated(root, program, faults)
+    check_architecture(root, faults)
     ran, marked = 0, 0
     for path, page in pages.items():
         counts = run_page(str(path.relative_to(root)), page, program, faults)
