@@ -17,7 +17,7 @@ from pathlib import Path
 
 MAX_LINE = 100  # characters of a line of text
 MAX_WORDS = 25  # of a sentence
-BLOCK_TIMEOUT = 100  # seconds
+BLOCK_TIMEOUT = 300  # seconds
 GENERATED = ("cli.md", "configuration.md")
 SOURCE_FOLDERS = ("mms", "apps", "interfaces", "benchmarks", "examples", "tests", "config",
                   "weights", "docs", "viewer", "packaging", "cmake")
