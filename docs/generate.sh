@@ -14,6 +14,7 @@ subcommands() {
 }
 
 # section NAME...: help of a command and of those below it.
+# shellcheck disable=SC2016  # the backquotes are Markdown
 section() {
   local text name
   if ! text="$("$mms" "$@" --help 2> /dev/null)"; then
@@ -111,7 +112,7 @@ Every run writes the settings it used to `config.yaml` in its folder.
 
 ## Settings of a run
 
-The headings are groups: `### fusion.planes` stands for `fusion: {planes: {...}}`.
+The headings are groups: `fusion.planes` is the group `planes` inside the group `fusion`.
 PAGE
   "$mms" config dump | tables "top level"
   cat << 'PAGE'

@@ -246,6 +246,47 @@ def check_calls(name, page, program_help, faults):
                 program_help.check(f"{name}:{number}", call, faults)
 
 
+class Settings:
+    """The settings of the program, and whether a text names them rightly."""
+
+    def __init__(self, program):
+        self.program = program
+        dump = subprocess.run([program, "config", "dump"], capture_output=True, text=True,
+                              check=True).stdout
+        self.names, path = set(), []
+        for line in dump.splitlines():
+            if match := re.match(r"( *)([a-z0-9_]+):", line):
+                path = [*path[:len(match[1]) // 2], match[2]]
+                self.names.add(".".join(path))
+        self.groups = {name for name in self.names if "." not in name}
+
+    def check_yaml(self, where, text, faults):
+        """A settings file; one with a placeholder, as in `long_side: N`, cannot be checked."""
+        first = re.match(r"([a-z_]+):", text)
+        if not first or first[1] not in self.groups or re.search(r"\b[A-Z]\b", text):
+            return
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+            file.write(text + "\n")
+            file.flush()
+            result = subprocess.run([self.program, "config", "check", file.name],
+                                    capture_output=True, text=True, check=False)
+        if result.returncode != 0 or "warning" in result.stderr:
+            faults.append(f"{where}: {(result.stdout + result.stderr).strip()}")
+
+    def check_page(self, name, page, faults):
+        for number, language, text, _ in page.blocks:
+            if language == "yaml":
+                self.check_yaml(f"{name}:{number}", text, faults)
+        for number, line in page.text:
+            for span in re.findall(r"`([^`]+)`", line):
+                where = f"{name}:{number}"
+                dotted = re.fullmatch(r"([a-z_]+)\.[a-z0-9_.]+", span)
+                is_file = span.endswith((".tum", ".ply", ".pcd"))
+                if dotted and dotted[1] in self.groups and not is_file and span not in self.names:
+                    faults.append(f"{where}: there is no setting {span}")
+                self.check_yaml(where, span, faults)
+
+
 def commands_of(text):
     joined = re.sub(r"\\\n", " ", text)
     return [line for line in joined.splitlines() if line.strip() and line.strip()[0] != "#"]
@@ -309,13 +350,16 @@ def check_architecture(root, faults):
                 faults.append(f"docs/architecture.md: the table has to have the row {line}")
 
 
-def check_page(root, path, page, program_help, faults):
+def check_page(root, path, page, program, faults):
+    """`program`: its help and its settings."""
+    program_help, settings = program
     name = str(path.relative_to(root))
     check_lines(name, page, faults)
     check_files(root, page, name, faults)
     if path.name == "CHANGELOG.md":  # has the former names
         return
     check_calls(name, page, program_help, faults)
+    settings.check_page(name, page, faults)
     if path.name in GENERATED:  # the program's output is checked
         return
     check_words(name, enumerate(path.read_text(encoding="utf-8").splitlines(), 1), faults)
@@ -342,8 +386,9 @@ def main(program, root):
     paths = [root / "README.md", root / "CHANGELOG.md", *sorted((root / "docs").glob("*.md"))]
     pages = {path: Page(path) for path in paths}
     check_links(root, pages, faults)
+    settings = Settings(program)
     for path, page in pages.items():
-        check_page(root, path, page, program_help, faults)
+        check_page(root, path, page, (program_help, settings), faults)
     check_output(program, program_help, faults)
     check_generated(root, program, faults)
     check_architecture(root, faults)
