@@ -20,7 +20,7 @@ count() {
 
 install_packages
 install_test_tools
-if ! build; then
+if ! build release; then
   echo "0 passed, 1 failed"
   exit 1
 fi

@@ -1,7 +1,16 @@
 # shellcheck shell=bash
 # Sourced by demo.sh and test.sh: install_packages, install_test_tools and build.
 
-# Installs what is missing of packages.txt; asks nothing, and does nothing where all is there.
+# packages_of [GROUP...]: the packages of these groups of packages.txt, of all groups without one.
+packages_of() {
+  awk -v groups=" $* " '
+    /^[[:space:]]*(#|$)/ { next }
+    /^\[.*\]$/ { wanted = groups ~ /^ +$/ || index(groups, " " substr($0, 2, length($0) - 2) " "); next }
+    wanted' packages.txt
+}
+
+# install_packages [GROUP...]: installs what is missing of these groups; asks nothing, and does
+# nothing where everything is there.
 install_packages() {
   if ! command -v dpkg-query > /dev/null; then
     echo "no dpkg here: the packages named in packages.txt must be installed already"
@@ -12,8 +21,8 @@ install_packages() {
     if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null)" != installed ]; then
       missing+=("$package")
     fi
-  done < <(grep -Ev '^[[:space:]]*(#|$)' packages.txt)
-  apt_install "${missing[@]}"
+  done < <(packages_of "$@")
+  apt_install ${missing[@]+"${missing[@]}"}
 }
 
 # Installs what only tests of the viewer use, where the command is missing: they are skipped where
@@ -29,7 +38,7 @@ install_test_tools() {
 # apt_install PACKAGE...: from Debian's archive.
 apt_install() {
   [ $# -eq 0 ] && return
-  echo "installing $*"
+  echo "installing $# packages: $*"
   local as_root=()
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo > /dev/null || { echo "sudo or root is needed for that" >&2; return 1; }
@@ -41,10 +50,9 @@ apt_install() {
     --no-install-recommends -o Dpkg::Use-Pty=0 "$@" > /dev/null || return 1
 }
 
-# build [TARGET...]: configures and builds the release preset, in build/release.
+# build PRESET: configures and builds a preset in build/PRESET, and shows how far it is.
 build() {
-  local targets=()
-  [ $# -gt 0 ] && targets=(--target "$@")
-  cmake --preset release > /dev/null &&
-    cmake --build build/release --parallel "$(nproc)" ${targets[@]+"${targets[@]}"}
+  cmake --preset "$1" > "${TMPDIR:-/tmp}/mms_configure.log" ||
+    { cat "${TMPDIR:-/tmp}/mms_configure.log" >&2; return 1; }
+  NINJA_STATUS='[%p, %f of %t, %e s] ' cmake --build --preset "$1" --parallel "$(nproc)"
 }
