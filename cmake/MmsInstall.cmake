@@ -1,4 +1,6 @@
-# Install rules: find_package(mms) gives the targets mms::core, mms::geometry, ... mms::pipeline.
+# Install rules. find_package(mms) gives the targets mms::core, mms::geometry, ... mms::pipeline.
+# Components: development (headers, libraries, CMake package), program (mms and its files), torch and
+# ros (what needs libtorch and roscpp).
 
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/mms)
@@ -7,21 +9,37 @@ get_property(modules GLOBAL PROPERTY MMS_MODULES)
 if(TARGET mms_torch)
   list(APPEND modules mms_torch)
 endif()
-install(TARGETS ${modules} mms_build_settings EXPORT mms_targets)
-install(DIRECTORY mms DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
-install(EXPORT mms_targets NAMESPACE mms:: DESTINATION ${package_dir})
+install(TARGETS ${modules} mms_build_settings EXPORT mms_targets COMPONENT development)
+install(DIRECTORY mms DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+        FILES_MATCHING PATTERN "*.hpp")
+install(EXPORT mms_targets NAMESPACE mms:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(cmake/mms-config.cmake.in ${PROJECT_BINARY_DIR}/mms-config.cmake
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/mms-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/mms-config.cmake ${PROJECT_BINARY_DIR}/mms-config-version.cmake
               cmake/FindOpenCVModules.cmake cmake/FindRosbagStorage.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT development)
+
 if(TARGET mms_program)
-  install(TARGETS mms_program)
-  if(TARGET mms_torch_program)
-    install(TARGETS mms_torch_program)
-  endif()
+  install(TARGETS mms_program COMPONENT program)
   install(FILES weights/nano.safetensors weights/small.safetensors
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/mms/weights)
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/mms/weights COMPONENT program)
+  install(DIRECTORY config DESTINATION ${CMAKE_INSTALL_DATADIR}/mms COMPONENT program)
+  install(FILES packaging/mms.bash-completion RENAME mms
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+  # The manual page and the settings with their defaults are what the program itself prints. The
+  # program of another architecture needs an emulator for that.
+  if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
+    add_custom_command(TARGET mms_program POST_BUILD
+      COMMAND ${PROJECT_SOURCE_DIR}/packaging/make_man_page.sh ${PROJECT_BINARY_DIR}
+              ${PROJECT_VERSION} ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:mms_program>)
+    install(FILES ${PROJECT_BINARY_DIR}/mms.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+            COMPONENT program)
+    install(FILES ${PROJECT_BINARY_DIR}/default.yaml
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/mms/config COMPONENT program)
+  endif()
+endif()
+if(TARGET mms_torch_program)
+  install(TARGETS mms_torch_program COMPONENT torch)
 endif()

@@ -1,0 +1,62 @@
+# Debian packages by cpack, from any build without libtorch: mms-slam (program, weights, settings,
+# manual page, bash completion) and libmms-dev (headers, static libraries, CMake package).
+if(NOT PROJECT_IS_TOP_LEVEL OR NOT TARGET mms_program OR MMS_WITH_TORCH)
+  return()
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME mms-slam)
+set(CPACK_PACKAGE_VENDOR "MMS-SLAM contributors")
+set(CPACK_PACKAGE_CONTACT "MMS-SLAM contributors <maintainers@mms-slam.invalid>")
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME mms-slam)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+"visual and LiDAR SLAM among moving people and vehicles
+ MMS-SLAM localises a depth camera or LiDAR among walking people and moving
+ vehicles. It writes the trajectory of the sensor, a static map without them,
+ and the tracked objects with boxes and velocities. A simulated warehouse
+ with exact ground truth and a viewer for the browser are part of it.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmms-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+       "libeigen3-dev (>= 3.4), libtbb-dev, robin-map-dev, libopencv-core-dev, "
+       "libopencv-imgproc-dev, libopencv-imgcodecs-dev, libopencv-dnn-dev, libdnnl-dev, "
+       "ocl-icd-opencl-dev, libembree-dev, libyaml-cpp-dev, nlohmann-json3-dev, liboctomap-dev, "
+       "libfmt-dev, libboost-dev (>= 1.74)")
+if(RosbagStorage_FOUND)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", librosbag-storage-dev")
+endif()
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+"visual and LiDAR SLAM among moving people and vehicles (development files)
+ MMS-SLAM localises a depth camera or LiDAR among walking people and moving
+ vehicles, and maps what stands still.
+ .
+ This package contains the headers, the static libraries and the CMake
+ package: find_package(mms).")
+
+# What Debian's policy asks of each package.
+set(changelog ${PROJECT_BINARY_DIR}/changelog.Debian.gz)
+execute_process(COMMAND ${PROJECT_SOURCE_DIR}/packaging/make_changelog.sh ${changelog}
+                        ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}
+                        ${CPACK_PACKAGE_CONTACT}
+                COMMAND_ERROR_IS_FATAL ANY)
+foreach(component program development)
+  string(TOUPPER ${component} upper)
+  set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+  install(FILES ${changelog} packaging/copyright DESTINATION ${folder} COMPONENT ${component})
+endforeach()
+include(CPack)
