@@ -31,9 +31,13 @@ if(TARGET mms_program)
   # The manual page and the settings with their defaults are what the program itself prints. The
   # program of another architecture needs an emulator for that.
   if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
-    add_custom_command(TARGET mms_program POST_BUILD
+    add_custom_command(
+      OUTPUT ${PROJECT_BINARY_DIR}/mms.1.gz ${PROJECT_BINARY_DIR}/default.yaml
+      DEPENDS mms_program packaging/make_man_page.sh
       COMMAND ${PROJECT_SOURCE_DIR}/packaging/make_man_page.sh ${PROJECT_BINARY_DIR}
               ${PROJECT_VERSION} ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:mms_program>)
+    add_custom_target(mms_program_files ALL
+      DEPENDS ${PROJECT_BINARY_DIR}/mms.1.gz ${PROJECT_BINARY_DIR}/default.yaml)
     install(FILES ${PROJECT_BINARY_DIR}/mms.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
             COMPONENT program)
     install(FILES ${PROJECT_BINARY_DIR}/default.yaml

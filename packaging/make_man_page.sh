@@ -53,6 +53,11 @@ Check that the program works on this machine.
 END
   local command part
   for command in $(commands_of); do
+    # mms train hands over to mms-torch, which a build without libtorch does not have.
+    if [ "$command" = train ] && ! "${program[@]}" train --help > /dev/null 2>&1; then
+      printf '.SS mms train\nTrain the segmentation network; part of builds with libtorch.\n'
+      continue
+    fi
     help_of "$command"
     for part in $(commands_of "$command"); do
       help_of "$command" "$part"
