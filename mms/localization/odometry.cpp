@@ -97,7 +97,7 @@ RegistrationResult Odometry::register_best(const FeatureCloud& features) const {
   RegistrationResult best = register_near(features, prediction, config_.registration);
   if (!is_valid(features, best)) {
     RegistrationConfig strict = config_.registration;
-    strict.geometric.annealed_scale = 0.0;
+    strict.geometric.initial_scale = 0.0;
     const RegistrationResult other = register_near(features, prediction, strict);
     if (other.geometric.inliers() >= best.geometric.inliers()) best = other;
   }

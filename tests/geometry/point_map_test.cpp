@@ -166,12 +166,11 @@ TEST(PointMap, RemovesWhatIsFar) {
   const Points before = map.points();
   map.remove_farther_than(centre, 1.5F);
   const Points after = map.points();
-  const float annealed_scale =
-      static_cast<float>(voxel * std::sqrt(3.0) / 2.0);  // centre to corner
-  for (const Eigen::Vector3f& p : after) EXPECT_LT((p - centre).norm(), 1.5F + annealed_scale);
+  const float tolerance = static_cast<float>(voxel * std::sqrt(3.0) / 2.0);  // centre to corner
+  for (const Eigen::Vector3f& p : after) EXPECT_LT((p - centre).norm(), 1.5F + tolerance);
   const auto inner = [&](const Points& points) {
     return std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3f& p) {
-      return (p - centre).norm() < 1.5F - annealed_scale;
+      return (p - centre).norm() < 1.5F - tolerance;
     });
   };
   EXPECT_GT(inner(before), 50);

@@ -102,7 +102,7 @@ TEST(EvalMap, FaultsAreOneLine) {
 
 TEST(EvalResidue, OfTheScenesOwnMapIsSmall) {
   const TempFolder folder;
-  const std::string still = "sim:corridor?ride=still&crossing=1&width=320&frames=12";
+  const std::string still = "sim:corridor?trajectory=still&crossing=1&width=320&frames=12";
   expect_done(run_mms(folder.path(), {"run", still, "--segmenter", "masks", "-o", "out"}));
   const auto json = json_of(
       run_mms(folder.path(), {"eval", "ghost-points", still, "out/static_map.ply", "--json"}));

@@ -14,11 +14,11 @@ using Words = std::vector<std::string>;
 
 /// `mms reproduce` on small scenes with more words.
 Outcome reproduce(const TempFolder& folder, const Words& more = {}) {
-  Words words = {"reproduce",   "sim:still_walker?width=160",
-                 "--ride",      "sim:crowd?width=160",
-                 "--frames",    "6",
-                 "-o",          "out",
-                 "--segmenter", "masks"};
+  Words words = {"reproduce",    "sim:still_walker?width=160",
+                 "--trajectory", "sim:crowd?width=160",
+                 "--frames",     "6",
+                 "-o",           "out",
+                 "--segmenter",  "masks"};
   words.insert(words.end(), more.begin(), more.end());
   return run_mms(folder.path(), words);
 }
@@ -53,7 +53,7 @@ TEST(Reproduce, PutsThePapersTablesIntoOneReport) {
   expect_in("truth", report);
   expect_in("Table II", outcome.out);
   EXPECT_TRUE(fs::exists(folder.path() / "out/still_vision/metrics.json"));
-  EXPECT_TRUE(fs::exists(folder.path() / "out/ride_multimodal/semantic_map.ply"));
+  EXPECT_TRUE(fs::exists(folder.path() / "out/loop_multimodal/semantic_map.ply"));
 }
 
 TEST(Reproduce, TrainingsThatAreNoneAreNamed) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/mms/console/progress.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "apps/mms/paper/paper_tables.hpp"
 #include "apps/mms/paper/reproduction.hpp"
 #include "mms/core/error.hpp"
@@ -97,7 +98,7 @@ class Reproducer {
   void compare_localization() {
     std::vector<PaperRun> runs;
     for (const Method& method : {kWithout, kMultimodal}) {
-      runs.push_back(play(options_.trajectory, "ride", method));
+      runs.push_back(play(options_.trajectory, "loop", method));
       add_path(method.name);
     }
     found_.tables.push_back(localization_table(options_.trajectory, runs));
@@ -118,7 +119,7 @@ class Reproducer {
   }
 
   void add_picture(const std::string& title, const std::string& file) {
-    const fs::path path = folder_ / "ride_multimodal" / "pictures" / file;
+    const fs::path path = folder_ / "loop_multimodal" / "pictures" / file;
     if (fs::exists(path)) found_.pictures.push_back({title, read_color(path)});
   }
 
@@ -150,9 +151,10 @@ void add_reproduce_command(CLI::App& app) {
                    "recording of a sensor that stands still, for the table of drifts")
       ->capture_default_str();
   command
-      ->add_option("--ride", options->trajectory,
+      ->add_option("--trajectory", options->trajectory,
                    "recording with truth, for the localisation figure")
       ->capture_default_str();
+  CLI::Option* former = command->add_option("--ride", options->trajectory)->group("");
   command->add_option("-o,--output", options->output,
                       "folder for the results (default: results/<time>_reproduction)");
   command->add_option("--trainings", options->trainings,
@@ -165,7 +167,10 @@ void add_reproduce_command(CLI::App& app) {
       ->default_str("all");
   command->add_option("--threads", options->threads, "threads to use (default: one a core)")
       ->check(CLI::Range(1, 256));
-  command->callback([options] { reproduce(*options); });
+  command->callback([options, former] {
+    if (former->count() > 0) print_warnings({"--ride is now called --trajectory"});
+    reproduce(*options);
+  });
 }
 
 }  // namespace mms

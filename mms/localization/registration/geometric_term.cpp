@@ -71,9 +71,11 @@ void GeometricConfig::visit(ConfigVisitor& v) {
   v.boolean({"planes", "", "use planar features, eq. (4)"}, planes);
   v.number({"gate", "voxels", "largest distance of a feature to its counterpart"}, gate,
            {0.5, 20.0});
-  v.number(
-      {"slack", "voxels", "standard deviation of the residuals a frame's registration starts with"},
-      annealed_scale, {0.0, 10.0});
+  v.number({"initial_scale", "voxels",
+            "scale of the robust weights that a frame's registration starts with; it is annealed "
+            "to the noise",
+            "slack"},
+           initial_scale, {0.0, 10.0});
   v.number({"map_sigma", "m", "error of the local maps, added to the measurement's"}, map_sigma,
            {1e-5, 1.0});
   v.number({"robust_scale", "", "standard deviations at which Cauchy's weight is one half"},

@@ -10,9 +10,9 @@ struct GeometricConfig {
   Association association = Association::kSurface;
   bool edges = true;
   bool planes = true;
-  double gate = 2.0;            ///< [voxels]
-  double annealed_scale = 0.5;  ///< [voxels]
-  double map_sigma = 0.004;     ///< [m]
+  double gate = 2.0;           ///< [voxels]
+  double initial_scale = 0.5;  ///< [voxels]
+  double map_sigma = 0.004;    ///< [m]
   double robust_scale = 2.0;
   double weight = 0.5;
 

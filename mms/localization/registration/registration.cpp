@@ -15,8 +15,7 @@ constexpr double kReassociationShift = 0.1;
 constexpr double kResidualsPerMeasurement = 10.0;
 
 constexpr double kScaleDecay = 0.5;
-constexpr double kSettledShare =
-    0.1;  ///< step over annealed_scale at which the annealed_scale is tightened
+constexpr double kSettledShare = 0.1;  ///< step over the annealed scale at which that is tightened
 
 /// Residuals within three sigma of a photometric term; t-weights are never zero.
 int count_inliers(const PhotometricEquations& equations, double sigma) {
@@ -78,7 +77,7 @@ class GaussNewton {
   RegistrationResult run() {
     const bool photometric =
         config_.photometric.enabled && !features_.intensity.empty() && !target_.keyframes.empty();
-    annealed_scale_ = config_.geometric.annealed_scale * target_.maps.voxel_size();
+    annealed_scale_ = config_.geometric.initial_scale * target_.maps.voxel_size();
     if (photometric) {
       run_pyramid();
     } else {
@@ -116,7 +115,7 @@ class GaussNewton {
   /// @param level  of the intensity pyramid, -1 for none
   void iterate(int level, int max_iterations) {
     result_.converged = false;
-    // While the annealed_scale is larger than the noise, a step well below it changes nothing.
+    // While the annealed scale is larger than the noise, a step well below it changes nothing.
     const double settled_translation =
         std::max(config_.converged_translation, kSettledShare * annealed_scale_);
     const double settled_rotation = std::max(

@@ -21,7 +21,7 @@ struct CarvingConfig {
     v.boolean({"enabled", "", "remove from the map what later keyframes see through"}, enabled);
     v.number({"margin", "m", "least distance of the measured surface behind, above noise"}, margin,
              {0.0, 10.0});
-    v.number({"ratio", "", "looks through per hit that remove a voxel"}, ratio, {0.1, 1000.0});
+    v.number({"ratio", "", "views through a voxel per hit that remove it"}, ratio, {0.1, 1000.0});
     v.number({"scan_margin", "m", "margin of LiDAR scans, noise included"}, scan_margin,
              {0.01, 10.0});
     v.number({"scan_ratio", "", "ratio of LiDAR scans, which hit a voxel more seldom"}, scan_ratio,

@@ -23,9 +23,9 @@ struct GridConfig {
   double free_height = 0.5;  ///< [m]
 
   void visit(ConfigVisitor& v) {
-    v.number({"min_height", "m", "height over the floor from which on things are obstacles"},
+    v.number({"min_height", "m", "height over the floor from which on points are obstacles"},
              min_height, {0.0, 10.0});
-    v.number({"max_height", "m", "height over the floor up to which things are obstacles"},
+    v.number({"max_height", "m", "height over the floor up to which points are obstacles"},
              max_height, {0.0, 100.0});
     v.number({"free_height", "m", "empty space seen up to this height makes its floor free"},
              free_height, {0.0, 100.0});

@@ -27,7 +27,7 @@ struct StaticMapConfig {
              voxel_size, {0.001, 10.0});
     v.number({"memory", "MB", "budget of the map"}, memory, {1.0, 1e6});
     v.integer({"min_observations", "",
-               "looks, from keyframe to keyframe, that have to see a voxel before it is shown"},
+               "views, from keyframe to keyframe, that must measure a voxel before it is shown"},
               min_observations, {1.0, 1000.0});
     v.group({"surface", "", "points that are fit for the map"}, surface);
     v.group({"carving", "", "removal of what is seen to be gone"}, carving);

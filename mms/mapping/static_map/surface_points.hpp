@@ -23,7 +23,8 @@ struct SurfaceConfig {
              {0.1, 1e5});
     v.number({"max_jump", "m", "bend between neighbouring pixels that is no surface, above noise"},
              max_jump, {0.0, 10.0});
-    v.number({"rim", "", "width of the rim about what is dynamic, as a share of the image's width"},
+    v.number({"boundary", "",
+              "width left out around dynamic pixels, as a share of the image's width", "rim"},
              boundary, {0.0, 0.5});
   }
 };

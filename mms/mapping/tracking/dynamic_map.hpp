@@ -39,7 +39,7 @@ struct DynamicMapConfig {
         {"max_coast_output", "s", "longest time an unseen object is given as there", "max_shown"},
         max_coast_output, {0.0, 60.0});
     v.number({"history_lag", "s",
-              "objects' motions are written down as known so much later; 0: as known at once"},
+              "delay of the smoothed motions in objects.json; 0: the filter's own estimates"},
              history_lag, {0.0, 60.0});
     v.group({"reidentification", "", "objects that come back after they were lost", "returning"},
             reidentification);

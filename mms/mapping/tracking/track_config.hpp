@@ -21,8 +21,8 @@ struct ClassPrior {
 
   void visit(ConfigVisitor& v) {
     constexpr Range kSize = {0.05, 30.0};
-    v.number({"length", "m", "along its way"}, length, kSize);
-    v.number({"width", "m", "across its way"}, width, kSize);
+    v.number({"length", "m", "along its heading"}, length, kSize);
+    v.number({"width", "m", "across its heading"}, width, kSize);
     v.number({"height", "m", "from the floor up"}, height, kSize);
     v.number({"max_extent", "m", "over the floor, beyond which it is several objects"}, max_extent,
              kSize);
@@ -54,12 +54,12 @@ struct TrackConfig {
   void visit(ConfigVisitor& v) {
     v.number({"acceleration_noise", "m^2/s^3", "how quickly objects change their velocity"},
              acceleration_noise, {1e-4, 100.0});
-    v.number({"position_sigma", "m", "error of the middle of a box in view"}, position_sigma,
+    v.number({"position_sigma", "m", "error of the center of a box in view"}, position_sigma,
              {1e-3, 10.0});
-    v.number({"truncated_sigma", "m", "error of the middle of a box with an end out of view",
+    v.number({"truncated_sigma", "m", "error of the center of a box with an end out of view",
               "cut_sigma"},
              truncated_sigma, {1e-3, 10.0});
-    v.number({"unanchored_sigma", "m", "error of the middle of a box that no end in view holds",
+    v.number({"unanchored_sigma", "m", "error of the center of a box that no end in view holds",
               "loose_sigma"},
              unanchored_sigma, {1e-3, 10.0});
     v.number({"max_speed", "m/s", "fastest object"}, max_speed, {0.1, 100.0});
@@ -69,7 +69,8 @@ struct TrackConfig {
              stopped_speed, {0.0, 10.0});
     v.group({"person", "", "a person before it was seen"}, classes[0]);
     v.group({"agv", "", "a vehicle before it was seen"}, classes[1]);
-    v.group({"unknown", "", "what moves without a name before it was seen"}, classes[2]);
+    v.group({"unknown", "", "moving objects of unknown class, before their size was measured"},
+            classes[2]);
   }
 };
 

@@ -64,7 +64,8 @@ void BackboneConfig::visit(ConfigVisitor& v) {
 
 void NeckConfig::visit(ConfigVisitor& v) {
   v.integer({"channels", "", "of the feature pyramid, a multiple of 4"}, channels, {8, 512});
-  v.boolean({"recursive", "", "recursive feature pyramid: look twice"}, recursive);
+  v.boolean({"recursive", "", "recursive feature pyramid: backbone and pyramid run twice"},
+            recursive);
 }
 
 void HeadConfig::visit(ConfigVisitor& v) {

@@ -108,11 +108,12 @@ constexpr std::array<SceneConfig (*)(), kScenes.size()> kMakers = {
 }  // namespace
 
 void SceneConfig::visit(ConfigVisitor& v) {
-  v.integer({"seed", "", "of building, stock, people, their ways and the noise"}, seed, {0.0, 1e9});
-  v.number({"duration", "s", "how long the ride lasts"}, duration, {0.1, 1e5});
+  v.integer({"seed", "", "of building, stock, people, their paths and the noise"}, seed,
+            {0.0, 1e9});
+  v.number({"duration", "s", "duration of the recording"}, duration, {0.1, 1e5});
   v.integer({"frames", "", "how many of its frames are played; 0: all"}, frames, {0.0, 1e6});
   v.number({"hz", "1/s", "frame rate; 0: the sensor's own"}, hz, {0.0, 1000.0});
-  v.choice({"sensor", "", "what looks at it"}, sensor, sensor_names());
+  v.choice({"sensor", "", "sensor preset"}, sensor, sensor_names());
   v.integer({"width", "px", "image width, the height in proportion; 0: the sensor's own"}, width,
             {0.0, 4096.0});
   v.boolean({"noise", "", "whether the sensors are noisy"}, noise);
@@ -120,12 +121,12 @@ void SceneConfig::visit(ConfigVisitor& v) {
   v.integer({"blur_samples", "", "instants an exposure is made of; 1: no motion blur"},
             blur_samples, {1.0, 64.0});
   v.enumeration({"layout", "", "what is built"}, layout, kLayouts);
-  v.enumeration({"trajectory", "", "how the sensor rides through it", "ride"}, trajectory,
+  v.enumeration({"trajectory", "", "how the sensor moves through the scene", "ride"}, trajectory,
                 kTrajectories);
   v.number({"speed", "m/s", "of the sensor"}, speed, {0.01, 5.0});
   v.number({"camera_height", "m", "over the floor"}, camera_height, {0.2, 2.5});
   v.number({"clutter", "", "density of pallets and signs"}, clutter, {0.0, 1.0});
-  v.integer({"crossing", "", "persons who walk to and fro across the sensor's way"}, crossing,
+  v.integer({"crossing", "", "persons who walk to and fro across the sensor's path"}, crossing,
             {0.0, 40.0});
   v.number({"crossing_from", "m", "nearest of their places ahead of the sensor's start"},
            crossing_from, {0.5, 50.0});

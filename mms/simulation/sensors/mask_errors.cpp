@@ -248,7 +248,7 @@ void MaskErrorConfig::visit(ConfigVisitor& v) {
   v.number({"missed", "", "share of an object's frames without any mask"}, missed, {0.0, 0.9});
   v.number({"spell", "frames", "mean length of the spells that masks fail for"}, spell,
            {1.0, 1000.0});
-  v.number({"erosion", "px", "mean retreat of the rim, for images 640 px wide"}, erosion,
+  v.number({"erosion", "px", "mean retreat of the boundary, for images 640 px wide"}, erosion,
            {0.0, 50.0});
   v.number({"boundary_jitter", "px", "how much the retreat varies, for images 640 px wide",
             "raggedness"},

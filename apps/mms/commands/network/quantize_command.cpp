@@ -136,7 +136,7 @@ void add_quantize_command(CLI::App& app) {
       ->add_option("-o,--output", arguments->output,
                    "weights file to write: the same weights in float16, with the ranges for int8")
       ->required();
-  command->add_option("--images", arguments->images, "pictures to look at")
+  command->add_option("--images", arguments->images, "number of images to calibrate with")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100000}))
       ->capture_default_str();
   command
