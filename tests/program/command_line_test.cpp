@@ -109,11 +109,12 @@ TEST(CommandLine, WrongWordsAreUsageFaultsThatNameThem) {
   const TempFolder folder;
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
   expect_usage_fault(
-      run({}), "a command is wanted: run, eval, reproduce, simulate, segment, quantize, import, ");
+      run({}),
+      "a command is required: run, eval, reproduce, simulate, segment, quantize, import, ");
   expect_usage_fault(run({"rum"}), "'rum'");
   expect_usage_fault(run({"eval"}),
-                     "a command is wanted: trajectory, drift, map, residue, segmentation or "
-                     "objects");
+                     "a command is required: trajectory, drift, map, ghost-points, segmentation "
+                     "or objects");
   expect_usage_fault(run({"eval", "trajektory", "a", "b"}), "'trajektory'");
   expect_usage_fault(run({"run", "--frmes", "3"}), "--frmes");
   expect_usage_fault(run({"run", "one", "two"}), "two");

@@ -19,8 +19,9 @@ std::vector<const CLI::App*> chain_of(const CLI::App& app) {
 
 /// "trajectory, drift or map".
 std::string listed_commands(const CLI::App& command) {
-  const std::vector<const CLI::App*> all =
-      command.get_subcommands([](const auto*) { return true; });
+  const std::vector<const CLI::App*> all = command.get_subcommands([](const CLI::App* candidate) {
+    return !candidate->get_group().empty();  // no group: a former name, hidden
+  });
   std::string text;
   for (std::size_t i = 0; i < all.size(); ++i) {
     text += (i == 0 ? "" : i + 1 == all.size() ? " or " : ", ") + all[i]->get_name();
@@ -31,9 +32,9 @@ std::string listed_commands(const CLI::App& command) {
 std::string fault_of(const CLI::App& command, const CLI::ParseError& error) {
   if (command.get_require_subcommand_min() == 0) return error.what();
   const std::vector<std::string> unknown = command.remaining();
-  if (unknown.empty()) return "a command is wanted: " + listed_commands(command);
+  if (unknown.empty()) return "a command is required: " + listed_commands(command);
   if (unknown.front().starts_with("-")) return fmt::format("unknown option '{}'", unknown.front());
-  return fmt::format("unknown command '{}', wanted is {}", unknown.front(),
+  return fmt::format("unknown command '{}', expected {}", unknown.front(),
                      listed_commands(command));
 }
 
