@@ -1,6 +1,6 @@
-// Ends the program with one sentence on a processor older than the one it was compiled for, in place
-// of SIGILL. Compiled for the oldest processor, and run before any other code of the program: the
-// .preinit_array comes before the constructors of all libraries.
+// Ends the program with one sentence on a processor older than the one it was compiled for, in
+// place of SIGILL. Compiled for the oldest processor, and run before any other code of the program:
+// the .preinit_array comes before the constructors of all libraries.
 #include <unistd.h>
 
 namespace {
