@@ -130,7 +130,7 @@ def compare_lidar(session, recorder, build, folder, reference):
     session.start('lidar', [os.path.join(build, 'mms_slam_node'), '__name:=' + LIDAR_NODE[1:],
                             '_sensor:=cloud_with_camera', '_publish_tf:=false'] + REMAPPINGS)
     player = Player(os.path.join(folder, 'lidar.bag'), lidar=True)
-    session.wait('the LiDAR node', lambda: player.connected() and recorder.connected())
+    session.wait('the LiDAR node', lambda: player.connected(LIDAR_NODE) and recorder.connected())
     play(session, recorder, player, LIDAR_NODE)
     compare_trajectories(recorder, reference, LIDAR_NODE)
 

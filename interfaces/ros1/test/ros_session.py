@@ -153,8 +153,10 @@ class Player:
         self.publishers = {topic: rospy.Publisher(topic, message_class, queue_size=100)
                            for topic, message_class in classes.items()}
 
-    def connected(self):
-        return all(p.get_num_connections() > 0 for p in self.publishers.values())
+    def connected(self, node=NODE):
+        """Whether `node` has subscribed to every topic: other subscribers do not count."""
+        return all(node in (connection[1] for connection in publisher.impl.get_stats_info())
+                   for publisher in self.publishers.values())
 
     def play(self, before_frame, count=10**9):
         """Publishes message by message; calls before_frame(index, stamp) before each frame's first.
