@@ -7,6 +7,9 @@
 
 namespace mms {
 
+/// [px]: the largest width or height of an image; a camera of 12 MP has 4096.
+inline constexpr int kMaxImageSide = 16384;
+
 /// One 8-bit colour sample, in the order red, green, blue.
 struct Rgb {
   std::uint8_t r = 0;

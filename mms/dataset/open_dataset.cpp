@@ -17,18 +17,19 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-struct Layout {
+struct FolderLayout {
   bool (*looks_like)(const Names& names);
   std::unique_ptr<FrameSource> (*open)(const fs::path& folder, const SourceOptions& options);
 };
 
-constexpr Layout kLayouts[] = {{is_tum_rgbd_layout, open_tum_rgbd},
-                               {is_folder_rgbd_layout, open_folder_rgbd},
-                               {is_kitti_lidar_layout, open_kitti_lidar}};
+constexpr FolderLayout kLayouts[] = {{is_tum_rgbd_layout, open_tum_rgbd},
+                                     {is_folder_rgbd_layout, open_folder_rgbd},
+                                     {is_kitti_lidar_layout, open_kitti_lidar}};
 
-const Layout* layout_of(const Names& names) {
-  const auto* found = std::find_if(std::begin(kLayouts), std::end(kLayouts),
-                                   [&](const Layout& layout) { return layout.looks_like(names); });
+const FolderLayout* layout_of(const Names& names) {
+  const auto* found =
+      std::find_if(std::begin(kLayouts), std::end(kLayouts),
+                   [&](const FolderLayout& layout) { return layout.looks_like(names); });
   return found == std::end(kLayouts) ? nullptr : found;
 }
 
@@ -68,7 +69,7 @@ std::string recording_inside(const fs::path& folder, const Names& names) {
   if (inside.empty()) inside = bag_inside(folder, names);
   throw DataError(folder.string(), found_text(names) + ": no recording",
                   !inside.empty() ? "did you mean " + inside + "?"
-                                  : "wanted are rgb.txt and depth.txt or associations.txt (TUM "
+                                  : "expected rgb.txt and depth.txt or associations.txt (TUM "
                                     "RGB-D), *.color.png and *.depth.png (7-Scenes), or *.bin "
                                     "scans (KITTI)");
 }
@@ -88,7 +89,7 @@ std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOpti
     throw DataError(path.string(), "is a file, a recording is a folder or a ROS bag (.bag)");
   }
   const Names names = list_folder(path);
-  const Layout* layout = layout_of(names);
+  const FolderLayout* layout = layout_of(names);
   if (layout == nullptr) fail_unknown(path, names);
   return layout->open(path, options);
 }

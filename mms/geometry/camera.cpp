@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mms/core/error.hpp"
+#include "mms/core/image.hpp"
 
 namespace mms {
 namespace {
@@ -49,8 +50,9 @@ void check(const CameraIntrinsics& c) {
   if (!(c.fy > 0.0) || !std::isfinite(c.fy)) fail("fy", c.fy, "> 0");
   if (!std::isfinite(c.cx)) fail("cx", c.cx, "a finite number");
   if (!std::isfinite(c.cy)) fail("cy", c.cy, "a finite number");
-  if (c.width < 1 || c.width > 16384) fail("width", c.width, "1 to 16384");
-  if (c.height < 1 || c.height > 16384) fail("height", c.height, "1 to 16384");
+  const std::string sides = "1 to " + std::to_string(kMaxImageSide);
+  if (c.width < 1 || c.width > kMaxImageSide) fail("width", c.width, sides);
+  if (c.height < 1 || c.height > kMaxImageSide) fail("height", c.height, sides);
   for (const double k : c.distortion) {
     if (!std::isfinite(k)) fail("distortion", k, "five finite numbers");
   }

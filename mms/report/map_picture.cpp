@@ -141,12 +141,11 @@ class Painter {
 
 void check(std::span<const Eigen::Vector3f> points, std::span<const Rgb> colors,
            const MapPictureOptions& options) {
-  constexpr int kMaxEdge = 16384;
   const int smaller = std::min(options.width, options.height);
-  if (smaller < 1 || std::max(options.width, options.height) > kMaxEdge) {
+  if (smaller < 1 || std::max(options.width, options.height) > kMaxImageSide) {
     throw DataError("map picture", std::to_string(options.width) + " x " +
                                        std::to_string(options.height) +
-                                       " pixels, each must be in 1..16384");
+                                       " pixels, allowed is 1 to " + std::to_string(kMaxImageSide));
   }
   if (!colors.empty() && colors.size() != points.size()) {
     throw DataError("map picture", std::to_string(points.size()) + " points, but " +

@@ -10,8 +10,8 @@
 namespace mms {
 
 struct MapPictureOptions {
-  int width = 960;   ///< [px], 1 to 16384
-  int height = 720;  ///< [px], 1 to 16384
+  int width = 960;   ///< [px], 1 to kMaxImageSide
+  int height = 720;  ///< [px], 1 to kMaxImageSide
   Viewpoint viewpoint = Viewpoint::kTop;
   UpAxis up = UpAxis::kNegativeY;
   double point_size = 0.02;  ///< edge of the square drawn for a point [m]; at least one pixel

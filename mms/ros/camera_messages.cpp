@@ -19,7 +19,7 @@ std::array<double, 5> lens_of(const msg::CameraInfo& message, const std::string&
   if (!known || !short_enough) {
     throw DataError(where,
                     "has the lens '" + model + "' of " + std::to_string(D.size()) +
-                        " coefficients, wanted is plumb_bob (k1 k2 p1 p2 k3)",
+                        " coefficients, expected plumb_bob (k1 k2 p1 p2 k3)",
                     "rectify the images first, or give a calibration of your own");
   }
   std::copy_n(D.begin(), std::min(D.size(), lens.size()), lens.begin());

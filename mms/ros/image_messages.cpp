@@ -13,8 +13,6 @@
 namespace mms {
 namespace {
 
-constexpr std::uint32_t kMaxSide = 16384;
-
 /// Where a pixel of a colour encoding has its samples.
 struct ColorLayout {
   const char* encoding;
@@ -38,8 +36,8 @@ const ColorLayout* color_layout(const std::string& encoding) {
 void check_layout(const msg::Image& message, std::size_t pixel_size, const std::string& where) {
   const std::string size =
       std::to_string(message.width) + "x" + std::to_string(message.height) + " pixels";
-  if (message.width == 0 || message.height == 0 || message.width > kMaxSide ||
-      message.height > kMaxSide) {
+  if (message.width == 0 || message.height == 0 || message.width > kMaxImageSide ||
+      message.height > kMaxImageSide) {
     throw DataError(where, "is " + size + ", allowed is 1x1 to 16384x16384");
   }
   const std::size_t row = message.width * pixel_size;
@@ -69,7 +67,7 @@ Image<T> plain_image(const msg::Image& message, const std::string& where) {
 
 [[noreturn]] void fail_encoding(const std::string& encoding, const std::string& wanted,
                                 const std::string& where) {
-  throw DataError(where, "has the encoding '" + encoding + "', wanted is " + wanted);
+  throw DataError(where, "has the encoding '" + encoding + "', expected " + wanted);
 }
 
 Image<float> millimetres(const Image<std::uint16_t>& raw) {

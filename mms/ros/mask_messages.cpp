@@ -8,8 +8,6 @@
 namespace mms {
 namespace {
 
-constexpr std::uint32_t kMaxSide = 16384;
-
 /// The nearest pixels of a smaller or larger image.
 Image<std::uint8_t> resized(const Image<std::uint8_t>& mask, int width, int height) {
   if (mask.width() == width && mask.height() == height) return mask;
@@ -65,8 +63,8 @@ msg::Masks masks_message(const msg::Header& header, const Segmentation& segmenta
 
 Segmentation segmentation_of(const msg::Masks& message, int width, int height,
                              const std::string& where) {
-  if (message.width == 0 || message.height == 0 || message.width > kMaxSide ||
-      message.height > kMaxSide) {
+  if (message.width == 0 || message.height == 0 || message.width > kMaxImageSide ||
+      message.height > kMaxImageSide) {
     throw DataError(where, "masks of " + std::to_string(message.width) + "x" +
                                std::to_string(message.height) + " pixels");
   }

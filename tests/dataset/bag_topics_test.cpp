@@ -129,9 +129,8 @@ TEST(BagTopics, FaultsListTheTopics) {
   expect_in("it has /rgb sensor_msgs/Image (10), /scan sensor_msgs/LaserScan (10)", missing);
   expect_in("--topic-depth is /none, which is not there; it has /rgb",
             topics.fault({.depth = "/none"}));
-  expect_in(
-      "--topic-depth is /scan, which is sensor_msgs/LaserScan, wanted is sensor_msgs/Image or",
-      topics.fault({.depth = "/scan"}));
+  expect_in("--topic-depth is /scan, which is sensor_msgs/LaserScan, expected sensor_msgs/Image or",
+            topics.fault({.depth = "/scan"}));
   expect_in("it has no topics", Topics().fault());
   expect_in("/depth, which has no messages",
             Topics().add("/depth", "sensor_msgs/Image", "16UC1", 0).fault({.depth = "/depth"}));

@@ -19,7 +19,7 @@ std::string fault_of(const std::filesystem::path& path) {
 
 TEST(OpenDataset, SaysWhatWasFoundAndWhatIsWanted) {
   const TempFolder folder;
-  expect_in("is empty: no recording (wanted are rgb.txt and depth.txt", fault_of(folder.path()));
+  expect_in("is empty: no recording (expected rgb.txt and depth.txt", fault_of(folder.path()));
   for (const char* name : {"a", "b", "c", "d", "e", "f"}) folder.write(name, "");
   expect_in("has a, b, c, d and 2 more: no recording", fault_of(folder.path()));
   expect_in("there is no such recording", fault_of(folder.path() / "missing"));

@@ -141,7 +141,7 @@ TEST(TumRgbd, DamagedLinesAreLeftOut) {
   const Playback played(open_dataset(folder.path()));
   EXPECT_EQ(played.names(), "f0 f1");
   EXPECT_TRUE(
-      any_has(played.warnings, "rgb.txt:2: line left out, 'stamp path' is wanted (2 such lines)"));
+      any_has(played.warnings, "rgb.txt:2: line left out, expected 'stamp path' (2 such lines)"));
 }
 
 TEST(TumRgbd, MasksAreReadAndMissingOnesNamedOnce) {
@@ -205,7 +205,7 @@ TEST(TumRgbd, GarbledTruthNamesItsLine) {
   const TempFolder folder;
   write_tum(folder, 1);
   folder.write("groundtruth.txt", "5.0 1 2 3 0 0 0 1\n5.1 1 2\n");
-  expect_in("groundtruth.txt:2: 3 columns, 8 wanted", fault_of(folder));
+  expect_in("groundtruth.txt:2: 3 columns, expected 8", fault_of(folder));
 }
 
 TEST(TumCalibration, IsKnownByTheFoldersName) {

@@ -203,7 +203,7 @@ TEST(SegmentationError, FaultsSayWhatIsWrongAndWhatIsRight) {
             "results: [0].segmentation: is of 50 x 50 px, its image 1 of 100 x 100 px (masks have "
             "to be of the size of the image in truth)");
   EXPECT_EQ(fault_of(truth, {{1, 1, kNone, box(0, 0, 1, 1)}}),
-            "results: [0].score: is no number (wanted is 0 to 1)");
+            "results: [0].score: is no number (expected 0 to 1)");
   EXPECT_EQ(fault_of(truth, {good}, {.category = "cat"}),
             "truth: has no class 'cat' (its classes are: agv, person)");
   EXPECT_EQ(fault_of(truth, {good}, {.split = "holdout"}),

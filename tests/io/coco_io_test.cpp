@@ -76,7 +76,7 @@ TEST(CocoIo, KeepsTheSplitOfAnImage) {
   EXPECT_EQ(read.images[1].split, "");
   write_coco(folder.path() / "b.json", sample());
   EXPECT_EQ(read_file(folder.path() / "b.json").find("split"), std::string::npos);
-  expect_in("images[0].split: is a number, a text is wanted",
+  expect_in("images[0].split: is a number, expected a text",
             fault_of(R"({"images": [{"id": 7, "file_name": "a", "width": 4, "height": 3,)"
                      R"("split": 3}], "categories": [], "annotations": []})"));
 }
@@ -103,8 +103,8 @@ TEST(CocoIo, NamesTheEntryThatIsWrong) {
   expect_in("is no JSON: parse error at line 1", fault_of("{"));
   expect_in("is a list, as results are", fault_of("[]"));
   expect_in("has no key 'images'", fault_of("{}"));
-  expect_in("images: is a number, a list is wanted", fault_of(R"({"images": 3})"));
-  expect_in("annotations[0]: is a number, an object is wanted", fault_of(with_annotation("3")));
+  expect_in("images: is a number, expected a list", fault_of(R"({"images": 3})"));
+  expect_in("annotations[0]: is a number, expected an object", fault_of(with_annotation("3")));
   expect_in("annotations[0].segmentation.counts: mask: its runs are of 11 pixels",
             fault_of(with_annotation(annotation(R"({"size": [3, 4], "counts": [11]})"))));
   expect_in("annotations[0].segmentation.counts[0]: is -1, allowed is 0 to",

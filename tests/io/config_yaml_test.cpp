@@ -98,15 +98,15 @@ TEST(ConfigYaml, UnknownKeysNameTheNearest) {
 
 TEST(ConfigYaml, WrongTypesSayWhatIsWanted) {
   EXPECT_EQ(fault_of("keyframes:\n  translation: far\n"),
-            ":2: keyframes.translation is 'far', a number is wanted: 0 to 10");
+            ":2: keyframes.translation is 'far', expected a number: 0 to 10");
   EXPECT_EQ(fault_of("keyframes: {count: 2.5}\n"),
-            ":1: keyframes.count is '2.5', a whole number is wanted: 1 to 100");
+            ":1: keyframes.count is '2.5', expected a whole number: 1 to 100");
   EXPECT_EQ(fault_of("enabled: yes\n"), ":1: enabled is 'yes', allowed is true or false");
-  EXPECT_EQ(fault_of("limit: [1, 2]\n"), ":1: limit is a list, a number is wanted: at least 0");
-  EXPECT_EQ(fault_of("limit: '1'\n"), ":1: limit is '1', a number is wanted: at least 0");
-  EXPECT_EQ(fault_of("keyframes: 3\n"), ":1: keyframes is '3', lines of 'key: value' are wanted");
-  expect_in("limit is empty, a number is wanted", fault_of("limit:\n"));
-  expect_in("limit is '.nan', a number is wanted", fault_of("limit: .nan\n"));
+  EXPECT_EQ(fault_of("limit: [1, 2]\n"), ":1: limit is a list, expected a number: at least 0");
+  EXPECT_EQ(fault_of("limit: '1'\n"), ":1: limit is '1', expected a number: at least 0");
+  EXPECT_EQ(fault_of("keyframes: 3\n"), ":1: keyframes is '3', expected lines of 'key: value'");
+  expect_in("limit is empty, expected a number", fault_of("limit:\n"));
+  expect_in("limit is '.nan', expected a number", fault_of("limit: .nan\n"));
 }
 
 TEST(ConfigYaml, ValuesOutOfRangeNameTheRange) {
@@ -128,7 +128,7 @@ TEST(ConfigYaml, DuplicateKeysAreRefused) {
 TEST(ConfigYaml, GarbageIsRefused) {
   expect_in("is not YAML", fault_of("a: [1, 2\nb: }"));
   expect_in("is not YAML", fault_of("\t- x: {"));
-  expect_in("lines of 'key: value' are wanted", fault_of("just words\n"));
+  expect_in("expected lines of 'key: value'", fault_of("just words\n"));
   expect_in("cannot be a key", fault_of("[1, 2]: 3\n"));
   fault_of(std::string("\x00\x01\xff\xfe garbage", 12));
   fault_of(std::string(2000, '['));

@@ -71,10 +71,10 @@ TEST(ImageIo, DepthAndMasksOfAnotherTypeAreRefused) {
   write_png(grey8, Image<std::uint8_t>(4, 3));
   write_png(grey16, Image<std::uint16_t>(4, 3));
   write_png(color, Image<Rgb>(4, 3));
-  expect_in(grey8.string() + ": has pixels of 8 bits and 1 channel(s), a 16-bit depth PNG",
+  expect_in(grey8.string() + ": has pixels of 8 bits and 1 channel(s), expected a 16-bit depth PNG",
             message_of<DataError>([&] { read_depth16(grey8); }));
   expect_in("8 bits and 3 channel(s)", message_of<DataError>([&] { read_depth16(color); }));
-  expect_in("16 bits and 1 channel(s), an 8-bit label PNG",
+  expect_in("16 bits and 1 channel(s), expected an 8-bit label PNG",
             message_of<DataError>([&] { read_mask(grey16); }));
   message_of<DataError>([&] { read_mask(color); });
 }

@@ -84,7 +84,7 @@ TEST(ObjectsIo, FaultsNameTheirPlace) {
   };
   expect_in("frames[0].objects[0]: has no key 'pixels'", fault(truth_with("")));
   expect_in("occlusion: is 2, allowed is", fault(truth_with(R"(, "pixels": 1, "occlusion": 2)")));
-  expect_in("moving: is a number, true or false is wanted", fault(truth_with(R"(, "moving": 1)")));
+  expect_in("moving: is a number, expected true or false", fault(truth_with(R"(, "moving": 1)")));
   expect_in("class: is 'dog', allowed are person, agv and unknown",
             fault(truth_with(R"(, "class": "dog")")));
   expect_in("quaternion: is no rotation", fault(truth_with(R"(, "quaternion": [0, 0, 0, 0])")));

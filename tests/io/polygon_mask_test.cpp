@@ -59,7 +59,7 @@ TEST(PolygonMask, ATriangleHasHalfTheArea) {
 }
 
 TEST(PolygonMask, SaysWhatIsWrong) {
-  expect_in("polygon: has 4 numbers (x and y of three corners", message_of<DataError>([] {
+  expect_in("polygon: has 4 numbers (expected x and y of three corners", message_of<DataError>([] {
               mask_of({{0, 0, 1, 1}});
             }));
   message_of<DataError>([] { mask_of({{0, 0, 1, 1, 2, 2, 3}}); });

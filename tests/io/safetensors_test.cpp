@@ -188,9 +188,9 @@ TEST(Safetensors, RefusesWhatIsNoObject) {
   expect_in("its header is no JSON: parse error at line 1, column 2", fault_of(file_of("{")));
   expect_in("its header is no JSON: parse error", fault_of(file_of("{} {}")));
   expect_in("its header is no JSON: parse error", fault_of(file_of("{\"\xFF\": 1}")));
-  expect_in("a: is a number, an object is wanted", fault_of(file_with("3")));
-  expect_in("a: is a list, an object is wanted", fault_of(file_with("[1]")));
-  expect_in("a: is a null, an object is wanted", fault_of(file_with("null")));
+  expect_in("a: is a number, expected an object", fault_of(file_with("3")));
+  expect_in("a: is a list, expected an object", fault_of(file_with("[1]")));
+  expect_in("a: is a null, expected an object", fault_of(file_with("null")));
 }
 
 TEST(Safetensors, RefusesNamesThatAreThereTwice) {
@@ -232,9 +232,9 @@ TEST(Safetensors, NamesTheEntryThatIsWrong) {
             fault_of(file_with(R"({"dtype": "F32", "shape": []})")));
   expect_in("a: has the unknown key 'stride', allowed are dtype, shape, data_offsets",
             fault("F32", "[2]", "[0, 8]", R"(, "stride": [1])"));
-  expect_in("a.shape: is a number, a list is wanted", fault("F32", "2", "[0, 8]"));
+  expect_in("a.shape: is a number, expected a list", fault("F32", "2", "[0, 8]"));
   expect_in("a.shape[1]: is -2, allowed is 0 to 9e+18", fault("F32", "[1, -2]", "[0, 8]"));
-  expect_in("a.shape[0]: is a string, a number is wanted", fault("F32", R"(["2"])", "[0, 8]"));
+  expect_in("a.shape[0]: is a string, expected a number", fault("F32", R"(["2"])", "[0, 8]"));
   expect_in("has the floating-point number 2, allowed are whole numbers",
             fault("F32", "[2.0]", "[0, 8]"));
   expect_in("has the floating-point number 1e+20, allowed are whole numbers below 2^63",
@@ -269,7 +269,7 @@ TEST(Safetensors, RefusesDataOfNobodyAndOfTwo) {
 }
 
 TEST(Safetensors, RefusesMetadataThatIsNoText) {
-  expect_in("__metadata__.epoch: is a number, a text is wanted",
+  expect_in("__metadata__.epoch: is a number, expected a text",
             fault_of(file_of(R"({"__metadata__": {"epoch": 3}})")));
   expect_in("__metadata__: is no object of texts", fault_of(file_of(R"({"__metadata__": ["x"]})")));
   expect_in("__metadata__: is no object of texts", fault_of(file_of(R"({"__metadata__": null})")));

@@ -57,7 +57,7 @@ TEST(TrajectoryTum, NormalisesQuaternions) {
 TEST(TrajectoryTum, FaultsNameFileAndLine) {
   const TempFolder folder;
   const std::pair<const char*, const char*> cases[] = {
-      {"1 2 3\n", "3 columns, 8 wanted: stamp tx ty tz qx qy qz qw"},
+      {"1 2 3\n", "3 columns, expected 8: stamp tx ty tz qx qy qz qw"},
       {"x 0 0 0 0 0 0 1\n", "'x' is not a stamp"},
       {"1 0 0 nan 0 0 0 1\n", "'nan' is not a finite number"},
       {"1 0 0 0.1.2 0 0 0 1\n", "'0.1.2' is not a finite number"},
@@ -113,7 +113,7 @@ TEST(Trajectory, TheFormIsGuessedFromTheColumns) {
   EXPECT_EQ(read_trajectory(folder.write("b", "1 0 0 5 0 0 0 1\n"))[0].stamp,
             Timestamp(1'000'000'000));
   const auto other = folder.write("c", "1 2 3 4\n");
-  expect_in("8 wanted", message_of<DataError>([&] { read_trajectory(other); }));
+  expect_in("expected 8", message_of<DataError>([&] { read_trajectory(other); }));
 }
 
 TEST(Trajectory, NotWritableNamesTheFile) {

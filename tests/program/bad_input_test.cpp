@@ -38,7 +38,7 @@ void expect_skipped(const TempFolder& folder, int frames, int skipped, const std
 TEST(BadInput, EmptyFolder) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "data");
-  expect_fault(run_data(folder), "data: is empty: no recording (wanted are rgb.txt and depth.txt");
+  expect_fault(run_data(folder), "data: is empty: no recording (expected rgb.txt and depth.txt");
   expect_fault(run_mms(folder.path(), {"info", "data"}), "data: is empty: no recording");
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
 }

@@ -204,7 +204,7 @@ TEST_F(EvalSegmentation, BrokenFilesAreOneLine) {
   fault("missing.json", "missing.json: ");
   fault("cut.json", "cut.json: is no JSON: parse error");
   fault("empty.json", "empty.json: is no JSON: parse error");
-  fault("number.json", "number.json: [0]: is a number, an object is wanted");
+  fault("number.json", "number.json: [0]: is a number, expected an object");
   fault("truth.json", "truth.json: is no list of results");
   fault("stranger.json", "stranger.json: [0].image_id: is 9, there is no such image");
   fault("turned.json", "turned.json: [0].segmentation: is of 3 x 4 px, its image 1 of 4 x 3 px");

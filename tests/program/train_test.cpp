@@ -64,7 +64,7 @@ TEST(Train, FaultsAreOneLine) {
                "train.yaml:2: unknown key 'data[0].splitt' (did you mean 'split'?)");
   folder.write("train.yaml", "data: {annotations: none.json}\n");
   expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
-               "train.yaml:1: data is a group, a list of groups is wanted");
+               "train.yaml:1: data is a group, expected a list of groups");
   folder.write("train.yaml", "data:\n  - {annotations: none.json}\n");
   expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}), "none.json: ");
   folder.write("train.yaml", "network: {size: huge}\n");

@@ -130,12 +130,12 @@ TEST(ImageMessages, SaysWhatIsWrong) {
     });
   };
   msg::Image good = image_of("rgb8", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
-  expect_in("topic message 3: has the encoding 'yuv422', wanted is rgb8", fault([&] {
+  expect_in("topic message 3: has the encoding 'yuv422', expected rgb8", fault([&] {
               msg::Image m = good;
               m.encoding = "yuv422";
               return m;
             }()));
-  expect_in("has the encoding 'rgb8', wanted is 16UC1", fault(good, true));
+  expect_in("has the encoding 'rgb8', expected 16UC1", fault(good, true));
   msg::Image few = good;
   few.data.pop_back();
   expect_in("has 11 bytes in rows of 6, but 2x2 pixels of rgb8 take 12", fault(few));

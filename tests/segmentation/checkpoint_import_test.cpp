@@ -140,7 +140,7 @@ TEST(CheckpointImport, SaysWhichShapesAreWrong) {
   weights.tensors["bbox_head.solo_cate.weight"] = {{2, 128, 1, 1}, std::vector<float>(256)};
   weights.tensors.erase("mask_head.conv_cls.weight");
   expect_in(
-      "tensor 'bbox_head.solo_cate.weight' is of shape (2, 128, 1, 1), wanted is "
+      "tensor 'bbox_head.solo_cate.weight' is of shape (2, 128, 1, 1), expected "
       "(2, 128, 3, 3)",
       fault_of(weights));
   weights = small_checkpoint();

@@ -45,13 +45,13 @@ TEST(ModelHeader, NamesThatAreNoneAreNone) {
 }
 
 TEST(ModelHeader, RefusesOtherInputs) {
-  expect_in("takes an input of shape (1, 1, 64, 64), wanted is (1, 3, height, width)",
+  expect_in("takes an input of shape (1, 1, 64, 64), expected (1, 3, height, width)",
             fault_of(tiny_onnx({.channels = 1})));
-  expect_in("shape (2, 3, any, any), wanted", fault_of(tiny_onnx({.batch = 2, .side = 0})));
-  expect_in("(1, 3, 5000, 5000), wanted is (1, 3, height, width) with sides of at most 4096",
+  expect_in("shape (2, 3, any, any), expected", fault_of(tiny_onnx({.batch = 2, .side = 0})));
+  expect_in("(1, 3, 5000, 5000), expected (1, 3, height, width) with sides of at most 4096",
             fault_of(tiny_onnx({.side = 5000})));
-  expect_in("(18446744073709551615, 3, 64, 64), wanted", fault_of(tiny_onnx({.batch = -1})));
-  expect_in("takes an input of shape (), wanted",
+  expect_in("(18446744073709551615, 3, 64, 64), expected", fault_of(tiny_onnx({.batch = -1})));
+  expect_in("takes an input of shape (), expected",
             fault_of(ProtobufWriter().bytes(7, "").message()));
 }
 

@@ -40,9 +40,8 @@ std::string fault_of(const std::string& key, const std::string& value) {
 TEST(Model, FaultsAreNamed) {
   expect_in("file: does not say what network it is for: no 'network.size'",
             message_of<DataError>([] { unpack_model({}, "file"); }));
-  expect_in("network.head.norm is 'x', wanted is one of gn, bn",
-            fault_of("network.head.norm", "x"));
-  expect_in("network.neck.channels is '-5', wanted is a whole number in [8, 512]",
+  expect_in("network.head.norm is 'x', expected one of gn, bn", fault_of("network.head.norm", "x"));
+  expect_in("network.neck.channels is '-5', expected a whole number in [8, 512]",
             fault_of("network.neck.channels", "-5"));
   expect_in("network.head.tower_depth is '2x'", fault_of("network.head.tower_depth", "2x"));
   expect_in("names 3 classes, but its network has 2", fault_of("classes", "a,b,c"));

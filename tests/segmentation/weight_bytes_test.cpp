@@ -47,7 +47,7 @@ TEST(WeightBytes, FaultsAreNamed) {
   };
   expect_in("file: has 'c.weight_scale' but no tensor 'c.weight'",
             fault("c.weight_scale", {{1}, {1.0F}}));
-  expect_in("file: 'a.weight_scale' has 3 steps, wanted is one for each output channel",
+  expect_in("file: 'a.weight_scale' has 3 steps, expected one for each output channel",
             fault("a.weight_scale", {{3}, {1.0F, 1.0F, 1.0F}}));
   expect_in("'a.weight' is too large for a float", fault("a.weight_scale", {{2}, {3e38F, 1.0F}}));
   expect_in("one for each output channel of 'a.weight'", fault("a.weight_scale", {{}, {1.0F}}));

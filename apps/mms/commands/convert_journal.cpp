@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "mms/core/error.hpp"
+#include "mms/io/text/files.hpp"
 #include "mms/run/record/recovered_run.hpp"
 #include "mms/run/results/result_files.hpp"
 
@@ -20,15 +21,6 @@ fs::path journal_of(const fs::path& input) {
   throw DataError(input.string(), "has no journal.bin",
                   done ? "its run came to its end: trajectory and map are there"
                        : "only the result folder of a run that was killed has one");
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (fs::is_directory(folder)) return;
-  throw FileError(folder.string(),
-                  "cannot be made a folder: " + (error ? error.message() : "it is a file"),
-                  "choose another with -o");
 }
 
 /// "2026-03-01 12:30:01.250 UTC".

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/progress.hpp"
 #include "apps/mms/console/warnings.hpp"
 #include "apps/mms/paper/paper_tables.hpp"
@@ -16,14 +17,13 @@
 #include "mms/evaluation/trajectory/truth_frame.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
 #include "mms/run/results/result_folder.hpp"
 #include "mms/run/slam_run.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr int kMaxCount = 1'000'000'000;  // of frames
 
 struct ReproduceOptions {
   std::string still = "sim:still_walker";
@@ -74,7 +74,7 @@ class Reproducer {
     words.threads = options_.threads;
     fmt::print("{}, {}\n", data, method.name);
     const fs::path folder = folder_ / (place + "_" + method.folder);
-    fs::create_directories(folder);
+    make_folder(folder);
     SlamRun run(words);
     Progress progress;
     run.play(folder, progress);
@@ -162,11 +162,8 @@ void add_reproduce_command(CLI::App& app) {
   command->add_option("--segmenter", options->segmenter, "where masks come from: network or masks")
       ->check(CLI::IsMember({"network", "masks"}))
       ->capture_default_str();
-  command->add_option("--frames", options->frames, "of every recording, at most")
-      ->check(CLI::Range(1, kMaxCount))
-      ->default_str("all");
-  command->add_option("--threads", options->threads, "threads to use (default: one a core)")
-      ->check(CLI::Range(1, 256));
+  add_frames_option(*command, options->frames, "of every recording, at most");
+  add_threads_option(*command, options->threads);
   command->callback([options, former] {
     if (former->count() > 0) print_warnings({"--ride is now called --trajectory"});
     reproduce(*options);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/mms/commands/topic_options.hpp"
+#include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/progress.hpp"
 #include "apps/mms/console/viewing.hpp"
 #include "mms/io/text/numbers.hpp"
@@ -16,8 +17,6 @@
 
 namespace mms {
 namespace {
-
-constexpr int kMaxCount = 1'000'000'000;  // of frames
 
 /// The table a run ends with, and where its files are, on stdout.
 void print_summary(const std::filesystem::path& folder, const RunLog& log) {
@@ -101,18 +100,15 @@ void add_run_command(CLI::App& app) {
       ->add_option("--fusion", options->fusion,
                    "what makes a point dynamic (default: as the settings say, multimodal)")
       ->check(CLI::IsMember({"multimodal", "vision", "none"}));
-  command->add_option("--frames", options->frames, "process at most N frames")
-      ->check(CLI::Range(1, kMaxCount))
-      ->default_str("all");
+  add_frames_option(*command, options->frames, "process at most N frames");
   command->add_option("--start", options->start, "pass over the first K frames")
-      ->check(CLI::Range(0, kMaxCount))
+      ->check(CLI::Range(std::size_t{0}, kMaxFrames))
       ->capture_default_str();
   command->add_flag("--realtime", options->realtime,
                     "play at the recording's pace and drop frames that come too fast");
-  command
-      ->add_option("--threads", options->threads,
-                   "threads to use (default: one a core); the results are the same for any number")
-      ->check(CLI::Range(1, 256));
+  add_threads_option(
+      *command, options->threads,
+      "threads to use (default: one a core); the results are the same for any number");
   command->add_flag("--keep-journal", options->keep_journal,
                     "leave journal.bin, from which mms convert recovers a run that was killed, in "
                     "the folder of a run that came to its end");

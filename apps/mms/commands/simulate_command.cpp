@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/mms/commands/training_set_command.hpp"
+#include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/rate_progress.hpp"
 #include "apps/mms/console/thread_limit.hpp"
@@ -129,8 +130,7 @@ void add_simulate_command(CLI::App& app) {
       ->add_option("--set", options->set,
                    "any value of the scene, as key=value or group.key=value; may be given again")
       ->allow_extra_args(false);
-  command->add_option("--threads", options->threads, "threads to use (default: one a core)")
-      ->check(CLI::Range(1, 256));
+  add_threads_option(*command, options->threads);
   command->add_flag("--print", options->print, "only print the scene as documented YAML");
   add_training_set_command(*command);
   command->callback([options, command] {

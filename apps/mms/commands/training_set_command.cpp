@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/rate_progress.hpp"
 #include "apps/mms/console/thread_limit.hpp"
@@ -62,8 +63,7 @@ void add_training_set_command(CLI::App& simulate) {
   command->add_option("--seed", arguments->seed, "of everything that is left to chance")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
-  command->add_option("--threads", arguments->threads, "threads to use (default: one a core)")
-      ->check(CLI::Range(1, 256));
+  add_threads_option(*command, arguments->threads);
   command->callback([arguments] { write_set(*arguments); });
 }
 

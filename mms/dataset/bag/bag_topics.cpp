@@ -60,7 +60,7 @@ class Choice {
                                     [&](const BagTopic& topic) { return topic.name == name; });
     if (found == topics_.end()) fail(std::string(option) + " is " + name + ", which is not there");
     if (!is_type(*found, types)) {
-      fail(std::string(option) + " is " + name + ", which is " + found->type + ", wanted is " +
+      fail(std::string(option) + " is " + name + ", which is " + found->type + ", expected " +
            listed_types(types));
     }
     if (found->count == 0) fail(std::string(option) + " is " + name + ", which has no messages");
@@ -169,7 +169,7 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
   if (chosen.cloud.empty() && (chosen.depth.empty() || chosen.color.empty())) {
     choice.fail(
         "has neither colour images with depth nor point clouds",
-        "wanted are sensor_msgs/Image or CompressedImage of colour and of depth, or "
+        "expected sensor_msgs/Image or CompressedImage of colour and of depth, or "
         "sensor_msgs/PointCloud2; --topic-color, --topic-depth and --topic-cloud name them");
   }
   if (!chosen.color.empty()) {

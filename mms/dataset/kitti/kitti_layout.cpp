@@ -9,6 +9,7 @@
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;

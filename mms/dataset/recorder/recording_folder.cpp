@@ -50,15 +50,6 @@ void remove_simulation(const fs::path& folder) {
 
 }  // namespace
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && fs::is_directory(folder)) return;
-  throw FileError(folder.string(),
-                  "cannot be made a folder: " + (error ? error.message() : "it is a file"),
-                  "choose another with -o");
-}
-
 std::string scene_yaml(const SceneConfig& config) {
   return std::string(kMark) + " of '" + config.name +
          "'; mms simulate scene.yaml -o DIR makes it again.\n" + dump_config(config);

@@ -14,9 +14,6 @@ namespace mms {
 ///         a simulation.
 void prepare_recording_folder(const std::filesystem::path& folder, const SceneConfig& config);
 
-/// Makes a folder inside a recording. @throws FileError
-void make_folder(const std::filesystem::path& folder);
-
 /// The documented YAML of a scene, as scene.yaml holds it.
 std::string scene_yaml(const SceneConfig& config);
 

@@ -66,7 +66,7 @@ auto read_list(const fs::path& list, std::size_t columns, const std::string& for
                std::vector<std::string>& warnings) {
   const TextTable table(list);
   const fs::path folder = list.parent_path();
-  LineFaults damaged("line left out, '" + form + "' is wanted");
+  LineFaults damaged("line left out, expected '" + form + "'");
   LineFaults duplicate("line left out, its stamp was there before");
   std::vector<typename decltype(parse(folder, table.lines()[0]))::value_type> entries;
   std::set<Timestamp> seen;
@@ -81,7 +81,7 @@ auto read_list(const fs::path& list, std::size_t columns, const std::string& for
     }
   }
   if (entries.empty()) {
-    throw DataError(list.string(), "lists no images", "lines of '" + form + "' are wanted");
+    throw DataError(list.string(), "lists no images", "expected lines of '" + form + "'");
   }
   damaged.report(warnings);
   duplicate.report(warnings);

@@ -7,6 +7,7 @@
 #include "mms/io/config/calibration_io.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;

@@ -35,7 +35,7 @@ class ResultCheck {
       fail(index, "image_id", "is " + std::to_string(result.image_id) + ", there is no such image",
            "the images are those of " + options_.truth_name);
     }
-    if (!std::isfinite(result.score)) fail(index, "score", "is no number", "wanted is 0 to 1");
+    if (!std::isfinite(result.score)) fail(index, "score", "is no number", "expected 0 to 1");
     const CocoImage& image = *found->second;
     const Rle& mask = result.segmentation;
     if (mask.width == image.width && mask.height == image.height) return;

@@ -11,25 +11,25 @@
 namespace mms {
 namespace {
 
-const std::map<std::string, ScalarType> kTypes = {
+const std::map<std::string, ScalarType> kPcdTypes = {
     {"I1", ScalarType::kInt8},    {"U1", ScalarType::kUint8},  {"I2", ScalarType::kInt16},
     {"U2", ScalarType::kUint16},  {"I4", ScalarType::kInt32},  {"U4", ScalarType::kUint32},
     {"F4", ScalarType::kFloat32}, {"F8", ScalarType::kFloat64}};
 
-const std::map<std::string, Channel> kChannels = {{"x", Channel::kX},
-                                                  {"y", Channel::kY},
-                                                  {"z", Channel::kZ},
-                                                  {"normal_x", Channel::kNormalX},
-                                                  {"normal_y", Channel::kNormalY},
-                                                  {"normal_z", Channel::kNormalZ},
-                                                  {"rgb", Channel::kPackedRgb},
-                                                  {"label", Channel::kLabel},
-                                                  {"observations", Channel::kObservations}};
+const std::map<std::string, Channel> kPcdChannels = {{"x", Channel::kX},
+                                                     {"y", Channel::kY},
+                                                     {"z", Channel::kZ},
+                                                     {"normal_x", Channel::kNormalX},
+                                                     {"normal_y", Channel::kNormalY},
+                                                     {"normal_z", Channel::kNormalZ},
+                                                     {"rgb", Channel::kPackedRgb},
+                                                     {"label", Channel::kLabel},
+                                                     {"observations", Channel::kObservations}};
 
 /// Header lines by their first word, up to and with DATA.
 using PcdHeader = std::map<std::string, std::vector<std::string>>;
 
-PcdHeader read_header(HeaderText& header) {
+PcdHeader read_pcd_header(HeaderText& header) {
   PcdHeader lines;
   while (!lines.contains("DATA")) {
     std::vector<std::string> words = header.next_line();
@@ -56,20 +56,20 @@ PointRecord read_record(const HeaderText& header, PcdHeader& lines) {
   }
   PointRecord record;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    const auto type = kTypes.find(types[i] + sizes[i]);
-    if (type == kTypes.end()) header.fail("unknown TYPE and SIZE '" + types[i] + sizes[i] + "'");
-    const auto known = kChannels.find(fields[i]);
+    const auto type = kPcdTypes.find(types[i] + sizes[i]);
+    if (type == kPcdTypes.end()) header.fail("unknown TYPE and SIZE '" + types[i] + sizes[i] + "'");
+    const auto known = kPcdChannels.find(fields[i]);
     const std::uint64_t count = header.count(counts[i]);
     if (count > kMaxColumns) header.fail("COUNT is " + counts[i] + ", allowed is up to 4096");
-    const bool single = known != kChannels.end() && count == 1;
+    const bool single = known != kPcdChannels.end() && count == 1;
     record.insert(record.end(), count, {single ? known->second : Channel::kOther, type->second});
   }
   check_record(record, header.where());
   return record;
 }
 
-std::string_view name_of(Channel channel) {
-  for (const auto& [name, known] : kChannels) {
+std::string_view pcd_name(Channel channel) {
+  for (const auto& [name, known] : kPcdChannels) {
     if (known == channel) return name;
   }
   return "";
@@ -80,7 +80,7 @@ std::string_view name_of(Channel channel) {
 PointCloudFile read_pcd(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   HeaderText text(bytes, path.string());
-  PcdHeader lines = read_header(text);
+  PcdHeader lines = read_pcd_header(text);
   const PointRecord record = read_record(text, lines);
   const auto word = [&](const std::string& key) { return lines[key].empty() ? "" : lines[key][0]; };
   const std::string data = word("DATA");
@@ -98,7 +98,7 @@ void write_pcd(const std::filesystem::path& path, const PointCloudFile& cloud) {
   std::string types = "TYPE";
   std::string counts = "COUNT";
   for (const PointColumn& column : record) {
-    fields.append(" ").append(name_of(column.channel));
+    fields.append(" ").append(pcd_name(column.channel));
     sizes += " 4";
     types += column.type == ScalarType::kFloat32 ? " F" : " I";
     counts += " 1";

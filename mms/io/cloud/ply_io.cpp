@@ -11,7 +11,7 @@
 namespace mms {
 namespace {
 
-const std::map<std::string, ScalarType> kTypes = {
+const std::map<std::string, ScalarType> kPlyTypes = {
     {"char", ScalarType::kInt8},      {"int8", ScalarType::kInt8},
     {"uchar", ScalarType::kUint8},    {"uint8", ScalarType::kUint8},
     {"short", ScalarType::kInt16},    {"int16", ScalarType::kInt16},
@@ -21,17 +21,17 @@ const std::map<std::string, ScalarType> kTypes = {
     {"float", ScalarType::kFloat32},  {"float32", ScalarType::kFloat32},
     {"double", ScalarType::kFloat64}, {"float64", ScalarType::kFloat64}};
 
-const std::map<std::string, Channel> kChannels = {{"x", Channel::kX},
-                                                  {"y", Channel::kY},
-                                                  {"z", Channel::kZ},
-                                                  {"nx", Channel::kNormalX},
-                                                  {"ny", Channel::kNormalY},
-                                                  {"nz", Channel::kNormalZ},
-                                                  {"red", Channel::kRed},
-                                                  {"green", Channel::kGreen},
-                                                  {"blue", Channel::kBlue},
-                                                  {"label", Channel::kLabel},
-                                                  {"observations", Channel::kObservations}};
+const std::map<std::string, Channel> kPlyChannels = {{"x", Channel::kX},
+                                                     {"y", Channel::kY},
+                                                     {"z", Channel::kZ},
+                                                     {"nx", Channel::kNormalX},
+                                                     {"ny", Channel::kNormalY},
+                                                     {"nz", Channel::kNormalZ},
+                                                     {"red", Channel::kRed},
+                                                     {"green", Channel::kGreen},
+                                                     {"blue", Channel::kBlue},
+                                                     {"label", Channel::kLabel},
+                                                     {"observations", Channel::kObservations}};
 
 struct PlyHeader {
   bool ascii = false;
@@ -54,22 +54,22 @@ bool read_format(HeaderText& header) {
 
 PointColumn read_property(const HeaderText& header, const std::vector<std::string>& words) {
   if (words.size() > 1 && words[1] == "list") header.fail("vertices with lists are unsupported");
-  if (words.size() != 3) header.fail("'property TYPE NAME' is wanted");
-  const auto type = kTypes.find(words[1]);
-  if (type == kTypes.end()) header.fail("unknown property type '" + words[1] + "'");
-  const auto channel = kChannels.find(words[2]);
-  return {channel == kChannels.end() ? Channel::kOther : channel->second, type->second};
+  if (words.size() != 3) header.fail("expected 'property TYPE NAME'");
+  const auto type = kPlyTypes.find(words[1]);
+  if (type == kPlyTypes.end()) header.fail("unknown property type '" + words[1] + "'");
+  const auto channel = kPlyChannels.find(words[2]);
+  return {channel == kPlyChannels.end() ? Channel::kOther : channel->second, type->second};
 }
 
 /// Elements after the vertices (faces) are of no interest, elements before them would have to be
 /// passed over point by point and no known program writes any.
-PlyHeader read_header(HeaderText& header) {
+PlyHeader read_ply_header(HeaderText& header) {
   PlyHeader result;
   result.ascii = read_format(header);
   std::string element;
   for (auto words = header.next_line(); words[0] != "end_header"; words = header.next_line()) {
     if (words[0] == "element") {
-      if (words.size() != 3) header.fail("'element NAME COUNT' is wanted");
+      if (words.size() != 3) header.fail("expected 'element NAME COUNT'");
       if (element.empty() && words[1] != "vertex") header.fail("the first element is no vertex");
       if (!element.empty() && words[1] == "vertex") header.fail("the vertices come twice");
       element = words[1];
@@ -84,14 +84,14 @@ PlyHeader read_header(HeaderText& header) {
   return result;
 }
 
-std::string_view name_of(Channel channel) {
-  for (const auto& [name, known] : kChannels) {
+std::string_view ply_name(Channel channel) {
+  for (const auto& [name, known] : kPlyChannels) {
     if (known == channel) return name;
   }
   return "";
 }
 
-std::string_view name_of(ScalarType type) {
+std::string_view ply_name(ScalarType type) {
   if (type == ScalarType::kFloat32) return "float";
   return type == ScalarType::kUint8 ? "uchar" : "int";
 }
@@ -101,7 +101,7 @@ std::string_view name_of(ScalarType type) {
 PointCloudFile read_ply(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   HeaderText text(bytes, path.string());
-  const PlyHeader header = read_header(text);
+  const PlyHeader header = read_ply_header(text);
   const auto decode = header.ascii ? decode_ascii : decode_binary;
   return decode(text.rest(), header.vertices, header.record, path.string());
 }
@@ -112,7 +112,8 @@ void write_ply(const std::filesystem::path& path, const PointCloudFile& cloud) {
   file.stream() << "ply\nformat binary_little_endian 1.0\nelement vertex " << cloud.points.size()
                 << '\n';
   for (const PointColumn& column : record) {
-    file.stream() << "property " << name_of(column.type) << ' ' << name_of(column.channel) << '\n';
+    file.stream() << "property " << ply_name(column.type) << ' ' << ply_name(column.channel)
+                  << '\n';
   }
   file.stream() << "end_header\n" << encode_binary(cloud, record);
   file.commit();

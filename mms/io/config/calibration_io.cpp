@@ -14,7 +14,7 @@ namespace {
 
 constexpr Range kFocal{1e-3, 1e5};
 constexpr Range kCentre{-1e5, 1e5};
-constexpr Range kSide{1, 16384};
+constexpr Range kSide{1, kMaxImageSide};
 constexpr Range kLens{-1e4, 1e4};
 constexpr Range kDepthScale{1e-3, 1e6};
 constexpr Range kMaxDepth{0.1, 1000.0};
@@ -31,7 +31,7 @@ YAML::Node required(YamlMap& map, const std::string& file, std::string_view key)
 /// The numbers of a list, or of a list of rows.
 std::vector<double> matrix_numbers(const YamlMap& map, const YAML::Node& node,
                                    std::string_view key) {
-  if (!node.IsSequence()) map.fail(node, key, "is " + shown(node) + ", a matrix is wanted");
+  if (!node.IsSequence()) map.fail(node, key, "is " + shown(node) + ", expected a matrix");
   std::vector<double> numbers;
   for (const YAML::Node& element : node) {
     if (element.IsSequence()) {

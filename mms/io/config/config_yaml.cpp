@@ -67,7 +67,7 @@ class ConfigLoader final : public ConfigVisitor {
     const auto node = find(info);
     if (!node) return;
     if (!node->IsScalar()) {
-      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", a text is wanted");
+      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", expected a text");
     }
     value = node->Scalar();
   }

@@ -20,7 +20,7 @@ nlohmann::json parse_json(const std::filesystem::path& path) {
 }
 
 JsonEntry JsonEntry::at(const std::string& key) const {
-  if (!value_->is_object()) fail("is " + type_name() + ", an object is wanted");
+  if (!value_->is_object()) fail("is " + type_name() + ", expected an object");
   const auto found = value_->find(key);
   if (found == value_->end()) fail("has no key '" + key + "'");
   return {*found, file_, path_.empty() ? key : path_ + "." + key};
@@ -31,7 +31,7 @@ bool JsonEntry::has(const std::string& key) const {
 }
 
 std::vector<JsonEntry> JsonEntry::elements() const {
-  if (!value_->is_array()) fail("is " + type_name() + ", a list is wanted");
+  if (!value_->is_array()) fail("is " + type_name() + ", expected a list");
   std::vector<JsonEntry> list;
   list.reserve(value_->size());
   for (const nlohmann::json& element : *value_) {
@@ -41,7 +41,7 @@ std::vector<JsonEntry> JsonEntry::elements() const {
 }
 
 double JsonEntry::number(Range range) const {
-  if (!value_->is_number()) fail("is " + type_name() + ", a number is wanted");
+  if (!value_->is_number()) fail("is " + type_name() + ", expected a number");
   const auto number = value_->get<double>();
   if (number >= range.min && number <= range.max) return number;
   fail("is " + format_number(number) + ", allowed is " + to_string(range));
@@ -56,12 +56,12 @@ std::int64_t JsonEntry::integer(Range range) const {
 }
 
 std::string JsonEntry::text() const {
-  if (!value_->is_string()) fail("is " + type_name() + ", a text is wanted");
+  if (!value_->is_string()) fail("is " + type_name() + ", expected a text");
   return value_->get<std::string>();
 }
 
 bool JsonEntry::boolean() const {
-  if (!value_->is_boolean()) fail("is " + type_name() + ", true or false is wanted");
+  if (!value_->is_boolean()) fail("is " + type_name() + ", expected true or false");
   return value_->get<bool>();
 }
 

@@ -62,7 +62,7 @@ YamlMap::YamlMap(std::string file, std::string path, std::optional<YAML::Node> n
   if (!node->IsMap()) {
     throw ConfigError(at_line(file_, node->Mark()),
                       (path_.empty() ? "the file" : path_.substr(0, path_.size() - 1)) + " is " +
-                          shown(*node) + ", lines of 'key: value' are wanted");
+                          shown(*node) + ", expected lines of 'key: value'");
   }
   check_keys(*node);
   for (const auto& entry : *node) entries_.emplace_back(entry.first.Scalar(), entry.second);
@@ -111,7 +111,7 @@ YamlMap YamlMap::child(std::string_view key) {
 std::optional<std::vector<YamlMap>> YamlMap::children(std::string_view key) {
   const std::optional<YAML::Node> list = find(key);
   if (!list) return std::nullopt;
-  if (!list->IsSequence()) fail(*list, key, "is " + shown(*list) + ", a list of groups is wanted");
+  if (!list->IsSequence()) fail(*list, key, "is " + shown(*list) + ", expected a list of groups");
   std::vector<YamlMap> items;
   for (const YAML::Node& item : *list) {
     const std::string name = std::string(key) + "[" + std::to_string(items.size()) + "]";
@@ -130,7 +130,7 @@ void YamlMap::reject_unknown() const {
 
 double YamlMap::number(const YAML::Node& node, std::string_view key, Range range) const {
   const auto value = yaml_number(plain_scalar(node));
-  if (!value) fail(node, key, "is " + shown(node) + ", a number is wanted: " + to_string(range));
+  if (!value) fail(node, key, "is " + shown(node) + ", expected a number: " + to_string(range));
   if (*value < range.min || *value > range.max) {
     fail(node, key, "is " + node.Scalar() + ", allowed is " + to_string(range));
   }
@@ -143,7 +143,7 @@ int YamlMap::integer(const YAML::Node& node, std::string_view key, Range range) 
   range = {std::max(range.min, kLow), std::min(range.max, kHigh)};
   const auto value = parse_integer(plain_scalar(node));
   if (!value) {
-    fail(node, key, "is " + shown(node) + ", a whole number is wanted: " + to_string(range));
+    fail(node, key, "is " + shown(node) + ", expected a whole number: " + to_string(range));
   }
   return static_cast<int>(number(node, key, range));
 }

@@ -122,7 +122,7 @@ class CocoReader {
   static void read_box(const JsonEntry& entry, CocoAnnotation& annotation) {
     const std::vector<double> box = numbers(entry);
     if (box.size() != 4 || box[2] < 0.0 || box[3] < 0.0) {
-      entry.fail("is no box", "x, y, width and height in pixels are wanted");
+      entry.fail("is no box", "expected x, y, width and height in pixels");
     }
     std::copy(box.begin(), box.end(), annotation.bbox.begin());
   }

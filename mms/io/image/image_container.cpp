@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::string_view kJpegSignature = "\xFF\xD8\xFF";
-constexpr std::uint32_t kMaxSide = 16384;
 
 std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -36,7 +35,7 @@ void check_png_size(std::string_view bytes, const std::string& where) {
   constexpr std::size_t kWidthAt = 16;
   const std::uint32_t width = big_endian(bytes, kWidthAt);
   const std::uint32_t height = big_endian(bytes, kWidthAt + 4);
-  if (width <= kMaxSide && height <= kMaxSide) return;
+  if (width <= kMaxImageSide && height <= kMaxImageSide) return;
   throw DataError(where,
                   "is " + std::to_string(width) + "x" + std::to_string(height) +
                       " pixels, allowed is up to 16384x16384",
@@ -55,7 +54,7 @@ bool jpeg_is_whole(std::string_view bytes) {
 void check_whole_image(std::string_view bytes, const std::string& where) {
   const bool png = bytes.starts_with(kPngSignature);
   if (!png && !bytes.starts_with(kJpegSignature)) {
-    throw DataError(where, bytes.empty() ? "is empty, a PNG or JPEG image is wanted"
+    throw DataError(where, bytes.empty() ? "is empty, expected a PNG or JPEG image"
                                          : "is neither a PNG nor a JPEG image");
   }
   if (!(png ? png_is_whole(bytes) : jpeg_is_whole(bytes))) {

@@ -22,7 +22,7 @@ struct GridPoint {
 void check(const Polygon& polygon) {
   if (polygon.size() < kMinNumbers || polygon.size() % 2 != 0) {
     throw DataError("polygon", "has " + std::to_string(polygon.size()) + " numbers",
-                    "x and y of three corners or more are wanted");
+                    "expected x and y of three corners or more");
   }
   for (const double value : polygon) {
     if (!(std::abs(value) <= kMaxCoordinate)) {

@@ -62,8 +62,8 @@ Image<T> decode_plain(std::string_view bytes, int type, const std::string& wante
   const cv::Mat decoded = decode(bytes, cv::IMREAD_UNCHANGED, where);
   if (decoded.type() != type) {
     throw DataError(where, "has pixels of " + std::to_string(8 * decoded.elemSize1()) +
-                               " bits and " + std::to_string(decoded.channels()) + " channel(s), " +
-                               wanted + " is wanted");
+                               " bits and " + std::to_string(decoded.channels()) +
+                               " channel(s), expected " + wanted);
   }
   Image<T> image(decoded.cols, decoded.rows);
   for (int y = 0; y < decoded.rows; ++y) {

@@ -45,7 +45,7 @@ Eigen::Vector3d read_vector(const JsonEntry& list, Range range = {}) {
 
 Timestamp read_stamp(const JsonEntry& entry) {
   const auto stamp = Timestamp::parse(entry.text());
-  if (!stamp) entry.fail("is '" + entry.text() + "', seconds are wanted, as in \"12.500000000\"");
+  if (!stamp) entry.fail("is '" + entry.text() + "', expected seconds, as in \"12.500000000\"");
   return *stamp;
 }
 

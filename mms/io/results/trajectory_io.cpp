@@ -15,8 +15,8 @@ constexpr std::size_t kKittiColumns = 12;
 void expect_columns(const TextTable& table, const TextLine& line, std::size_t columns,
                     const std::string& form) {
   if (line.fields.size() == columns) return;
-  throw DataError(table.where(line), std::to_string(line.fields.size()) + " columns, " +
-                                         std::to_string(columns) + " wanted: " + form);
+  throw DataError(table.where(line), std::to_string(line.fields.size()) + " columns, expected " +
+                                         std::to_string(columns) + ": " + form);
 }
 
 void expect_poses(const std::filesystem::path& path, const Trajectory& trajectory) {

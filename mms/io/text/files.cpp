@@ -38,4 +38,13 @@ std::vector<std::string> list_folder(const fs::path& folder) {
   return names;
 }
 
+bool make_folder(const fs::path& folder) {
+  std::error_code error;
+  const bool made = fs::create_directories(folder, error);
+  if (!error && fs::is_directory(folder)) return made;
+  throw FileError(folder.string(),
+                  "cannot be made a folder: " + (error ? error.message() : "it is a file"),
+                  "choose another with -o");
+}
+
 }  // namespace mms

@@ -14,4 +14,8 @@ std::string read_file(const std::filesystem::path& path);
 /// @throws FileError when it is missing, no folder, or cannot be read.
 std::vector<std::string> list_folder(const std::filesystem::path& folder);
 
+/// Makes a folder for output, and those above it. @returns whether it was not there before.
+/// @throws FileError when it cannot be made or is a file.
+bool make_folder(const std::filesystem::path& folder);
+
 }  // namespace mms

@@ -35,7 +35,7 @@ Eigen::Isometry3d isometry_from_rows(std::span<const double> numbers, const std:
   if (!(error < kTolerance) || rotation.determinant() < 0.0) {
     throw DataError(where, "the 3x3 part is not a rotation",
                     "off by " + format_number(error) + ", determinant " +
-                        format_number(rotation.determinant()) + ", wanted 1");
+                        format_number(rotation.determinant()) + ", expected 1");
   }
   const double last_row[] = {0.0, 0.0, 0.0, 1.0};
   if (numbers.size() == 16 && !std::equal(last_row, last_row + 4, numbers.data() + 12)) {

@@ -107,7 +107,7 @@ std::uint64_t size_of(const StoredTensor& tensor, const JsonEntry& shape) {
 void read_place(const JsonEntry& offsets, std::uint64_t size, StoredTensor& tensor) {
   const std::vector<JsonEntry> pair = offsets.elements();
   if (pair.size() != 2) {
-    offsets.fail("has " + std::to_string(pair.size()) + " numbers, first and last byte are wanted");
+    offsets.fail("has " + std::to_string(pair.size()) + " numbers, expected first and last byte");
   }
   tensor.begin = static_cast<std::uint64_t>(pair[0].integer({0}));
   tensor.end = static_cast<std::uint64_t>(pair[1].integer({0}));

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "mms/core/error.hpp"
+#include "mms/io/text/files.hpp"
 
 namespace mms {
 namespace {
@@ -47,13 +48,7 @@ void check_writable(const fs::path& folder) {
 
 ResultFolder::ResultFolder(const fs::path& output, const std::string& data)
     : path_(output.empty() ? default_folder(data) : output), default_place_(output.empty()) {
-  std::error_code error;
-  made_ = fs::create_directories(path_, error);
-  if (error || !fs::is_directory(path_)) {
-    throw FileError(path_.string(),
-                    "cannot be made a folder: " + (error ? error.message() : "it is a file"),
-                    "choose another with -o");
-  }
+  made_ = make_folder(path_);
   check_writable(path_);
 }
 

@@ -11,6 +11,7 @@
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/results/objects_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
 #include "mms/mapping/static_map/semantic_map.hpp"
 #include "mms/report/map_picture.hpp"
 #include "mms/report/report.hpp"
@@ -74,13 +75,7 @@ RunReport make_report(const std::string& data, const MapCloud& map, const MapClo
 
 /// The report's pictures as files of their own.
 void write_pictures(const std::filesystem::path& folder, const RunReport& report) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder)) {
-    throw FileError(folder.string(),
-                    "cannot be made a folder: " + (error ? error.message() : "it is a file"),
-                    "choose another folder with -o");
-  }
+  make_folder(folder);
   if (!report.map_view.empty()) write_png(folder / "map.png", report.map_view);
   if (!report.objects_view.empty()) write_png(folder / "objects.png", report.objects_view);
   for (std::size_t i = 0; i < report.pictures.size(); ++i) {

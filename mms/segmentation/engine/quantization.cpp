@@ -116,7 +116,7 @@ float range_of(const std::string& text, const std::string& name, const std::stri
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), range);
   const bool whole = fault == std::errc() && end == text.data() + text.size();
   if (whole && std::isfinite(range) && range > 0.0F) return range;
-  throw DataError(where, name + " is '" + text + "', wanted is a positive number",
+  throw DataError(where, name + " is '" + text + "', expected a positive number",
                   "mms quantize writes it anew");
 }
 

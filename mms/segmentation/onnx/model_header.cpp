@@ -74,7 +74,7 @@ void read_input(std::string_view graph, ModelHeader& header, const std::string& 
     found += (found.empty() ? "" : ", ") + (length == 0 ? "any" : std::to_string(length));
   }
   throw DataError(where, "takes an input of shape (" + found +
-                             "), wanted is (1, 3, height, width) with sides of at most " +
+                             "), expected (1, 3, height, width) with sides of at most " +
                              std::to_string(kLargestSide));
 }
 

@@ -80,7 +80,7 @@ void check_shapes(const RenamedTensors& found, const TensorShapes& expected,
     const TensorShape& wanted = expected.at(name);
     if (tensor.shape != wanted) {
       throw DataError(where, "tensor '" + found.published.at(name) + "' is of shape " +
-                                 shape_text(tensor.shape) + ", wanted is " + shape_text(wanted));
+                                 shape_text(tensor.shape) + ", expected " + shape_text(wanted));
     }
     const std::size_t count = value_count(wanted);
     if (tensor.values.size() == count) continue;

@@ -36,7 +36,7 @@ class TensorFacts {
     const TensorShape& shape = found->second;
     if (shape.size() != kSides || shape[0] > std::numeric_limits<int>::max()) {
       throw DataError(where_, "tensor '" + found->first + "' is of shape " + shape_text(shape) +
-                                  ", a convolution's (out, in, height, width) is wanted");
+                                  ", a convolution's (out, in, height, expected width)");
     }
     return static_cast<int>(shape[0]);
   }

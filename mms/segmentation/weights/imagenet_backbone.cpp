@@ -112,7 +112,7 @@ ImagenetBackbone imagenet_backbone(const Weights& torchvision, const NetworkConf
     throw DataError(where,
                     "has no layer of a ResNet-" + std::to_string(config.backbone.depth) +
                         " for this network: neither conv1.weight (64, 3, 7, 7) nor any other",
-                    "torchvision's names are wanted");
+                    "expected torchvision's names");
   }
   ImagenetBackbone result;
   for (const auto& [name, tensor] : plain.weights.tensors) {

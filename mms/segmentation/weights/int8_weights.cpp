@@ -34,7 +34,7 @@ void multiply(WeightTensor& tensor, const std::string& name, const WeightTensor&
     throw DataError(where,
                     "'" + name + std::string(kScale) + "' has " +
                         std::to_string(steps.values.size()) +
-                        " steps, wanted is one for each output channel of '" + name + "'",
+                        " steps, expected one for each output channel of '" + name + "'",
                     "mms quantize writes both");
   }
   for (std::size_t i = 0; i < steps.values.size(); ++i) {

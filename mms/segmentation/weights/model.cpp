@@ -105,7 +105,7 @@ class MetadataReader final : public PathVisitor {
 
   [[noreturn]] void fail(const FieldInfo& info, const std::string& value,
                          const std::string& allowed) const {
-    throw DataError(where_, path(info) + " is '" + value + "', wanted is " + allowed);
+    throw DataError(where_, path(info) + " is '" + value + "', expected " + allowed);
   }
 
   const std::map<std::string, std::string>& metadata_;

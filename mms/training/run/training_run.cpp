@@ -31,7 +31,7 @@ void check(const TrainingConfig& config) {
   }
   if (config.network.classes != kObjectClassCount) {
     throw ConfigError("network.classes", "is " + std::to_string(config.network.classes) +
-                                             ", wanted is " + std::to_string(kObjectClassCount) +
+                                             ", expected " + std::to_string(kObjectClassCount) +
                                              ": person and agv");
   }
 }
@@ -80,8 +80,7 @@ void TrainingRun::on_event(std::function<bool(const TrainingEvent&)> callback) {
 }
 
 void TrainingRun::start_or_resume() {
-  std::error_code fault;
-  fs::create_directories(folder_, fault);
+  make_folder(folder_);
   const fs::path settings = folder_ / "config.yaml";
   const fs::path checkpoint = folder_ / "checkpoint.pt";
   if (fs::exists(checkpoint)) {

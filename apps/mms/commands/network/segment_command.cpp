@@ -11,6 +11,7 @@
 
 #include "apps/mms/commands/network/detection_picture.hpp"
 #include "apps/mms/commands/network/picture_source.hpp"
+#include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/rate_progress.hpp"
 #include "apps/mms/console/warnings.hpp"
@@ -19,6 +20,7 @@
 #include "mms/io/image/coco_io.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
+#include "mms/io/text/files.hpp"
 #include "mms/pipeline/config.hpp"
 #include "mms/run/record/peak_memory.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
@@ -48,14 +50,6 @@ SegmentationConfig settings_of(const SegmentArguments& arguments) {
   if (!arguments.weights.empty()) config.segmentation.weights = arguments.weights.string();
   config.segmentation.threads = arguments.threads;
   return config.segmentation;
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (fs::is_directory(folder)) return;
-  throw FileError(folder.string(), "cannot be made a folder: " + error.message(),
-                  "choose another with -o");
 }
 
 /// Writes what was found: masks, overlays and results picture by picture.
@@ -193,8 +187,7 @@ void add_segment_command(CLI::App& app) {
   command->add_option("--limit", arguments->limit, "at most N pictures")
       ->check(CLI::Range(std::size_t{1}, kLargestCount))
       ->default_str("all");
-  command->add_option("--threads", arguments->threads, "of the network (default: one a core)")
-      ->check(CLI::Range(1, 256));
+  add_threads_option(*command, arguments->threads, "of the network (default: one a core)");
   command->add_flag("--json-only", arguments->json_only, "write no masks and overlays");
   command->callback([arguments] { segment(*arguments); });
 }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/mms/commands/commands.hpp"
+#include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/thread_limit.hpp"
 #include "apps/mms/console/training_progress.hpp"
@@ -52,8 +53,7 @@ void add_train_command(CLI::App& app) {
       ->add_option("-o,--output", arguments->output,
                    "folder for weights, checkpoints and report; a training that is there goes on")
       ->required();
-  command->add_option("--threads", arguments->threads, "threads to use (default: one a core)")
-      ->check(CLI::Range(1, 256));
+  add_threads_option(*command, arguments->threads);
   command->callback([arguments] { train(*arguments); });
 }
 

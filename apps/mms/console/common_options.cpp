@@ -1,0 +1,18 @@
+#include "apps/mms/console/common_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace mms {
+
+void add_threads_option(CLI::App& command, int& threads, const std::string& help) {
+  constexpr int kMaxThreads = 256;  // more cores than one machine of today gives the program
+  command.add_option("--threads", threads, help)->check(CLI::Range(1, kMaxThreads));
+}
+
+void add_frames_option(CLI::App& command, std::size_t& frames, const std::string& help) {
+  command.add_option("--frames", frames, help)
+      ->check(CLI::Range(std::size_t{1}, kMaxFrames))
+      ->default_str("all");
+}
+
+}  // namespace mms
