@@ -1,5 +1,5 @@
 # Compiler settings shared by every target, and one library target a module.
-include(${CMAKE_CURRENT_LIST_DIR}/MmsPrecompiledHeaders.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/MmsBuildTime.cmake)
 
 add_library(mms_build_settings INTERFACE)
 target_compile_features(mms_build_settings INTERFACE cxx_std_20)
@@ -31,12 +31,12 @@ add_library(mms_precompiled OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
 target_link_libraries(mms_precompiled PRIVATE mms_build_settings Eigen3::Eigen)
 mms_precompile(mms_precompiled)
 
-# mms_module(NAME [FOLDER dir] [WITHOUT regex...] [PRECOMPILE header...] [PUBLIC lib...]
-# [PRIVATE lib...]): the target
-# mms_NAME (alias mms::NAME) of all sources below mms/NAME, or below mms/FOLDER, but those whose path
-# from there begins with one of WITHOUT; one of headers alone becomes an interface library.
+# mms_module(NAME [UNITY] [FOLDER dir] [WITHOUT regex...] [PRECOMPILE header...] [PUBLIC lib...]
+# [PRIVATE lib...]): the target mms_NAME (alias mms::NAME) of all sources below mms/NAME, or below
+# mms/FOLDER, but those whose path from there begins with one of WITHOUT. A module of headers alone
+# becomes an interface library.
 function(mms_module name)
-  cmake_parse_arguments(ARG "" "FOLDER" "WITHOUT;PRECOMPILE;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY" "FOLDER" "WITHOUT;PRECOMPILE;PUBLIC;PRIVATE" ${ARGN})
   if(NOT ARG_FOLDER)
     set(ARG_FOLDER ${name})
   endif()
@@ -53,6 +53,9 @@ function(mms_module name)
       mms_precompile(mms_${name} ${ARG_PRECOMPILE})
     else()
       mms_share_precompiled(mms_${name} mms_precompiled)
+    endif()
+    if(ARG_UNITY)
+      mms_unity(mms_${name})
     endif()
   else()
     add_library(mms_${name} INTERFACE)

@@ -53,8 +53,9 @@ asio::ip::address address_of(const ServerOptions& options) {
   const auto address =
       asio::ip::make_address(options.address == "localhost" ? "127.0.0.1" : options.address, error);
   if (error) {
-    throw DataError("--bind", "'" + options.address + "' is no address",
-                    "an address of this machine is wanted, as 192.168.1.5, or 0.0.0.0 for all");
+    throw DataError(
+        "--bind", "'" + options.address + "' is no address",
+        "expected an address of this machine, for example 192.168.1.5, or 0.0.0.0 for all");
   }
   return address;
 }

@@ -57,9 +57,9 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
     socket_.binary(true);
     socket_.auto_fragment(false);
     beast::error_code ignored;
-    auto& tcp = beast::get_lowest_layer(socket_).socket();
-    tcp.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
-    tcp.set_option(asio::ip::tcp::no_delay(true), ignored);
+    auto& stream = beast::get_lowest_layer(socket_).socket();
+    stream.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
+    stream.set_option(asio::ip::tcp::no_delay(true), ignored);
     const auto shared = std::make_shared<http::request<http::string_body>>(std::move(request));
     socket_.async_accept(*shared, [self = shared_from_this(), shared](beast::error_code error) {
       if (error) return;

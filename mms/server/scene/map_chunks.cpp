@@ -10,7 +10,7 @@ constexpr float kOffsetSteps = 256.0F;
 constexpr int kBlockSide = 1 << MapChunks::kBlockBits;
 constexpr int kBlockMask = kBlockSide - 1;
 constexpr int kBlockCells = kBlockSide * kBlockSide * kBlockSide;
-constexpr Rgb kNoColor{128, 128, 128};
+constexpr Rgb kUncoloredVoxel{128, 128, 128};
 /// Voxels from the origin beyond which a point counts as broken: keys are 32-bit.
 constexpr float kFarthest = 1e9F;
 
@@ -220,7 +220,7 @@ MapChanges changes_of(std::span<const Eigen::Vector3f> points, std::span<const R
     const VoxelKey key = block_of(voxel);
     const auto [found, added] = place.try_emplace(key, changes.blocks.size());
     if (added) changes.blocks.push_back({key, 1, {}});
-    VoxelChange change{cell_of(voxel), 1, {}, {}, i < colors.size() ? colors[i] : kNoColor};
+    VoxelChange change{cell_of(voxel), 1, {}, {}, i < colors.size() ? colors[i] : kUncoloredVoxel};
     for (int axis = 0; axis < 3; ++axis) {
       const float part = (steps[axis] - std::floor(steps[axis])) * kOffsetSteps;
       change.offset[static_cast<std::size_t>(axis)] =

@@ -8,7 +8,7 @@ namespace mms {
 namespace {
 
 constexpr int kJpegQuality = 75;
-constexpr Rgb kNoColor{160, 160, 160};
+constexpr Rgb kUncoloredPoint{160, 160, 160};
 
 Rgb mean_of_square(const Image<Rgb>& image, int left, int top, int side) {
   int r = 0;
@@ -108,7 +108,7 @@ ColoredPoints scan_points(const LabeledCloud& cloud, std::size_t max_points,
     if (error < valid) continue;
     error -= valid;
     points.points.push_back(cloud.points[i]);
-    points.colors.push_back(cloud.colors.empty() ? kNoColor : cloud.colors[i]);
+    points.colors.push_back(cloud.colors.empty() ? kUncoloredPoint : cloud.colors[i]);
     dynamic.push_back(cloud.labels[i] == PointLabel::kDynamic ? 1 : 0);
   }
   return points;
