@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Sourced by demo.sh and test.sh: install_packages, install_test_tools and build.
+# Sourced by demo.sh, test.sh and check.sh.
 
 # packages_of [GROUP...]: the packages of these groups of packages.txt, of all groups without one.
 packages_of() {
@@ -55,4 +55,18 @@ build() {
   cmake --preset "$1" > "${TMPDIR:-/tmp}/mms_configure.log" ||
     { cat "${TMPDIR:-/tmp}/mms_configure.log" >&2; return 1; }
   NINJA_STATUS='[%p, %f of %t, %e s] ' cmake --build --preset "$1" --parallel "$(nproc)"
+}
+
+# cpp_files: all C++ files of the repository but those that git ignores, each ending with a zero byte.
+cpp_files() {
+  local file
+  git -c safe.directory='*' ls-files -z --cached --others --exclude-standard '*.cpp' '*.hpp' |
+    while IFS= read -r -d '' file; do
+      [ ! -e "$file" ] || printf '%s\0' "$file"
+    done
+}
+
+# check_format: whether all C++ files are formatted.
+check_format() {
+  cpp_files | xargs -0 clang-format --dry-run -Werror
 }
