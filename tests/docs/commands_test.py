@@ -5,8 +5,9 @@ usage: commands_test.py PROGRAM SOURCE_DIR
 
 Every ```sh block is run by bash in a temporary folder of its page, with PROGRAM first in the PATH.
 A block after a comment `<!-- not run: REASON -->` is not run; its options are still compared with
-the program's help. Exits with 1 and one line a fault.
+the program's help, its presets, scripts and tests with the repository. Exits with 1 and one line a fault.
 """
+import json
 import os
 import re
 import subprocess
@@ -18,6 +19,7 @@ from pathlib import Path
 MAX_LINE = 100  # characters of a line of text
 MAX_WORDS = 25  # of a sentence
 BLOCK_TIMEOUT = 300  # seconds
+ROOT_PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
 GENERATED = ("cli.md", "configuration.md")
 SOURCE_FOLDERS = ("mms", "apps", "interfaces", "benchmarks", "examples", "tests", "config",
                   "weights", "docs", "viewer", "packaging", "cmake")
@@ -185,6 +187,25 @@ def check_files(root, page, name, faults):
                 continue
             if not (root / span).exists() and not list(root.glob(span + ".*")):
                 faults.append(f"{name}:{number}: the repository has no {span}")
+
+
+def check_build(root, page, name, faults):
+    """Presets, scripts and test programs in shell blocks are there."""
+    presets = json.loads((root / "CMakePresets.json").read_text(encoding="utf-8"))
+    names = {preset["name"] for preset in presets["configurePresets"]}
+    for number, language, text, _ in page.blocks:
+        if language != "sh":
+            continue
+        folders = set(re.findall(r"-B build/(\w+)", text))
+        for preset in re.findall(r"(?:--preset |\bbuild/)(\w+)", text):
+            if preset not in names | folders:
+                faults.append(f"{name}:{number}: there is no preset {preset}")
+        for script in re.findall(r"(?<!\S)(?:\./)?([\w./-]+\.(?:sh|py))\b", text):
+            if not (root / script).exists():
+                faults.append(f"{name}:{number}: the repository has no {script}")
+        for test in re.findall(r"\b(\w+)_test\b(?!\.)", text):
+            if not (root / "tests" / test).is_dir():
+                faults.append(f"{name}:{number}: there are no tests/{test}")
 
 
 class Help:
@@ -356,6 +377,7 @@ def check_page(root, path, page, program, faults):
     name = str(path.relative_to(root))
     check_lines(name, page, faults)
     check_files(root, page, name, faults)
+    check_build(root, page, name, faults)
     if path.name == "CHANGELOG.md":  # has the former names
         return
     check_calls(name, page, program_help, faults)
@@ -383,7 +405,7 @@ def check_output(program, program_help, faults):
 def main(program, root):
     start, faults = time.monotonic(), []
     program_help = Help(program)
-    paths = [root / "README.md", root / "CHANGELOG.md", *sorted((root / "docs").glob("*.md"))]
+    paths = [*(root / name for name in ROOT_PAGES), *sorted((root / "docs").glob("*.md"))]
     pages = {path: Page(path) for path in paths}
     check_links(root, pages, faults)
     settings = Settings(program)
