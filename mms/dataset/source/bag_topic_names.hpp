@@ -13,6 +13,7 @@ struct BagTopicNames {
   std::string mask{};         ///< sensor_msgs/Image of labels: 0 static, 1 person, 2 vehicle
   std::string truth{};        ///< PoseStamped, TransformStamped, Odometry or TFMessage
 
+  /// Whether no topic is given.
   bool empty() const { return *this == BagTopicNames(); }
   bool operator==(const BagTopicNames&) const = default;
 };

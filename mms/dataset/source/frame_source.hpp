@@ -58,6 +58,7 @@ class FrameSource {
   /// What was found, one line a fact, for `mms info`.
   virtual std::vector<std::string> describe() const = 0;
 
+  /// Sets what receives a line for every frame that is skipped; none by default.
   virtual void on_warning(WarningHandler handler) = 0;
 };
 

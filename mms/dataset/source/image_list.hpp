@@ -10,14 +10,14 @@ namespace mms {
 
 /// One line "stamp path" of a TUM image list.
 struct ListedImage {
-  Timestamp stamp;
+  Timestamp stamp;             ///< as written in the list
   std::filesystem::path path;  ///< with the list's folder before it
 };
 
 /// One line "stamp path stamp path" of an associations file.
 struct ListedPair {
-  ListedImage color;
-  ListedImage depth;
+  ListedImage color;  ///< its stamp becomes that of the frame
+  ListedImage depth;  ///< taken at nearly the same time
 };
 
 /// Reads rgb.txt or depth.txt. Lines that cannot be read and images with a stamp that was there

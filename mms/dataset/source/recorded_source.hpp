@@ -23,8 +23,9 @@ class RecordedSource : public FrameSource {
   void on_warning(WarningHandler handler) final;
 
  protected:
-  /// Stamp and name of a frame, known without reading it.
+  /// Stamp of a frame, known without reading it.
   virtual Timestamp stamp_at(std::size_t index) const = 0;
+  /// Name of a frame for messages, known without reading it.
   virtual std::string name_at(std::size_t index) const = 0;
 
   /// The frame but for its index, stamp and name, which `next` fills in.
@@ -34,11 +35,14 @@ class RecordedSource : public FrameSource {
   /// Facts about the recording that `describe` puts before those it knows itself.
   virtual std::vector<std::string> facts() const = 0;
 
+  /// Hands a line to the warning handler, or keeps it until there is one.
   void warn(const std::string& message);
+  /// Sets the poses that `ground_truth` returns.
   void set_ground_truth(Trajectory trajectory) { ground_truth_ = std::move(trajectory); }
 
-  /// The truth of all frames, read when it is asked for; the files may not be there.
+  /// Sets the file of the true map of all frames. It is read when asked for, and may be missing.
   void set_map_truth(std::filesystem::path file) { map_truth_ = std::move(file); }
+  /// Sets the file of the true objects of all frames, which may be missing as well.
   void set_objects_truth(std::filesystem::path file) { objects_truth_ = std::move(file); }
 
  private:

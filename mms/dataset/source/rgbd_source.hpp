@@ -11,23 +11,23 @@ namespace mms {
 
 /// Files of one colour image with depth.
 struct RgbdFiles {
-  Timestamp stamp;           ///< of the colour image
-  Duration depth_offset{0};  ///< of the depth image, relative to `stamp`
-  std::filesystem::path color;
-  std::filesystem::path depth;
-  std::filesystem::path mask;  ///< empty where there is none
-  std::string name;            ///< what the mask of the frame is called, without ".png"
+  Timestamp stamp;              ///< of the colour image
+  Duration depth_offset{0};     ///< of the depth image, relative to `stamp`
+  std::filesystem::path color;  ///< 8-bit image
+  std::filesystem::path depth;  ///< 16-bit image, registered to `color`
+  std::filesystem::path mask;   ///< empty where there is none
+  std::string name;             ///< what the mask of the frame is called, without ".png"
 };
 
 /// All that a folder layout says about an RGB-D recording; the images are not read yet.
 struct RgbdRecording {
-  std::filesystem::path folder;
-  std::vector<RgbdFiles> frames;
+  std::filesystem::path folder;                    ///< of the recording
+  std::vector<RgbdFiles> frames;                   ///< in the order of their stamps
   std::shared_ptr<const Calibration> calibration;  ///< with a camera
   std::uint16_t invalid_depth = 0;                 ///< raw value that means no return besides 0
-  Trajectory ground_truth;
-  std::vector<std::string> facts;     ///< lines for `describe`
-  std::vector<std::string> warnings;  ///< what was wrong but can be lived with
+  Trajectory ground_truth;                         ///< empty where there is none
+  std::vector<std::string> facts;                  ///< lines for `describe`
+  std::vector<std::string> warnings;               ///< what was wrong but can be lived with
 };
 
 /// Finds the frames' masks, in `options.masks` or else the recording's own masks/; says in facts
@@ -39,6 +39,7 @@ void find_masks(RgbdRecording& recording, const SourceOptions& options);
 /// damaged frames.
 class RgbdSource final : public RecordedSource {
  public:
+  /// Reads no image yet.
   explicit RgbdSource(RgbdRecording recording);
 
   std::size_t size() const override { return recording_.frames.size(); }

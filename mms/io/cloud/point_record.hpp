@@ -13,8 +13,10 @@
 
 namespace mms {
 
+/// How one scalar of a point is stored; little-endian in binary files.
 enum class ScalarType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
+/// [B]
 std::size_t size_of(ScalarType type);
 
 /// What a column of a point file means; kPackedRgb is 0x00RRGGBB in four bytes.
@@ -36,13 +38,14 @@ enum class Channel {
 
 /// One scalar of every point.
 struct PointColumn {
-  Channel channel = Channel::kOther;
-  ScalarType type = ScalarType::kFloat32;
+  Channel channel = Channel::kOther;       ///< what it means
+  ScalarType type = ScalarType::kFloat32;  ///< how it is stored
 };
 
 /// The columns of one point, in the file's order without gaps.
 using PointRecord = std::vector<PointColumn>;
 
+/// Bytes of one point in a binary file [B].
 std::size_t stride_of(const PointRecord& record);
 
 /// The columns that a cloud needs, with packed or separate colours.

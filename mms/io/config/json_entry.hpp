@@ -12,35 +12,42 @@
 
 namespace mms {
 
-/// Parses a whole file. @throws FileError when it cannot be read, DataError when it is no JSON.
+/// Parses a whole file. @throws FileError when it cannot be read, DataError when it is not JSON.
 nlohmann::json parse_json(const std::filesystem::path& path);
 
 /// A JSON value that knows where it stands, read strictly. Faults are DataErrors
 /// "file: annotations[3].bbox what". Views the value: it has to outlive the entry.
 class JsonEntry {
  public:
+  /// @param value  has to outlive the entry
+  /// @param file   for messages
+  /// @param path   of the value in the file, as in "annotations[3]"; empty for the whole file
   JsonEntry(const nlohmann::json& value, std::string file, std::string path = "")
       : value_(&value), file_(std::move(file)), path_(std::move(path)) {}
 
   /// The value of a key. @throws DataError when this is no object or has no such key.
   JsonEntry at(const std::string& key) const;
+  /// Whether this is an object with that key.
   bool has(const std::string& key) const;
 
   /// The elements of a list. @throws DataError when it is none.
   std::vector<JsonEntry> elements() const;
 
-  bool is_list() const { return value_->is_array(); }
-  bool is_text() const { return value_->is_string(); }
-  bool is_object() const { return value_->is_object(); }
+  bool is_list() const { return value_->is_array(); }     ///< whether `elements` works
+  bool is_text() const { return value_->is_string(); }    ///< whether `text` works
+  bool is_object() const { return value_->is_object(); }  ///< whether `at` works
 
   /// @throws DataError when it is neither true nor false.
   bool boolean() const;
 
   /// @throws DataError when it is of another type or out of the range.
   double number(Range range = {}) const;
+  /// @throws DataError when it is no whole number or out of the range.
   std::int64_t integer(Range range = {}) const;
+  /// @throws DataError when it is no string.
   std::string text() const;
 
+  /// Throws the DataError "file: path what (hint)".
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const;
 
  private:

@@ -33,14 +33,15 @@ class YamlMap {
   YamlMap child(std::string_view key);
 
   /// The mappings of the list under `key`; nothing where it is not written.
-  /// @throws ConfigError when it is no list of mappings.
+  /// @throws ConfigError when it is not a list of mappings.
   std::optional<std::vector<YamlMap>> children(std::string_view key);
 
   /// @throws ConfigError at the first key that was never asked for.
   void reject_unknown() const;
 
-  /// @throws ConfigError when `node`, the value of `key`, is no number in the range.
+  /// @throws ConfigError when `node`, the value of `key`, is not a number in the range.
   double number(const YAML::Node& node, std::string_view key, Range range) const;
+  /// @throws ConfigError when `node`, the value of `key`, is no whole number in the range.
   int integer(const YAML::Node& node, std::string_view key, Range range) const;
 
   /// Throws the ConfigError "file:line: path.to.key what (hint)".

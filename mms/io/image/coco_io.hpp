@@ -11,24 +11,26 @@
 
 namespace mms {
 
+/// One image of a data set.
 struct CocoImage {
-  std::int64_t id = 0;
-  std::string file_name;
-  int width = 0;        ///< [px]
-  int height = 0;       ///< [px]
-  std::string split{};  ///< "train", "holdout", ...; empty where the file says nothing
+  std::int64_t id = 0;    ///< unique in the file
+  std::string file_name;  ///< without folder
+  int width = 0;          ///< [px]
+  int height = 0;         ///< [px]
+  std::string split{};    ///< "train", "holdout", ...; empty where the file says nothing
 };
 
+/// One class of objects.
 struct CocoCategory {
-  int id = 0;
-  std::string name;
+  int id = 0;        ///< unique in the file
+  std::string name;  ///< as in "person"
 };
 
 /// One object of one image.
 struct CocoAnnotation {
-  std::int64_t id = 0;
-  std::int64_t image_id = 0;
-  int category_id = 0;
+  std::int64_t id = 0;           ///< unique in the file
+  std::int64_t image_id = 0;     ///< of a `CocoImage`
+  int category_id = 0;           ///< of a `CocoCategory`
   std::array<double, 4> bbox{};  ///< x, y, width, height [px]
   double area = 0.0;             ///< [px]
   bool iscrowd = false;          ///< neither a hit nor a miss where it is found
@@ -37,17 +39,17 @@ struct CocoAnnotation {
 
 /// COCO's instance annotations.
 struct CocoDataset {
-  std::vector<CocoImage> images;
-  std::vector<CocoAnnotation> annotations;
-  std::vector<CocoCategory> categories;
+  std::vector<CocoImage> images;            ///< in the order of the file
+  std::vector<CocoAnnotation> annotations;  ///< in the order of the file
+  std::vector<CocoCategory> categories;     ///< in the order of the file
 };
 
 /// One object that a network found in one image.
 struct CocoResult {
-  std::int64_t image_id = 0;
-  int category_id = 0;
-  double score = 0.0;  ///< confidence in [0, 1]
-  Rle segmentation;
+  std::int64_t image_id = 0;  ///< of a `CocoImage`
+  int category_id = 0;        ///< of a `CocoCategory`
+  double score = 0.0;         ///< confidence in [0, 1]
+  Rle segmentation;           ///< of the size of the image
 };
 
 /// Annotation of a mask with its box and area.
@@ -78,6 +80,7 @@ class CocoResultsWriter {
   /// @throws FileError as AtomicFile does.
   explicit CocoResultsWriter(const std::filesystem::path& path);
 
+  /// Appends one result to the list.
   void add(const CocoResult& result);
 
   /// Ends the list; nothing can be added after it. @throws FileError when anything could not be

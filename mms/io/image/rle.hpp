@@ -13,9 +13,9 @@ namespace mms {
 /// A binary mask as COCO keeps it: lengths of runs down the columns, from the left column to the
 /// right one. The first run is background, perhaps of length 0; then they take turns.
 struct Rle {
-  int width = 0;   ///< of the image [px]
-  int height = 0;  ///< of the image [px]
-  std::vector<std::uint32_t> counts;
+  int width = 0;                      ///< of the image [px]
+  int height = 0;                     ///< of the image [px]
+  std::vector<std::uint32_t> counts;  ///< [px], with the sum width * height
 
   bool operator==(const Rle&) const = default;
 };

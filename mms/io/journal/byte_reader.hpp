@@ -23,13 +23,14 @@ void append_bytes(std::string& bytes, T value) {
 /// Takes little-endian numbers off the front of bytes that nobody vouches for.
 class ByteReader {
  public:
+  /// @param bytes  have to outlive the reader
   /// @param where  for messages
   ByteReader(std::string_view bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
 
   /// @throws DataError when fewer bytes are left.
   template <class T>
   T take() {
-    T value;
+    T value{};
     std::memcpy(&value, take(sizeof value).data(), sizeof value);
     return value;
   }
@@ -54,8 +55,8 @@ class ByteReader {
                                 std::to_string(most));
   }
 
-  std::size_t left() const { return bytes_.size(); }
-  const std::string& where() const { return where_; }
+  std::size_t left() const { return bytes_.size(); }   ///< [B]
+  const std::string& where() const { return where_; }  ///< for messages
 
  private:
   std::string_view bytes_;

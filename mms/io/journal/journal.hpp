@@ -24,13 +24,13 @@ struct JournalHeader {
 /// A frame of a run, as the journal keeps it. At the end of a run the last one is there a second
 /// time if it was no keyframe, with what the frames since the last keyframe did to the map.
 struct JournalFrame {
-  Timestamp stamp;
-  Timestamp written;  ///< wall clock when the frame was done, since 1970
-  Transform<World, Sensor> T_world_sensor;
-  Status status = Status::kInitialized;
-  bool keyframe = false;
-  bool organised = false;         ///< of a depth camera (y down), else a LiDAR (z up)
-  std::optional<MapChanges> map;  ///< what was done to the static map since the last one
+  Timestamp stamp;                          ///< of the frame
+  Timestamp written;                        ///< wall clock when the frame was done, since 1970
+  Transform<World, Sensor> T_world_sensor;  ///< estimated pose
+  Status status = Status::kInitialized;     ///< of the pose
+  bool keyframe = false;                    ///< whether it was integrated into the static map
+  bool organised = false;                   ///< of a depth camera (y down), else a LiDAR (z up)
+  std::optional<MapChanges> map;            ///< what was done to the static map since the last one
 };
 
 /// The bytes of a journal (docs/journal.md): a header, then a record a frame.

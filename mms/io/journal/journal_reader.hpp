@@ -16,10 +16,12 @@ namespace mms {
 /// was killed.
 class JournalReader {
  public:
-  /// @throws FileError when the file cannot be opened; DataError when it is no journal, of another
+  /// @throws FileError when the file cannot be opened; DataError when it is not a journal, of
+  /// another
   ///         version, or ends before its header does.
   explicit JournalReader(const std::filesystem::path& path);
 
+  /// What the journal begins with.
   const JournalHeader& header() const { return header_; }
 
   /// The next frame; nothing at the end or at the first damaged record.

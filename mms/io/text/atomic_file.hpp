@@ -18,6 +18,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
+  /// Where the bytes go, before `commit`.
   std::ostream& stream() { return stream_; }
 
   /// @throws FileError when any byte could not be written.

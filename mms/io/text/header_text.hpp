@@ -12,6 +12,8 @@ namespace mms {
 /// Reads a header line by line off the front of a file's bytes.
 class HeaderText {
  public:
+  /// @param bytes  of the file, from its start; have to outlive the reader
+  /// @param file   for messages
   HeaderText(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {}
 
   /// Words of the next line that is no comment. @throws DataError when there is no further line,

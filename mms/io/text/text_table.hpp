@@ -9,8 +9,8 @@ namespace mms {
 
 /// One line of a text table, split at blanks, tabs and commas.
 struct TextLine {
-  int number = 0;  ///< in the file, from 1
-  std::vector<std::string_view> fields;
+  int number = 0;                        ///< in the file, from 1
+  std::vector<std::string_view> fields;  ///< views into the table
 };
 
 /// The lines of a text file that are neither empty nor '#' comments. Owns what the fields view.
@@ -21,6 +21,7 @@ class TextTable {
   TextTable(const TextTable&) = delete;
   TextTable& operator=(const TextTable&) = delete;
 
+  /// In the order of the file.
   const std::vector<TextLine>& lines() const { return lines_; }
 
   /// "file:12", for messages.

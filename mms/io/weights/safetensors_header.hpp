@@ -23,20 +23,22 @@ inline constexpr std::uint64_t kMaxSafetensorsHeader = 100'000'000;
 /// How one number is stored; little-endian all of them.
 enum class ElementType { kF32, kF16, kBf16, kF64, kI64, kI32, kI8 };
 
+/// Size of one number [B].
 std::uint64_t bytes_of(ElementType type);
 
 /// Where the numbers of one tensor are.
 struct StoredTensor {
-  std::string name;
-  ElementType type = ElementType::kF32;
-  std::vector<std::int64_t> shape;
-  std::uint64_t begin = 0;  ///< first byte, counted from the header's end
-  std::uint64_t end = 0;    ///< one after the last; the range has just the size of shape and type
+  std::string name;                      ///< unique in the file
+  ElementType type = ElementType::kF32;  ///< of each number
+  std::vector<std::int64_t> shape;       ///< empty for a scalar
+  std::uint64_t begin = 0;               ///< first byte, counted from the header's end
+  std::uint64_t end = 0;  ///< one after the last; the range has just the size of shape and type
 };
 
+/// Everything in the file but the numbers.
 struct SafetensorsHeader {
-  std::map<std::string, std::string> metadata;
-  std::vector<StoredTensor> tensors;  ///< as their data follows one another, with no gap
+  std::map<std::string, std::string> metadata;  ///< free texts by key
+  std::vector<StoredTensor> tensors;            ///< as their data follows one another, with no gap
 };
 
 /// Reads the header of a file called `where`, strictly: nothing unknown, nothing twice.

@@ -16,6 +16,7 @@ struct NetworkSegmenterConfig {
   bool person = true;  ///< whether people count
   bool agv = true;     ///< whether vehicles count
 
+  /// Declares the settings.
   void visit(ConfigVisitor& v);
 };
 

@@ -18,14 +18,15 @@ enum class NetworkPrecision { kAuto, kFloat32, kInt8 };
 /// Settings of the segmentation with a network (III-A).
 struct SegmentationConfig {
   std::string weights;  ///< a file; empty: the network that the program comes with
-  NetworkBackend backend = NetworkBackend::kAuto;
-  NetworkPrecision precision = NetworkPrecision::kAuto;
-  int long_side = 0;  ///< of the network's input [px]; 0: as it was trained
-  int threads = 1;    ///< of the network; the rest of the program has its own
-  NetworkSegmenterConfig objects;
-  DecoderConfig decoder;  ///< of our networks
-  OnnxConfig onnx;        ///< of ONNX models
+  NetworkBackend backend = NetworkBackend::kAuto;        ///< kAuto: the engine, on GPUs libtorch
+  NetworkPrecision precision = NetworkPrecision::kAuto;  ///< kAuto: int8 if quantized
+  int long_side = 0;               ///< of the network's input [px]; 0: as it was trained
+  int threads = 1;                 ///< of the network; the rest of the program has its own
+  NetworkSegmenterConfig objects;  ///< which detections become instances
+  DecoderConfig decoder;           ///< of our networks
+  OnnxConfig onnx;                 ///< of ONNX models
 
+  /// Declares the settings.
   void visit(ConfigVisitor& v);
 };
 
