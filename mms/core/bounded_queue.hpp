@@ -9,26 +9,27 @@
 
 namespace mms {
 
-/// Queue between two threads that holds at most `capacity` items.
+/// Thread-safe queue of at most `capacity` items.
 template <class T>
 class BoundedQueue {
  public:
+  /// @param capacity  at least 1
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  /// Waits for room. False, and the item is gone, when the queue is closed.
+  /// Blocks while the queue is full. Returns false and drops the item if the queue is closed.
   bool push(T item) {
     std::unique_lock lock(mutex_);
     room_.wait(lock, [this] { return closed_ || items_.size() < capacity_; });
     return add(std::move(item));
   }
 
-  /// Does not wait: false, and the item is gone, when the queue is full or closed.
+  /// Does not block: returns false and drops the item if the queue is full or closed.
   bool try_push(T item) {
     const std::scoped_lock lock(mutex_);
     return items_.size() < capacity_ && add(std::move(item));
   }
 
-  /// Waits for an item; nothing when the queue is closed and empty.
+  /// Blocks until an item is available. Returns nullopt if the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [this] { return closed_ || !items_.empty(); });
@@ -39,7 +40,7 @@ class BoundedQueue {
     return item;
   }
 
-  /// Lets every waiting thread go on; items already in the queue can still be popped.
+  /// Wakes all waiting threads. Items already in the queue can still be popped.
   void close() {
     const std::scoped_lock lock(mutex_);
     closed_ = true;

@@ -8,26 +8,26 @@
 
 namespace mms {
 
-/// Pinhole camera with the five-coefficient Brown-Conrady lens model (k1 k2 p1 p2 k3, OpenCV's
-/// order). Pixel centres have integer coordinates. What it does is in geometry/camera.hpp.
+/// Pinhole camera with the Brown-Conrady distortion model (k1 k2 p1 p2 k3, order of OpenCV). Pixel
+/// centers have integer coordinates. geometry/camera.hpp projects with it.
 struct CameraIntrinsics {
-  double fx = 0.0;  ///< focal length [px]
-  double fy = 0.0;  ///< focal length [px]
-  double cx = 0.0;  ///< principal point [px]
-  double cy = 0.0;  ///< principal point [px]
-  int width = 0;    ///< [px]
-  int height = 0;   ///< [px]
-  std::array<double, 5> distortion{};
+  double fx = 0.0;                     ///< focal length [px]
+  double fy = 0.0;                     ///< focal length [px]
+  double cx = 0.0;                     ///< principal point [px]
+  double cy = 0.0;                     ///< principal point [px]
+  int width = 0;                       ///< [px]
+  int height = 0;                      ///< [px]
+  std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3; zeros: none
 
   bool operator==(const CameraIntrinsics&) const = default;
 };
 
-/// Everything fixed about the sensor that a recording brings along.
+/// Calibration of the sensor of a recording.
 struct Calibration {
   std::optional<CameraIntrinsics> camera;   ///< absent for LiDAR without a camera
-  Transform<Camera, Lidar> T_camera_lidar;  ///< extrinsics, used where both are there
+  Transform<Camera, Lidar> T_camera_lidar;  ///< extrinsics, used if a frame has image and scan
   double depth_scale = 1000.0;              ///< depth image units per metre
-  std::optional<double> max_depth;          ///< farthest depth worth mapping [m], if it is known
+  std::optional<double> max_depth;          ///< largest depth used for mapping [m], if known
 };
 
 }  // namespace mms

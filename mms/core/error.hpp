@@ -5,18 +5,18 @@
 
 namespace mms {
 
-/// What a user is told when the program cannot go on: one line saying where, what (with the value
-/// and the allowed range) and what to try. Bad frames are a `Status`, never an exception.
+/// Error reported to the user in one line: where, what (with the value and the allowed range) and a
+/// hint. Invalid frames are a `Status`, never an exception.
 class Error : public std::runtime_error {
  public:
-  /// @param where  file, key or option the fault is in
-  /// @param what   the fault, with the value found and the range allowed
-  /// @param hint   what to do about it; may be empty
+  /// @param where file, key or option
+  /// @param what the fault, with the value and the allowed range
+  /// @param hint how to correct it; may be empty
   Error(const std::string& where, const std::string& what, const std::string& hint = "")
       : std::runtime_error(where + ": " + what + (hint.empty() ? "" : " (" + hint + ")")) {}
 };
 
-/// A recording, image, scan or trajectory that cannot be read or makes no sense.
+/// A recording, image, scan or trajectory that cannot be read or is invalid.
 class DataError : public Error {
  public:
   using Error::Error;

@@ -12,26 +12,28 @@
 
 namespace mms {
 
-/// One LiDAR scan in the LiDAR frame; the vectors are parallel, optional ones empty when absent.
-/// Points that are NaN or infinite are ordinary input and count as no return.
+/// One LiDAR scan in the LiDAR frame. The vectors are parallel; optional ones are empty if absent.
+/// NaN and infinite points are allowed and count as no return.
 struct LidarScan {
   std::vector<Eigen::Vector3f> points;  ///< [m]
-  std::vector<float> intensity;         ///< reflectance as the sensor gave it
-  std::vector<float> time_offset;       ///< since the frame's stamp [s]
+  std::vector<float> intensity;         ///< reflectance in the sensor's units
+  std::vector<float> time_offset;       ///< relative to the frame's stamp [s]
 };
 
-/// What the sensor gave at one instant: an image with depth, a LiDAR scan, or both.
+/// Sensor data of one instant: a color image with depth, a LiDAR scan, or both.
 struct Frame {
-  std::int64_t index = 0;    ///< position in the recording, skipped frames counted
-  Timestamp stamp;           ///< of the colour image, or of the scan where there is none
-  std::string name;          ///< what messages call it: the file name without folder
+  std::int64_t index = 0;    ///< index in the recording, including skipped frames
+  Timestamp stamp;           ///< of the color image, or of the scan if there is none
+  std::string name;          ///< name in messages: the file name without folder
   Image<Rgb> color;          ///< may be empty for LiDAR without a camera
   Image<float> depth;        ///< [m], registered to `color`; 0, NaN and inf mean no return
-  Duration depth_offset{0};  ///< when `depth` was taken, relative to `stamp`
+  Duration depth_offset{0};  ///< stamp of `depth` relative to `stamp`
   LidarScan scan;            ///< empty for RGB-D
-  Image<std::uint8_t> mask;  ///< given label image: 0 static, else 1 + class id; may be empty
+  /// Label image from the recording: 0 static, else 1 + class id; may be empty.
+  Image<std::uint8_t> mask;
   std::shared_ptr<const Calibration> calibration;  ///< never null
 
+  /// Whether this is an RGB-D frame.
   bool has_depth() const { return !depth.empty(); }
 };
 

@@ -5,8 +5,8 @@
 
 namespace mms {
 
-/// Randomness without state: every value is a hash of what it is for (seed, frame, pixel), so a
-/// pixel is the same whichever thread renders it.
+/// Stateless random numbers: every value is a hash of its key (seed, frame, pixel), so a pixel does
+/// not depend on the thread that renders it.
 constexpr std::uint64_t hash_of(std::uint64_t a) {
   a = (a ^ (a >> 30)) * 0xbf58476d1ce4e5b9ULL;
   a = (a ^ (a >> 27)) * 0x94d049bb133111ebULL;
@@ -21,14 +21,14 @@ constexpr float uniform_of(std::uint64_t hash) {
   return static_cast<float>(hash >> 40) * 0x1p-24F;
 }
 
-/// Nearly normal, mean 0 and variance 1: the sum of four uniforms; never beyond 3.5.
+/// Approximately normal with mean 0 and variance 1: the sum of four uniforms, within +-3.5.
 constexpr float normal_of(std::uint64_t hash) {
   const auto part = [&](int shift) { return static_cast<float>((hash >> shift) & 0xffffU); };
   const float sum = part(0) + part(16) + part(32) + part(48);
   return (sum * 0x1p-16F - 2.0F) * 1.7320508F;
 }
 
-/// Smooth noise in [-1, 1] that changes over lengths of 1.
+/// Smooth noise in [-1, 1] with a correlation length of 1.
 inline float value_noise(std::uint32_t seed, float u, float v) {
   const float fu = std::floor(u);
   const float fv = std::floor(v);

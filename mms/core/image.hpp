@@ -7,34 +7,38 @@
 
 namespace mms {
 
-/// [px]: the largest width or height of an image; a camera of 12 MP has 4096.
+/// Largest width or height of an image [px]; a 12 MP camera has 4096.
 inline constexpr int kMaxImageSide = 16384;
 
-/// One 8-bit colour sample, in the order red, green, blue.
+/// 8-bit color in the order red, green, blue.
 struct Rgb {
-  std::uint8_t r = 0;
-  std::uint8_t g = 0;
-  std::uint8_t b = 0;
+  std::uint8_t r = 0;  ///< red
+  std::uint8_t g = 0;  ///< green
+  std::uint8_t b = 0;  ///< blue
 
   bool operator==(const Rgb&) const = default;
 };
 
-/// Dense row-major image, `width` columns by `height` rows, that owns its pixels.
-/// Pixel (x, y) has x to the right and y down; its centre has the coordinates (x, y).
+/// Dense row-major image of `width` columns and `height` rows that owns its pixels. Pixel (x, y): x
+/// to the right, y down; its center has the coordinates (x, y).
 template <class T>
 class Image {
  public:
-  Image() = default;
+  Image() = default;  ///< 0 x 0
+  /// All pixels have the same value. Sides in [px], not negative.
   Image(int width, int height, T value = T())
       : width_(width),
         height_(height),
         pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), value) {}
 
-  int width() const { return width_; }
-  int height() const { return height_; }
-  std::size_t size() const { return pixels_.size(); }
-  bool empty() const { return pixels_.empty(); }
+  int width() const { return width_; }                 ///< [px]
+  int height() const { return height_; }               ///< [px]
+  std::size_t size() const { return pixels_.size(); }  ///< number of pixels
+  bool empty() const { return pixels_.empty(); }       ///< whether it has no pixels
 
+  /// @{
+  /// Pixels by row, by (x, y), by row-major index, or all. Indices are checked in debug builds
+  /// only.
   T* row(int y) { return pixels_.data() + index(0, y); }
   const T* row(int y) const { return pixels_.data() + index(0, y); }
   T& operator()(int x, int y) { return pixels_[index(x, y)]; }
@@ -44,8 +48,11 @@ class Image {
 
   std::vector<T>& pixels() { return pixels_; }
   const std::vector<T>& pixels() const { return pixels_; }
+  /// @}
 
+  /// Whether (x, y) is a pixel.
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
+  /// Whether width and height are equal.
   template <class U>
   bool same_size(const Image<U>& other) const {
     return width_ == other.width() && height_ == other.height();

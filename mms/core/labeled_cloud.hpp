@@ -14,42 +14,43 @@ namespace mms {
 
 enum class PointLabel : std::uint8_t {
   kInvalid,  ///< no return: the point's coordinates are NaN
-  kStatic,   ///< belongs to P_S
-  kDynamic,  ///< belongs to P_D
+  kStatic,   ///< static point, in P_S
+  kDynamic,  ///< dynamic point, in P_D
 };
 
-/// One dynamic object as this frame shows it (III-B.2), in the sensor frame [m].
+/// One dynamic object in this frame (III-B.2), in the sensor frame [m].
 struct DynamicCluster {
-  ObjectClass object_class = ObjectClass::kPerson;
-  float score = 1.0F;  ///< of its mask, in (0, 1]; 0 without one
-  /// Index of its mask; -1 where that is not known. Of several clusters under one mask the first is
-  /// the object, the others are what else the mask covers.
+  ObjectClass object_class = ObjectClass::kPerson;  ///< of its mask
+  float score = 1.0F;  ///< score of its mask, in (0, 1]; 0 without a mask
+  /// Index of its mask, -1 if unknown. If several clusters share a mask, the first is the object;
+  /// the others are background or occluders under the same mask.
   int instance = -1;
-  int points = 0;  ///< number of cloud points it holds
-  Eigen::Vector3f centroid = Eigen::Vector3f::Zero();
-  Eigen::Vector3f box_min = Eigen::Vector3f::Zero();  ///< axis-aligned in the sensor frame
-  Eigen::Vector3f box_max = Eigen::Vector3f::Zero();
+  int points = 0;                                      ///< number of its points in the cloud
+  Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< mean of its points [m]
+  Eigen::Vector3f box_min = Eigen::Vector3f::Zero();   ///< axis-aligned in the sensor frame
+  Eigen::Vector3f box_max = Eigen::Vector3f::Zero();   ///< opposite corner
 };
 
-/// The frame's points divided into static and dynamic ones (output of III-B). Vectors are parallel.
-/// Organised (RGB-D): width x height, row-major, on every `stride`-th pixel of the image, points in
-/// the camera frame. Unorganised (LiDAR): height 1, points in the LiDAR frame.
+/// Points of a frame with static and dynamic labels (output of III-B). The vectors are parallel.
+/// Organized (RGB-D): width x height, row-major, every `stride`-th pixel of the image, points in
+/// the camera frame. Unorganized (LiDAR): height 1, points in the LiDAR frame.
 struct LabeledCloud {
-  Timestamp stamp;            ///< of the frame, so of the colours
-  Duration points_offset{0};  ///< when the points were measured, relative to `stamp`
-  int width = 0;
-  int height = 0;
+  Timestamp stamp;                      ///< of the frame and its colors
+  Duration points_offset{0};            ///< stamp of the points relative to `stamp`
+  int width = 0;                        ///< columns of points
+  int height = 0;                       ///< rows of points
   std::vector<Eigen::Vector3f> points;  ///< [m]
-  /// Unorganised: when each point was measured, since `stamp` [s]; empty where all were at once.
+  /// Unorganized: stamp of each point relative to `stamp` [s]; empty if all are simultaneous.
   std::vector<float> time_offset;
-  std::vector<PointLabel> labels;
-  std::vector<Rgb> colors;            ///< empty where there is no image
-  std::vector<std::int16_t> cluster;  ///< index into `clusters`, -1 for none
-  std::vector<DynamicCluster> clusters;
-  /// Organised: non-zero where P_D or a mask is, and on the boundary about them, whose colours are
-  /// mixed with theirs.
+  std::vector<PointLabel> labels;        ///< static, dynamic or no return
+  std::vector<Rgb> colors;               ///< empty without an image
+  std::vector<std::int16_t> cluster;     ///< index into `clusters`, -1 for none
+  std::vector<DynamicCluster> clusters;  ///< the dynamic objects of the frame
+  /// Organized: non-zero on P_D, on masks, and on the boundary around them, where colors are mixed.
   Image<std::uint8_t> dynamic_pixels;
-  CameraIntrinsics camera;  ///< organised: of the width x height grid
+  CameraIntrinsics camera;  ///< organized: camera of the width x height grid
+
+  /// Whether the points are a grid of an image.
   bool organised() const { return height > 1; }
 };
 

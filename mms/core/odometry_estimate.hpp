@@ -8,11 +8,11 @@
 
 namespace mms {
 
-/// How far a frame's pose can be trusted.
+/// Quality of a frame's pose.
 enum class Status {
   kInitialized,  ///< first frame: the pose is the origin by definition
-  kTracking,     ///< estimated from enough well spread static points
-  kDegenerate,   ///< estimated, but some directions had too little information and were predicted
+  kTracking,     ///< estimated from enough well distributed static points
+  kDegenerate,   ///< estimated, but directions with too little information are predicted
   kLost,         ///< too few inliers: the pose is the motion prediction
   kRecovered,    ///< first estimated frame after lost ones
 };
@@ -24,22 +24,23 @@ constexpr std::string_view to_string(Status status) {
   return kNames[static_cast<int>(status)];
 }
 
-/// Pose of one frame (III-C.3) with what is needed to judge it.
+/// Pose of one frame (III-C.3) with quality measures.
 struct OdometryEstimate {
+  /// Translation first, then rotation.
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-  Timestamp stamp;
-  Transform<World, Sensor> T_world_sensor;
-  Status status = Status::kInitialized;
-  /// Gauss-Newton information of a right perturbation (translation [1/m^2], rotation [1/rad^2])
-  /// in the sensor frame.
+  Timestamp stamp;                          ///< of the frame
+  Transform<World, Sensor> T_world_sensor;  ///< estimated pose
+  Status status = Status::kInitialized;     ///< of the pose
+  /// Gauss-Newton information matrix of a right perturbation (translation [1/m^2], rotation
+  /// [1/rad^2]) in the sensor frame.
   Matrix6d information = Matrix6d::Zero();
-  int edge_inliers = 0;
-  int plane_inliers = 0;
-  int intensity_inliers = 0;
-  int iterations = 0;
-  int degenerate_directions = 0;  ///< of 6
-  double plane_rms = 0.0;         ///< of the inlying point-to-plane residuals [m]
+  int edge_inliers = 0;           ///< point-to-line residuals
+  int plane_inliers = 0;          ///< point-to-plane residuals
+  int intensity_inliers = 0;      ///< residuals of the photometric term
+  int iterations = 0;             ///< of Gauss-Newton
+  int degenerate_directions = 0;  ///< number of degenerate directions, of 6
+  double plane_rms = 0.0;         ///< RMS of the inlier point-to-plane residuals [m]
 };
 
 }  // namespace mms

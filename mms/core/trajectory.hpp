@@ -9,10 +9,11 @@ namespace mms {
 
 /// Sensor pose at one instant.
 struct StampedPose {
-  Timestamp stamp;
-  Transform<World, Sensor> T_world_sensor;
+  Timestamp stamp;                          ///< of the frame
+  Transform<World, Sensor> T_world_sensor;  ///< pose of the sensor in the world
 };
 
+/// Poses in the order of their stamps.
 using Trajectory = std::vector<StampedPose>;
 
 }  // namespace mms

@@ -4,41 +4,50 @@
 
 namespace mms {
 
-/// Coordinate frames a transform can go between. Camera is the optical frame: x right, y down,
-/// z forward. Sensor is the frame of the cloud that is localised: the camera's for RGB-D, the
-/// LiDAR's for LiDAR. World is the sensor frame of the first localised frame.
+/// Coordinate frames of transforms. Camera: optical frame, x right, y down, z forward. Sensor:
+/// frame of the localized cloud, the camera frame for RGB-D, the LiDAR frame for LiDAR. World: the
+/// sensor frame of the first localized frame.
 struct World {};
 struct Camera {};
 struct Lidar {};
 struct Sensor {};
 
-/// Rigid transform that takes coordinates in `Source` to coordinates in `Target`; a variable of
-/// type Transform<World, Sensor> is named T_world_sensor. Composition with mismatched frames does
-/// not compile. Translations in metres.
+/// Rigid transform from coordinates in `Source` to coordinates in `Target`; a variable of type
+/// Transform<World, Sensor> is named T_world_sensor. Composition of mismatched frames does not
+/// compile. Translations in meters.
 template <class Target, class Source>
 class Transform {
  public:
+  /// The identity.
   Transform() : isometry_(Eigen::Isometry3d::Identity()) {}
+  /// @param isometry  from Source to Target, translation in [m]
   explicit Transform(const Eigen::Isometry3d& isometry) : isometry_(isometry) {}
 
+  /// Target and Source are the same frame.
   static Transform identity() { return Transform(); }
 
+  /// Without the types of the frames.
   const Eigen::Isometry3d& isometry() const { return isometry_; }
+  /// Rotation part, 3x3 orthonormal.
   Eigen::Matrix3d rotation() const { return isometry_.linear(); }
+  /// Origin of Source in Target [m].
   Eigen::Vector3d translation() const { return isometry_.translation(); }
 
+  /// From Target to Source.
   Transform<Source, Target> inverse() const {
     return Transform<Source, Target>(isometry_.inverse());
   }
 
+  /// First `other`, then this one.
   template <class Origin>
   Transform<Target, Origin> operator*(const Transform<Source, Origin>& other) const {
     return Transform<Target, Origin>(isometry_ * other.isometry());
   }
 
-  /// Coordinates in Target of a point given in Source [m].
+  /// Coordinates in Target of a point in Source [m].
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return isometry_ * point; }
 
+  /// Whether no element is NaN or infinite.
   bool is_finite() const { return isometry_.matrix().allFinite(); }
 
  private:

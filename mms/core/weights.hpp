@@ -7,18 +7,18 @@
 
 namespace mms {
 
-/// A dense row-major tensor of a network.
+/// Dense row-major tensor of a network.
 struct WeightTensor {
-  std::vector<std::int64_t> shape;  ///< empty for a single number
+  std::vector<std::int64_t> shape;  ///< empty for a scalar
   std::vector<float> values;        ///< as many as the product of `shape`
 
   bool operator==(const WeightTensor&) const = default;
 };
 
-/// A trained network as plain data: what a weights file holds and a network is filled from.
+/// Parameters of a trained network, as stored in a weights file.
 struct Weights {
-  std::map<std::string, std::string> metadata;  ///< free texts beside the tensors
-  std::map<std::string, WeightTensor> tensors;  ///< by their parameter's name
+  std::map<std::string, std::string> metadata;  ///< free text
+  std::map<std::string, WeightTensor> tensors;  ///< by parameter name
 
   bool operator==(const Weights&) const = default;
 };
