@@ -34,9 +34,8 @@ class Odometry {
   /// Of the sensor in its own frame [m/s, rad/s]; zero until two frames were tracked.
   const Vector6d& velocity() const { return motion_.velocity(); }
 
-  /// Where the next frame is expected, as far as the motion goes on; nothing before the first one,
-  /// while lost for longer than that can be told, and in fast turns, where the motion of the last
-  /// frame tells little of the next.
+  /// Pose expected at `stamp` at constant velocity; nothing before the first frame, when lost for
+  /// too long, and in fast turns, where the last velocity predicts the next frame badly.
   std::optional<Transform<World, Sensor>> expected(Timestamp stamp) const;
 
  private:
@@ -54,7 +53,7 @@ class Odometry {
   void update_maps(const FeatureCloud& features);
 
   OdometryConfig config_;
-  std::optional<LocalMaps> maps_;           ///< made when the first features tell their scale
+  std::optional<LocalMaps> maps_;  ///< made from the first frame, whose range sets the voxels
   std::optional<FeatureCloud> first_scan_;  ///< as measured, until the second one
   ReferenceKeyframes keyframes_;
   DepthNoise noise_;

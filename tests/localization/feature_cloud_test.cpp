@@ -17,5 +17,12 @@ TEST(MedianRange, IsZeroWithoutFeatures) {
   EXPECT_EQ(median_range(FeatureCloud{}), 0.0);
 }
 
+TEST(AutomaticVoxelSize, FollowsTheRangeWithinBounds) {
+  EXPECT_DOUBLE_EQ(automatic_voxel_size(10.0), 0.4);
+  EXPECT_EQ(automatic_voxel_size(0.1), 0.05);
+  EXPECT_EQ(automatic_voxel_size(500.0), 1.0);
+  EXPECT_EQ(automatic_voxel_size(median_range(std::vector<float>{})), 0.05);
+}
+
 }  // namespace
 }  // namespace mms

@@ -76,16 +76,6 @@ TEST(ScanFeatures, TheOrderOfThePointsDoesNotMatterMuch) {
               0.1 * static_cast<double>(count));
 }
 
-TEST(ScanFeatures, TheVoxelFollowsTheRange) {
-  const auto sphere = [](float radius) {
-    return std::vector<Eigen::Vector3f>(100, Eigen::Vector3f(0.0F, radius, 0.0F));
-  };
-  EXPECT_NEAR(automatic_scan_voxel(sphere(10.0F)), 0.4, 1e-6);
-  EXPECT_EQ(automatic_scan_voxel(sphere(0.1F)), 0.05);
-  EXPECT_EQ(automatic_scan_voxel(sphere(500.0F)), 1.0);
-  EXPECT_EQ(automatic_scan_voxel({}), 0.05);
-}
-
 TEST(ScanOdometry, FollowsADriveThroughTheHall) {
   const BoxRoom room = hall();
   Odometry odometry(OdometryConfig{}, DepthNoise{});

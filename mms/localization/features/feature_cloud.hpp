@@ -13,7 +13,7 @@ namespace mms {
 struct EdgeFeature {
   Eigen::Vector3f point;     ///< [m]
   float sigma = 0.0F;        ///< 1-sigma measurement noise at its range [m]
-  float time_offset = 0.0F;  ///< when a scan's point was measured, since its middle [s]
+  float time_offset = 0.0F;  ///< of a scan's point, from the center of the scan's time [s]
   int index = -1;            ///< of a scan's point in its cloud
 };
 
@@ -22,7 +22,7 @@ struct PlaneFeature {
   Eigen::Vector3f point;     ///< [m]
   Eigen::Vector3f normal;    ///< unit, towards the sensor
   float sigma = 0.0F;        ///< 1-sigma measurement noise along the ray at its range [m]
-  float time_offset = 0.0F;  ///< when a scan's point was measured, since its middle [s]
+  float time_offset = 0.0F;  ///< of a scan's point, from the center of the scan's time [s]
   int index = -1;            ///< of a scan's point in its cloud
 };
 
@@ -40,19 +40,25 @@ struct IntensityLevel {
   Image<float> depth;  ///< z of the static point at the pixel [m]
 };
 
-/// What localisation needs of one frame: the features of the static points (III-C.1), and for RGB-D
+/// Input of localization from one frame: the features of the static points (III-C.1), and for RGB-D
 /// the static part of the image for the photometric term.
 struct FeatureCloud {
   Timestamp stamp;
-  Duration points_offset{0};  ///< when edges and planes were measured, relative to `stamp`; of a
-                              ///< scan the middle
+  Duration points_offset{0};  ///< time of edges and planes relative to `stamp`; of a scan its
+                              ///< center
   std::vector<EdgeFeature> edges;
   std::vector<PlaneFeature> planes;
   std::vector<IntensityLevel> intensity;  ///< finest first; empty without an image
 };
 
-/// Median distance of the edges and planes from the sensor [m], the scale of the place; 0 without
-/// any.
+/// Median of distances from the sensor [m]; 0 without any.
+double median_range(std::vector<float> ranges);
+
+/// That of the edges and planes.
 double median_range(const FeatureCloud& features);
+
+/// Edge of the voxels [m] where the configuration leaves it open: 1/25 of the median range [m] of a
+/// frame, within 0.05 and 1 m.
+double automatic_voxel_size(double median_range);
 
 }  // namespace mms

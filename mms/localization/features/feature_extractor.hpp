@@ -24,7 +24,7 @@ struct FeatureConfig {
 
 /// Feature extraction (III-C.1) on the static points.
 ///
-/// The smoothness of a point is eq. (2), the mean of ‖p_k‖ - ‖p_i‖ over the neighbours within a
+/// The smoothness of a point is eq. (2), the mean of ‖p_k‖ - ‖p_i‖ over the neighbors within a
 /// radius, divided by ‖p_k‖ so that it does not depend on range: positive on concave, negative on
 /// convex edges, near zero on planes. Edges are the largest magnitudes, planes the smallest, each
 /// chosen per image sector (organised) or direction sector (scan) so that they spread over the

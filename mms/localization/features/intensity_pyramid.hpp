@@ -12,9 +12,9 @@ namespace mms {
 /// level halves the one before; it ends early when a level would be under 16 pixels wide or high.
 std::vector<IntensityLevel> build_intensity_pyramid(const LabeledCloud& cloud, int levels);
 
-/// Takes the depth off the pixels of all levels in whose colour or gradient something dynamic has a
-/// part.
-/// @param dynamic  non-zero there, of the finest level's size
+/// Removes, in all levels, the depth of the pixels whose color or gradient includes a dynamic
+/// pixel.
+/// @param dynamic  non-zero at dynamic pixels, of the finest level's size
 void keep_clear(Image<std::uint8_t> dynamic, std::vector<IntensityLevel>& pyramid);
 
 }  // namespace mms

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "mms/geometry/parallel.hpp"
 #include "mms/geometry/voxels/point_map.hpp"
@@ -14,14 +15,42 @@
 namespace mms {
 namespace {
 
-constexpr float kRadiusInVoxels = 2.5F;  ///< neighbourhood of eq. (2) and of the plane fit
+/// [voxels]: grid of the points that neighborhoods are taken from.
+/// Source: a plane then has some 20 of them within kNeighborRadius, three times kMinNeighbors.
+constexpr double kNeighborGrid = 0.5;
+
+/// [voxels]: radius of the neighborhood of eq. (2) and of the plane fit.
+/// Source: initial choice, 2.5 cells of kNeighborGrid.
+constexpr float kNeighborRadius = 1.25F;
+
+/// [-]: bound on the points in one cell of the search for neighbors.
+/// Source: kNeighborRadius spans up to four cells of kNeighborGrid along each axis: none is lost.
+constexpr int kMaxPointsPerCell = 64;
+
+/// [-]: points of the smallest neighborhood. Source: twice the three that determine a plane.
 constexpr std::size_t kMinNeighbors = 6;
-constexpr int kSectors = 36;  ///< of direction around each of two axes
+
+/// [-]: direction sectors around each of two axes. Source: initial choice, 10 degrees each.
+constexpr int kSectors = 36;
+
+/// [-]: edges taken from a direction sector. Source: initial choice, not tuned since.
 constexpr std::size_t kEdgesPerSector = 8;
-constexpr float kPlaneFlatness = 0.2F;   ///< thickness over width of a plane
-constexpr float kMinPlaneWidth = 0.25F;  ///< share of the radius: a single ring is no plane
-constexpr double kMinVoxel = 0.05;       ///< [m]
-constexpr double kMaxVoxel = 1.0;        ///< [m]
+
+/// [-]: largest thickness of a plane over its width (standard deviations).
+/// Source: 2.5 sigma of a LiDAR's 2 cm over the 0.25 m of a disc of 0.5 m radius, which is
+/// kNeighborRadius at 10 m.
+constexpr float kMaxFlatness = 0.2F;
+
+/// [-]: smallest width of a plane (standard deviation) over the neighborhood's radius.
+/// Source: half of a disc's 0.5; a single ring of a scan has only its noise, 0.04.
+constexpr float kMinWidth = 0.25F;
+
+/// [-]: smallest cosine between a plane's normal and the ray. Source: the floor 85 m from a sensor
+/// at 1.7 m height; a scan's own geometry makes floors grazing, so only degenerate fits are left.
+constexpr float kMinIncidence = 0.02F;
+
+/// [-]: points of one parallel task. Source: tens of microseconds, long against the task's start.
+constexpr std::size_t kChunk = 256;
 
 using Indices = std::vector<std::size_t>;
 
@@ -41,7 +70,7 @@ std::vector<Eigen::Vector3f> points_of(const LabeledCloud& cloud, const Indices&
   return points;
 }
 
-/// One point a voxel, the first: a mean would lie off thin structures.
+/// The first point of each voxel: a mean would lie beside thin structures.
 Indices thinned(const LabeledCloud& cloud, const Indices& indices, double voxel) {
   const auto inverse_size = static_cast<float>(1.0 / voxel);
   tsl::robin_set<VoxelKey, VoxelKeyHash> taken;
@@ -52,7 +81,7 @@ Indices thinned(const LabeledCloud& cloud, const Indices& indices, double voxel)
   return kept;
 }
 
-/// When the points of a scan were measured, about the middle between the first and the last.
+/// Times of the points of a scan, relative to the center between the first and the last.
 class PointTimes {
  public:
   explicit PointTimes(const std::vector<float>& time_offset) : time_offset_(time_offset) {
@@ -61,11 +90,11 @@ class PointTimes {
     center_ = 0.5F * (*first + *last);
   }
 
-  /// Since the middle [s].
+  /// From the center [s].
   float of(std::size_t i) const { return time_offset_.empty() ? 0.0F : time_offset_[i] - center_; }
 
-  /// Since the scan's stamp.
-  Duration middle() const {
+  /// Of the center, from the scan's stamp.
+  Duration center() const {
     return Timestamp::from_seconds(static_cast<double>(center_)) - Timestamp();
   }
 
@@ -79,7 +108,7 @@ struct Analysis {
   std::optional<PlaneFeature> plane;
 };
 
-/// Eq. (2) and the plane through the neighbourhood; nothing with too few neighbours.
+/// Eq. (2) and the plane through the neighborhood; nothing with too few neighbors.
 std::optional<Analysis> analyse(const Eigen::Vector3f& point, const PointMap& map, float radius,
                                 const FeatureConfig& config, std::vector<Neighbor>& neighbors) {
   map.within(point, radius, neighbors);
@@ -96,9 +125,8 @@ std::optional<Analysis> analyse(const Eigen::Vector3f& point, const PointMap& ma
   const PlaneFit::Plane plane = fit.solve();
   const float incidence = -plane.normal.dot(point) / range;
   const bool flat =
-      plane.thickness < kPlaneFlatness * plane.width && plane.width > kMinPlaneWidth * radius;
-  // A scan's own geometry makes floors grazing far away; only the plainly degenerate go.
-  if (flat && incidence > 0.02F) {
+      plane.thickness < kMaxFlatness * plane.width && plane.width > kMinWidth * radius;
+  if (flat && incidence > kMinIncidence) {
     result.plane = PlaneFeature{point, plane.normal, static_cast<float>(config.lidar_noise)};
   }
   return result;
@@ -136,34 +164,30 @@ void choose_edges(std::vector<EdgeCandidate>& candidates, const LabeledCloud& cl
   }
 }
 
-}  // namespace
-
-double automatic_scan_voxel(const std::vector<Eigen::Vector3f>& points) {
-  if (points.empty()) return kMinVoxel;
+double voxel_of(const LabeledCloud& cloud, const Indices& indices) {
   std::vector<float> ranges;
-  ranges.reserve(points.size());
-  for (const Eigen::Vector3f& p : points) ranges.push_back(p.norm());
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return std::clamp(static_cast<double>(*middle) / 25.0, kMinVoxel, kMaxVoxel);
+  ranges.reserve(indices.size());
+  for (const std::size_t i : indices) ranges.push_back(cloud.points[i].norm());
+  return automatic_voxel_size(median_range(std::move(ranges)));
 }
+
+}  // namespace
 
 void extract_scan_features(const LabeledCloud& cloud, const FeatureConfig& config,
                            FeatureCloud& features) {
   const PointTimes times(cloud.time_offset);
-  features.points_offset = times.middle();
+  features.points_offset = times.center();
   const Indices all = static_points(cloud);
-  const double voxel =
-      config.scan_voxel > 0.0 ? config.scan_voxel : automatic_scan_voxel(points_of(cloud, all));
-  const Indices dense = thinned(cloud, all, 0.5 * voxel);
+  const double voxel = config.scan_voxel > 0.0 ? config.scan_voxel : voxel_of(cloud, all);
+  const Indices dense = thinned(cloud, all, kNeighborGrid * voxel);
   const Indices chosen = thinned(cloud, dense, voxel);
   const std::vector<Eigen::Vector3f> points = points_of(cloud, chosen);
-  const float radius = kRadiusInVoxels * 0.5F * static_cast<float>(voxel);
-  PointMap map(radius, {.max_points_per_voxel = 64});
+  const float radius = kNeighborRadius * static_cast<float>(voxel);
+  PointMap map(radius, {.max_points_per_voxel = kMaxPointsPerCell});
   map.insert(points_of(cloud, dense));
 
   std::vector<std::optional<Analysis>> analyses(points.size());
-  parallel_chunks(points.size(), 256, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> neighbors;
     for (std::size_t i = begin; i < end; ++i) {
       analyses[i] = analyse(points[i], map, radius, config, neighbors);

@@ -7,12 +7,13 @@
 namespace mms {
 namespace {
 
-/// Largest offset of the points that is made good, as a share of the time between frames. The
-/// velocity comes from poses that were corrected with the velocity before; from one half on its
-/// error would grow from frame to frame.
+/// [-]: largest compensated time offset over the interval between frames.
+/// Source: the velocity comes from poses compensated with the one before, whose error would grow
+/// from frame to frame from one half on; a tenth below that.
 constexpr double kMaxOffset = 0.45;
 
-/// Points measured within one share it [s]: at 10 m/s the sensor moves 1 cm in that time.
+/// [s]: points within one slice share their pose.
+/// Source: at 10 m/s the sensor moves 1 cm in that time, half a LiDAR's noise.
 constexpr double kSlice = 0.001;
 
 void move(const Eigen::Isometry3f& T, FeatureCloud& features) {
@@ -23,7 +24,7 @@ void move(const Eigen::Isometry3f& T, FeatureCloud& features) {
   }
 }
 
-/// Where the sensor is at times about a stamp, seen from where it is then.
+/// Pose of the sensor at times about a stamp, relative to its pose at the stamp.
 class Motion {
  public:
   explicit Motion(const Vector6d& velocity) : velocity_(velocity) {}

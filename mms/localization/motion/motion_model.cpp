@@ -6,15 +6,22 @@
 namespace mms {
 namespace {
 
-/// Velocity kept from frame to frame while nothing is measured: people who stop before the lens do
-/// not send the estimate through the wall.
-constexpr double kCoasting = 0.5;
+/// [-]: share of the velocity kept from one frame to the next while no pose is measured.
+/// Source: initial choice; when people cover the lens, the prediction moves on by no more than two
+/// frames' motion.
+constexpr double kVelocityDecay = 0.5;
 
-/// How far two measurements of one pose may be apart [m].
-constexpr double kMeasurementError = 0.01;
-
-/// Standard deviation of a measured pose [m, rad].
+/// [m, rad]: standard deviation of a measured pose.
+/// Source: chosen with `MotionConfig`'s accelerations, on `fr1_xyz_clip` and `desk_crowd`.
 constexpr double kMeasurementSigma = 0.003;
+
+/// [m]: bound on the error between two measured poses.
+/// Source: three sigma of kMeasurementSigma, rounded up.
+constexpr double kMaxMeasurementError = 0.01;
+
+/// [s]: shortest interval for the bounds on speed.
+/// Source: below the interval of any depth camera or LiDAR.
+constexpr double kMinInterval = 1e-3;
 
 }  // namespace
 
@@ -51,11 +58,11 @@ void MotionModel::measure(Timestamp stamp, const Eigen::Isometry3d& pose) {
 void MotionModel::coast(Timestamp stamp) {
   pose_ = predict(stamp).T_world_sensor;
   stamp_ = stamp;
-  velocity_ *= kCoasting;
+  velocity_ *= kVelocityDecay;
 }
 
-/// The velocity is that of the middle of its interval: after a time t under an acceleration a the
-/// sensor is a/2 t (t + interval) from where it would go with it.
+/// The velocity is that at the center of its interval: after a time t with acceleration a, the
+/// distance from the predicted pose is a/2 t (t + interval).
 double MotionModel::deviation(double acceleration, double seconds) const {
   return 0.5 * acceleration * seconds * (seconds + *interval_);
 }
@@ -75,11 +82,11 @@ PosePrediction MotionModel::predict(Timestamp stamp) const {
 }
 
 bool MotionModel::is_feasible(Timestamp stamp, const Eigen::Isometry3d& pose) const {
-  const double seconds = std::max(since_measured(stamp), 1e-3);
+  const double seconds = std::max(since_measured(stamp), kMinInterval);
   if (interval_) {
-    // What nothing on wheels or legs can do is people who were taken for the world.
+    // A motion that no vehicle or person can make comes from people taken for static.
     const Eigen::Vector3d expected = predict(stamp).T_world_sensor.translation();
-    const double limit = kMeasurementError + deviation(config_.max_acceleration, seconds);
+    const double limit = kMaxMeasurementError + deviation(config_.max_acceleration, seconds);
     if ((pose.translation() - expected).norm() > limit) return false;
   }
   const Eigen::Isometry3d motion = measured_.inverse() * pose;

@@ -20,33 +20,33 @@ struct MotionConfig {
   void visit(ConfigVisitor& v);
 };
 
-/// Where the sensor is expected: it goes on as it went between the last two poses measured, and
-/// changes its velocity as `MotionConfig` says that it may.
+/// Predicts the sensor's pose with the velocity between the last two measured poses, and with the
+/// uncertainty that the accelerations of `MotionConfig` give.
 class MotionModel {
  public:
   explicit MotionModel(const MotionConfig& config) : config_(config) {}
 
-  /// The pose at `stamp` is known, and nothing new of the velocity.
+  /// Sets the pose at `stamp`; the velocity stays.
   void place(Timestamp stamp, const Eigen::Isometry3d& pose);
 
-  /// A pose was measured.
+  /// Adds a measured pose: the velocity is that since the last one.
   void measure(Timestamp stamp, const Eigen::Isometry3d& pose);
 
-  /// None was: the sensor goes on with fading velocity.
+  /// Without a measured pose: moves on with a decaying velocity.
   void coast(Timestamp stamp);
 
   /// The uncertainty grows with the time since a pose was measured; without bound while the
   /// velocity is unknown.
   PosePrediction predict(Timestamp stamp) const;
 
-  /// Whether the sensor can have come there.
+  /// Whether speed, turn rate and acceleration up to `pose` are within the bounds.
   bool is_feasible(Timestamp stamp, const Eigen::Isometry3d& pose) const;
 
-  /// Between the last two poses measured, in the sensor's frame [m/s, rad/s]; zero before.
+  /// Between the last two measured poses, in the sensor's frame [m/s, rad/s]; zero before.
   const Vector6d& velocity() const { return velocity_; }
 
   const Eigen::Isometry3d& pose() const { return pose_; }
-  Timestamp stamp() const { return stamp_; }  ///< that `pose` is of
+  Timestamp stamp() const { return stamp_; }  ///< of `pose`
 
  private:
   double since_measured(Timestamp stamp) const { return to_seconds(stamp - measured_at_); }

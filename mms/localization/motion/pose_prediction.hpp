@@ -7,7 +7,7 @@
 
 namespace mms {
 
-/// What is known of a frame's pose before it is measured.
+/// Expected pose of a frame before it is registered.
 struct PosePrediction {
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
@@ -17,7 +17,7 @@ struct PosePrediction {
 
   bool is_informative() const { return translation_sigma < kUnknown || rotation_sigma < kUnknown; }
 
-  /// Of the deviation log(T_world_sensor^-1 pose), small enough for its derivative to be one.
+  /// Of the deviation log(T_world_sensor^-1 pose), assumed small: its derivative is identity.
   NormalEquations equations(const Eigen::Isometry3d& pose) const {
     Vector6d weight;
     weight.head<3>().setConstant(1.0 / (translation_sigma * translation_sigma));

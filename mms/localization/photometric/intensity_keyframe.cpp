@@ -8,8 +8,24 @@
 namespace mms {
 namespace {
 
-constexpr int kBorder = 2;     ///< pixels left out at the image border
-constexpr int kSmoothing = 2;  ///< half width of the depth average [px]
+/// [px]: half width of the depth average. Source: initial choice; 25 pixels reduce the noise of a
+/// depth to a fifth, as far as it is independent.
+constexpr int kDepthWindow = 2;
+
+/// [px]: pixels left out at the image border. Source: kDepthWindow.
+constexpr int kBorder = 2;
+
+/// [-]: depth over lateral offset of the steepest surface, 72 degrees from frontal.
+/// Source: initial choice, not tuned since.
+constexpr float kMaxSlope = 3.0F;
+
+/// [-]: depth noise between pixels of one surface, in sigmas.
+/// Source: initial choice; more than three, since one of 24 pixels beyond it rejects the point.
+constexpr float kDepthSigmas = 4.0F;
+
+/// [-]: valid pixels of the depth average, of 25.
+/// Source: initial choice; a third, so that pixels beside holes are kept.
+constexpr int kMinValidPixels = 8;
 
 /// Mean depth of the pixels around (x, y) on the same surface; 0 at depth discontinuities, where
 /// the depth at the pixel may be another surface's.
@@ -17,12 +33,12 @@ float surface_depth(const Image<float>& depth, int x, int y, const DepthNoise& n
                     double focal) {
   const float centre = depth(x, y);
   if (centre <= 0.0F) return 0.0F;
-  const float slope = 3.0F * centre / static_cast<float>(focal) * kSmoothing;
-  const float gate = 4.0F * noise.sigma(centre) + slope;
+  const float slope = kMaxSlope * centre / static_cast<float>(focal) * kDepthWindow;
+  const float gate = kDepthSigmas * noise.sigma(centre) + slope;
   float sum = 0.0F;
   int count = 0;
-  for (int dy = -kSmoothing; dy <= kSmoothing; ++dy) {
-    for (int dx = -kSmoothing; dx <= kSmoothing; ++dx) {
+  for (int dy = -kDepthWindow; dy <= kDepthWindow; ++dy) {
+    for (int dx = -kDepthWindow; dx <= kDepthWindow; ++dx) {
       if (!depth.contains(x + dx, y + dy)) continue;
       const float d = depth(x + dx, y + dy);
       if (d <= 0.0F) continue;
@@ -31,8 +47,7 @@ float surface_depth(const Image<float>& depth, int x, int y, const DepthNoise& n
       ++count;
     }
   }
-  constexpr int kMinSupport = 8;
-  return count >= kMinSupport ? static_cast<float>(count) / sum : 0.0F;
+  return count >= kMinValidPixels ? static_cast<float>(count) / sum : 0.0F;
 }
 
 std::vector<TexturedPoint> textured_points(const IntensityLevel& level,

@@ -9,17 +9,17 @@
 
 namespace mms {
 
-/// Static pixel with texture: where it is and how bright.
+/// Position and intensity of a static pixel with texture.
 struct TexturedPoint {
   Eigen::Vector3f point;  ///< in the keyframe's sensor frame [m]
   float intensity;        ///< [0, 255]
 };
 
-/// What later frames are compared with photometrically.
+/// Textured points that later frames are compared with photometrically.
 struct IntensityKeyframe {
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
   std::vector<std::vector<TexturedPoint>> levels;  ///< finest first
-  double depth = 1.0;  ///< harmonic mean of the points' depths: what parallax goes by [m]
+  double depth = 1.0;  ///< harmonic mean of the points' depths, the scale of parallax [m]
 };
 
 /// Takes the strongest gradient of every cell of `cell_px` pixels, where the surface is static and

@@ -9,11 +9,32 @@
 namespace mms {
 namespace {
 
+/// [-]: points of one parallel task; fixed, since it determines the order of the sums.
+/// Source: tens of microseconds, long against the task's start.
 constexpr std::size_t kChunk = 512;
-constexpr int kBorder = 2;        ///< pixels left out at the image border
-constexpr double kFreedom = 5.0;  ///< degrees of freedom of the t-distribution
+
+/// [px]: pixels left out at the image border.
+/// Source: one for bilinear interpolation and one for central differences.
+constexpr int kBorder = 2;
+
+/// [-]: degrees of freedom of the t-distribution. Source: Kerl et al., ICRA 2013.
+constexpr double kFreedom = 5.0;
+
+/// [-]: standard deviation over median absolute deviation.
+/// Source: normal distribution, the inverse of its 75 % quantile.
 constexpr double kMadToSigma = 1.4826;
+
+/// [-]: largest deviation of the gain from one. Source: initial choice; a gain beyond it is
+/// taken for an error of few points.
 constexpr double kMaxGainChange = 0.5;
+
+/// [grey levels^2]: least variance of the keyframe's intensities that determines a gain.
+/// Source: one grey level, the resolution of an image.
+constexpr double kMinVariance = 1.0;
+
+/// [-]: depth noise up to which predicted and measured depth agree, in sigmas.
+/// Source: three-sigma rule.
+constexpr double kDepthSigmas = 3.0;
 
 /// Bilinear interpolation of value and derivatives; the pixel must be inside the border.
 IntensitySample interpolate(const Image<IntensitySample>& image, double u, double v) {
@@ -78,8 +99,8 @@ class Linearizer {
   bool agrees_with_depth(const Eigen::Vector2d& pixel, double z) const {
     const float measured =
         current_.depth(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));
-    return measured > 0.0F &&
-           std::abs(static_cast<double>(measured) - z) < config_.depth_gate + 3.0 * noise_.sigma(z);
+    return measured > 0.0F && std::abs(static_cast<double>(measured) - z) <
+                                  config_.depth_gate + kDepthSigmas * noise_.sigma(z);
   }
 
   static void record(double residual, double robust, float keyframe, float current,
@@ -141,7 +162,7 @@ PhotometricState PhotometricEquations::next(const PhotometricState& now, double 
   const double mean_c = sc / sw;
   const double variance = skk / sw - mean_k * mean_k;
   const double covariance = skc / sw - mean_k * mean_c;
-  if (variance > 1.0) {
+  if (variance > kMinVariance) {
     state.gain = std::clamp(covariance / variance, 1.0 - kMaxGainChange, 1.0 + kMaxGainChange);
   }
   state.bias = mean_c - state.gain * mean_k;

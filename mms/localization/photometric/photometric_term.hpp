@@ -19,7 +19,7 @@ struct PhotometricState {
   double sigma = 12.0;
 };
 
-/// Sum over one keyframe's points with what the next iteration's state is made of.
+/// Sums over one keyframe's points, for the step and for the state of the next iteration.
 struct PhotometricEquations {
   NormalEquations equations;
   int visible = 0;                             ///< points that fell on a consistent static pixel
@@ -32,8 +32,8 @@ struct PhotometricEquations {
 
 /// Photometric residuals of a keyframe's points in the current image, beyond the paper:
 /// r = I(pi(T^-1 T_k p)) - (gain I_k + bias), weighted by a t-distribution (Kerl et al., ICRA
-/// 2013). A point counts only where the current frame has a static depth that agrees with it: what
-/// the masks coast of a person stands before the point and is left out.
+/// 2013). A point counts only where the current frame has a static depth that agrees with it: parts
+/// of a person that the masks miss are in front of the point and exclude it.
 PhotometricEquations photometric_equations(const IntensityKeyframe& keyframe, std::size_t level,
                                            const IntensityLevel& current,
                                            const Eigen::Isometry3d& T_world_sensor,

@@ -6,8 +6,8 @@
 
 namespace mms {
 
-/// The keyframes the photometric term compares with. They keep the pose they were taken at, so a
-/// camera that comes back to a place is compared with what it saw there first and does not drift.
+/// The keyframes of the photometric term. They keep their pose, so a camera that returns to a place
+/// is compared with its first view of it and does not drift.
 class ReferenceKeyframes {
  public:
   ReferenceKeyframes(const PhotometricConfig& config, const DepthNoise& noise)

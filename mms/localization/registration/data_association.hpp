@@ -29,10 +29,10 @@ struct Matches {
   std::vector<PlaneMatch> planes;
 };
 
-/// Data association (III-C.2) at a pose: what of the local maps every feature is compared with.
-/// Features without a sound counterpart are left out: lines whose two points nearly coincide (the
-/// denominator of eq. (3)), planes whose three points are nearly in line (that of eq. (4)),
-/// neighbourhoods that are no line, normals that disagree.
+/// Data association (III-C.2) at a pose: the counterpart of every feature in the local maps.
+/// Features without a valid one are left out: lines whose two points nearly coincide (the
+/// denominator of eq. (3)), planes whose three points are nearly collinear (that of eq. (4)),
+/// neighborhoods that are no line, normals that disagree.
 /// @param gate  largest distance between a feature and its counterpart [m]
 Matches associate(const FeatureCloud& features, const LocalMaps& maps,
                   const Eigen::Isometry3d& T_world_sensor, Association association, double gate);

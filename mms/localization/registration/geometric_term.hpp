@@ -30,9 +30,8 @@ struct GeometricEquations {
 
 /// Normal equations of eqs. (3) and (4) at a pose: every residual weighted by the inverse variance
 /// of the measurement and the map, and by Cauchy's robust weight. Inliers lie within three sigma.
-/// @param annealed_scale  standard deviation [m] the pose error adds to the residuals; widens the
-/// robust
-///               weight while the pose is still far off
+/// @param annealed_scale  standard deviation [m] that the pose error adds to the residuals; widens
+///                        the robust weight while the pose is inaccurate
 GeometricEquations geometric_equations(const Matches& matches,
                                        const Eigen::Isometry3d& T_world_sensor,
                                        const GeometricConfig& config, double annealed_scale = 0.0);

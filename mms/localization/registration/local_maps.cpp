@@ -3,9 +3,17 @@
 namespace mms {
 namespace {
 
+/// [-]: points kept in one voxel. Source: an edge along its side has five at kMinSpacing; the rest
+/// allows for diagonals and corners.
+constexpr int kMaxPointsPerVoxel = 8;
+
+/// [voxels]: least distance between points.
+/// Source: initial choice; five points a voxel's side show the direction of an edge.
+constexpr float kMinSpacing = 0.2F;
+
 PointMap::Limits limits(double voxel_size, std::size_t max_voxels) {
-  return {.max_points_per_voxel = 8,
-          .min_spacing = 0.2F * static_cast<float>(voxel_size),
+  return {.max_points_per_voxel = kMaxPointsPerVoxel,
+          .min_spacing = kMinSpacing * static_cast<float>(voxel_size),
           .max_voxels = max_voxels};
 }
 

@@ -9,7 +9,7 @@ namespace mms {
 /// How features find their counterpart in the local maps.
 enum class Association {
   kPaper,    ///< eqs. (3), (4): line through 2, plane through 3 nearest map points
-  kSurface,  ///< planes: mean and normal of a voxel; edges: principal line of the neighbourhood
+  kSurface,  ///< planes: mean and normal of a voxel; edges: principal line of the neighborhood
 };
 
 /// The local edge and plane maps of III-C in the world frame.

@@ -34,14 +34,14 @@ struct RegistrationResult {
   GeometricEquations geometric;             ///< of the last iteration
   int intensity_inliers = 0;
   int iterations = 0;
-  int degenerate_directions = 0;  ///< about which the data alone says too little
+  int degenerate_directions = 0;  ///< that the data alone do not determine
   bool converged = false;
 };
 
 /// Robust Gauss-Newton on SE(3) for eq. (5), squared: edge and plane residuals and, for images, the
 /// photometric residuals of the reference keyframes in the same normal equations, from the coarsest
-/// level of the intensity pyramid to the finest. The prediction is one more measurement, as sure as
-/// it says; where it does not say, directions about which the data says too little keep it (Zhang
+/// level of the intensity pyramid to the finest. A prediction with known covariance is one more
+/// measurement; of one without, only the directions that the data do not determine are kept (Zhang
 /// et al., ICRA 2016).
 RegistrationResult register_frame(const FeatureCloud& features, const RegistrationTarget& target,
                                   const PosePrediction& prediction,

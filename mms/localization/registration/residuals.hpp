@@ -6,6 +6,10 @@
 
 namespace mms {
 
+/// [-]: largest residual of an inlier, in sigmas.
+/// Source: three-sigma rule; 99.7 % of normally distributed residuals.
+inline constexpr double kInlierSigmas = 3.0;
+
 /// A residual and its derivative by a right perturbation of the pose (see NormalEquations).
 struct ScalarResidual {
   double value = 0.0;

@@ -6,6 +6,8 @@
 namespace mms {
 namespace {
 
+/// [-]: least cosine between normals of one surface, 45 degrees.
+/// Source: the bisector of a right-angled corner.
 constexpr float kMinNormalCosine = 0.7F;
 
 }  // namespace
@@ -18,7 +20,7 @@ void SurfaceMap::insert(const std::vector<PlaneFeature>& planes,
     const Eigen::Vector3f normal = T.linear() * plane.normal;
     const float weight = 1.0F / (plane.sigma * plane.sigma);
     Cell& cell = voxels_.touch(voxels_.key(point));
-    // The other side of a thin board, or a corner: a mean of both would be neither.
+    // On the other side of a thin board, or of a corner, a mean of both would be on neither.
     const bool other_surface = cell.normal.dot(normal) < kMinNormalCosine * cell.normal.norm();
     if (cell.weight > 0.0F && other_surface) continue;
     cell.weight += weight;
