@@ -30,7 +30,7 @@ std::vector<DynamicObjects::Object> fuse_geometry(const MaskImage& mask,
   return std::move(objects.objects);
 }
 
-/// Dynamic points, and what the mask covers where there is no return to tell.
+/// Marks dynamic points, and masked pixels without a return.
 void mark_dynamic_pixels(const Image<std::uint16_t>& mask, LabeledCloud& cloud) {
   for (std::size_t i = 0; i < cloud.labels.size(); ++i) {
     const bool is_hidden = cloud.labels[i] == PointLabel::kInvalid && mask[i] != 0;

@@ -10,8 +10,8 @@
 namespace mms {
 
 /// Divides a frame's points into static and dynamic ones (III-B) by merging the segmented masks
-/// with Euclidean clusters of the points. Frames are to be given in their order: what moved is
-/// remembered for a while. The same frames give the same bits.
+/// with Euclidean clusters of the points. Frames must be given in order: dynamic objects are
+/// remembered for `FusionConfig::memory`. The same frames give the same bits.
 class SemanticFusion {
  public:
   explicit SemanticFusion(const FusionConfig& config);

@@ -13,8 +13,12 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// Depth steps above this and the noise separate two surfaces [m].
+/// [m]: depth step between two surfaces in a block, noise apart.
+/// Source: initial choice; a floor at grazing incidence (80 degrees) has 2 cm a pixel at 2 m, with
+/// a focal length of 525 px.
 constexpr float kSurfaceStep = 0.02F;
+
+/// [-]: depth noise added to it, in sigmas. Source: three-sigma rule.
 constexpr float kSurfaceSigmas = 3.0F;
 
 void check_size(const Frame& frame, const std::string& what, int width, int height) {
@@ -38,11 +42,11 @@ void check(const Frame& frame) {
   }
 }
 
-/// Where a block's returns lie on average: beside its middle where some are missing, which on a
-/// slanted surface makes centimetres of depth.
+/// Mean of a block's returns. Where some are missing it lies beside the block's center, which on a
+/// slanted surface changes the depth by centimeters.
 struct Return {
   float depth = 0.0F;  ///< [m], 0 for none
-  float u = 0.0F;      ///< from the block's middle [px of the full image]
+  float u = 0.0F;      ///< from the block's center [px of the full image]
   float v = 0.0F;
 };
 
@@ -80,8 +84,8 @@ class Block {
       sum.v += used * static_cast<float>(v);
       count += used;
     });
-    const float middle = 0.5F * static_cast<float>(stride() - 1);
-    return {sum.depth / count, sum.u / count - middle, sum.v / count - middle};
+    const float center = 0.5F * static_cast<float>(stride() - 1);
+    return {sum.depth / count, sum.u / count - center, sum.v / count - center};
   }
 
   Rgb color(const Image<Rgb>& image, int x, int y) const {

@@ -16,7 +16,7 @@ class DepthCloudBuilder {
 
   /// The cloud of an RGB-D frame in the camera frame. Every point with a return in range is static,
   /// the others invalid. A block's point is the mean of its returns that lie on the surface of the
-  /// nearest one: averaging over an occlusion border would make points in thin air.
+  /// nearest one: averaging over an occlusion border would make points in free space.
   /// @throws DataError when calibration, colour and depth disagree in size
   LabeledCloud build(const Frame& frame);
 

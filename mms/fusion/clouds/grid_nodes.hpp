@@ -42,8 +42,8 @@ struct NodeGrid {
   }
 };
 
-/// Thins an organised cloud: every node is the nearest point of its block, so that thin things in
-/// front are kept, with that point's mask values. `on_plane` is all zero.
+/// Downsamples an organised cloud: every node is the nearest point of its block, so that thin
+/// objects in front are kept, with that point's mask values. `on_plane` is all zero.
 Nodes make_grid_nodes(const LabeledCloud& cloud, const MaskImage& mask, const NodeGrid& grid,
                       const DepthNoise& noise);
 

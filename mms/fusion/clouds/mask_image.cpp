@@ -28,7 +28,7 @@ void check(const Segmentation& segmentation, int width, int height) {
                   "use the masks of this recording, at its resolution");
 }
 
-/// Sets the blocks under `instance` to `value`; what lies outside of the image is cut off.
+/// Sets the blocks under `instance` to `value`; parts outside the image are cut off.
 void draw(const Instance& instance, std::uint16_t value, int stride, Image<std::uint16_t>& image) {
   const Image<std::uint8_t>& mask = instance.mask;
   const int x_begin = std::max(0, -instance.x);
@@ -48,7 +48,7 @@ void draw(const Instance& instance, std::uint16_t value, int stride, Image<std::
   }
 }
 
-/// Indices of the instances, lowest score first; of equal ones the latest first.
+/// Indices of the instances, lowest score first; of equal scores the latest first.
 std::vector<std::size_t> drawing_order(const std::vector<Instance>& instances) {
   std::vector<std::size_t> order(instances.size());
   std::iota(order.rbegin(), order.rend(), std::size_t{0});
@@ -67,7 +67,7 @@ cv::Mat disc(int radius) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(side, side));
 }
 
-/// `raw` grown by a disc of `radius`; pixels of an instance keep its value.
+/// `raw` dilated by a disc of `radius`; pixels of an instance keep its value.
 Image<std::uint16_t> dilated(Image<std::uint16_t>& raw, int radius) {
   Image<std::uint16_t> dilated(raw.width(), raw.height());
   cv::Mat target = as_mat(dilated);

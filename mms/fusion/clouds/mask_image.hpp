@@ -9,7 +9,7 @@ namespace mms {
 
 /// All instance masks of a frame in one image (III-A), on blocks of image pixels. A value is 0 for
 /// the static state, else 1 + the index of the instance; where instances overlap the one with the
-/// higher score (the earlier, for equal ones) is named.
+/// higher score (the earlier, for equal scores) counts.
 struct MaskImage {
   Image<std::uint16_t> raw;      ///< the masks as segmented
   Image<std::uint16_t> dilated;  ///< grown by morphological dilation (III-B.1)
@@ -24,7 +24,7 @@ struct MaskImage {
 MaskImage make_mask_image(const Segmentation& segmentation, int width, int height, int stride,
                           double dilation);
 
-/// Grows what is not zero by a disc of `radius` pixels.
+/// Dilates the non-zero pixels by a disc of `radius` pixels.
 void dilate(Image<std::uint8_t>& image, int radius);
 
 }  // namespace mms

@@ -6,7 +6,8 @@
 
 namespace mms {
 
-/// The thinned cloud that is clustered (III-B.2: "firstly downsized"). The vectors are parallel.
+/// The downsampled cloud that is clustered (III-B.2: "firstly downsized"). The vectors are
+/// parallel.
 struct Nodes {
   int width = 0;                        ///< columns of an organised grid; 0 for a set of points
   std::vector<Eigen::Vector3f> points;  ///< [m]; NaN where an organised cell is empty

@@ -10,8 +10,8 @@
 
 namespace mms {
 
-/// The cloud of a LiDAR frame in the LiDAR frame, coloured where the image sees it: every finite
-/// point in range is static, the others are invalid (NaN).
+/// The cloud of a LiDAR frame in the LiDAR frame, with colors where the camera sees it: every
+/// finite point in range is static, the others are invalid (NaN).
 LabeledCloud build_scan_cloud(const Frame& frame, const FusionConfig& config);
 
 /// Mask values of points, see `MaskImage`; zero for points behind the camera or off the image.
@@ -20,8 +20,7 @@ struct PointMask {
   std::vector<std::uint16_t> dilated;
 };
 
-/// Looks the masks up at the projections of `points`, given in the LiDAR frame; NaN points have
-/// none.
+/// Mask values at the projections of `points`, given in the LiDAR frame; zero for NaN points.
 /// @param mask         drawn on blocks of `stride` pixels
 /// @param calibration  with a camera
 PointMask project_masks(const std::vector<Eigen::Vector3f>& points, const MaskImage& mask,

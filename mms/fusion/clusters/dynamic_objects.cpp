@@ -19,7 +19,7 @@ float size_across(const Eigen::AlignedBox3f& box, const Eigen::Array3f& directio
   return (box.sizes().array() * (1.0F - direction.square()).max(0.0F).sqrt()).maxCoeff();
 }
 
-/// Whether two parts under one mask can be of one object.
+/// Whether two parts under one mask can belong to one object.
 bool are_one(const Eigen::AlignedBox3f& a, const Eigen::AlignedBox3f& b, const ObjectSize& size) {
   const Eigen::AlignedBox3f both = a.merged(b);
   if (!fits(both, size)) return false;

@@ -15,17 +15,17 @@ struct DynamicObjects {
   static constexpr int kNone = -1;
 
   struct Object {
-    int instance = 0;         ///< index of the mask that says what it is
+    int instance = 0;         ///< index of the mask that gives its class
     Eigen::AlignedBox3f box;  ///< without stray points [m]
   };
   std::vector<int> label;           ///< object of every node, kNone for static ones
-  std::vector<std::uint8_t> loose;  ///< non-zero at masked nodes that no geometry speaks about
+  std::vector<std::uint8_t> loose;  ///< non-zero at masked nodes in no cluster
   std::vector<Object> objects;
 };
 
 /// Finds the dynamic parts of `nodes`; those of one instance that fit into one object of its class
-/// (a person seen above and below a table) are one object. What lies too far behind
-/// or before the largest of them is another: the background that a mask spilled onto.
+/// (a person seen above and below a table) are one object. Parts too far behind or in front of the
+/// largest are another object: background that an inaccurate mask covers.
 DynamicObjects find_dynamic_objects(const Nodes& nodes, const std::vector<Instance>& instances,
                                     const FusionConfig& config);
 

@@ -10,7 +10,8 @@
 namespace mms {
 namespace {
 
-/// Share of the nodes cut off at either end of each axis of a box.
+/// [-]: share of the nodes cut off at either end of each axis of a box.
+/// Source: initial choice, not tuned since.
 constexpr double kBoxTrim = 0.02;
 
 enum class Verdict { kStatic, kDynamic, kMixed };
@@ -72,7 +73,7 @@ class PartFinder {
     }
   }
 
-  /// Adds the dynamic clusters to what is found and leaves open the mixed ones.
+  /// Adds the dynamic clusters to the result and leaves the mixed ones open.
   template <class Judge>
   void step(const Clusters& clusters, const Judge& judge) {
     const auto votes = count_votes(nodes_, clusters, instances_.size());
@@ -92,7 +93,7 @@ class PartFinder {
     }
   }
 
-  /// The 90 % rule; what only the dilation covers is the boundary of something behind.
+  /// The 90 % rule; nodes that only the dilation covers belong to the background.
   bool is_labelled(const ClusterVote& vote) const {
     return vote.labelled >= config_.dynamic_share * vote.nodes &&
            vote.raw >= config_.partial_share * vote.nodes;

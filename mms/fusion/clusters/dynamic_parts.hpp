@@ -13,7 +13,7 @@ namespace mms {
 /// A dynamic cluster or the dynamic piece of one.
 struct DynamicPart {
   std::vector<std::size_t> nodes;
-  int instance = 0;         ///< index of the mask that says what it is
+  int instance = 0;         ///< index of the mask that gives its class
   Eigen::AlignedBox3f box;  ///< of its nodes without stray ones [m]
 };
 
@@ -22,17 +22,17 @@ bool fits(const Eigen::AlignedBox3f& box, const ObjectSize& size);
 
 struct DynamicParts {
   std::vector<DynamicPart> parts;
-  std::vector<std::size_t> loose;  ///< masked nodes in no cluster: they lie apart, and are too few
+  std::vector<std::size_t> loose;  ///< masked nodes in no cluster: too few, apart from others
 };
 
-/// Finds what is dynamic among the nodes off the removed planes (III-B.2), in three steps:
+/// Finds the dynamic parts among the nodes off the removed planes (III-B.2), in three steps:
 /// 1. a cluster with at least `dynamic_share` labelled nodes is dynamic (the paper's 90 % rule);
 /// 2. clusters that masks cover in part are divided into continuous surfaces; one of the size of an
-///    object of which at least `partial_share` is labelled is dynamic wholly (half a mask);
-/// 3. of what is still mixed (a person merged with furniture) the pieces under the masks are
-///    dynamic, unless they look like the background of a sloppy or late mask: holding little of the
-///    instance and running on beyond the mask all along its boundary.
-/// What several masks cover is then divided among them (part_division.hpp).
+///    object of which at least `partial_share` is labelled is dynamic as a whole (partial mask);
+/// 3. of clusters that are still mixed (a person beside furniture) the pieces under the masks are
+///    dynamic, unless they are background under an inaccurate or late mask: with little of the
+///    instance, and continued beyond the mask along its boundary.
+/// Parts that several masks cover are then divided among them (part_division.hpp).
 DynamicParts find_dynamic_parts(const Nodes& nodes, const std::vector<Instance>& instances,
                                 const FusionConfig& config);
 

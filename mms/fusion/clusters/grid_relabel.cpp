@@ -7,8 +7,8 @@
 namespace mms {
 namespace {
 
-/// Seeds are looked for up to this many relabel radii from a node: its points may be nearer to the
-/// seed than the node itself is.
+/// [-]: distance up to which a node has a seed, in relabel radii.
+/// Source: initial choice; a node's points may be nearer to the seed than the node itself.
 constexpr float kSeedReach = 3.0F;
 
 /// Seeds that the points of one node may be close to: its own and those of the four nodes beside.

@@ -10,10 +10,10 @@
 
 namespace mms {
 
-/// Carries the dynamic objects of the nodes over to the points of an organised cloud (III-B.2): a
+/// Transfers the dynamic objects of the nodes to the points of an organised cloud (III-B.2): a
 /// point within the relabel radius of a dynamic cluster is dynamic, unless it is on a removed plane
-/// and off the mask. Every other one is static, whatever the mask says, unless it is masked and so
-/// far from anything that no cluster holds it.
+/// and outside the mask. Every other point is static, also under a mask, unless it is masked and
+/// its node is in no cluster.
 void relabel_grid(const NodeGrid& grid, const Nodes& nodes, const GridPlanes& planes,
                   const DynamicObjects& objects, const MaskImage& mask, const FusionConfig& config,
                   LabeledCloud& cloud);

@@ -11,7 +11,7 @@ namespace mms {
 
 /// How far apart linked nodes may be, see `FusionConfig`.
 enum class Gap {
-  kCoarse,  ///< `cluster_tolerance`: parts of one object, and what is close to it
+  kCoarse,  ///< `cluster_tolerance`: parts of one object, and points close to it
   kFine,    ///< `fine_tolerance`: one continuous surface (of LiDAR nodes: as kCoarse)
 };
 
@@ -21,7 +21,7 @@ Clusters cluster_nodes(const Nodes& nodes, const std::vector<std::uint8_t>& keep
                        const FusionConfig& config);
 
 /// Of every cluster the number of nodes beside and within `gap` of a node that is in no cluster but
-/// in `source` (non-zero). Only an organised grid knows; elsewhere there are none.
+/// in `source` (non-zero). Zero for nodes that are not organised.
 std::vector<int> count_contacts(const Nodes& nodes, const Clusters& clusters,
                                 const std::vector<std::uint8_t>& source, Gap gap,
                                 const FusionConfig& config);

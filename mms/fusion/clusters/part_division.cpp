@@ -6,11 +6,11 @@
 namespace mms {
 namespace {
 
-/// What one mask covers of a part.
+/// The nodes of a part under one mask.
 struct Share {
   int instance = 0;
   int nodes = 0;
-  Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+  Eigen::Vector3f center = Eigen::Vector3f::Zero();
 };
 
 std::vector<Share> shares_of(const Nodes& nodes, const DynamicPart& part) {
@@ -19,12 +19,12 @@ std::vector<Share> shares_of(const Nodes& nodes, const DynamicPart& part) {
     if (nodes.raw[i] == 0) continue;
     Share& share = shares[nodes.raw[i] - 1];
     ++share.nodes;
-    share.middle += nodes.points[i];
+    share.center += nodes.points[i];
   }
   std::vector<Share> list;
   for (auto& [instance, share] : shares) {
     share.instance = instance;
-    share.middle /= static_cast<float>(share.nodes);
+    share.center /= static_cast<float>(share.nodes);
     list.push_back(share);
   }
   std::stable_sort(list.begin(), list.end(),
@@ -32,7 +32,7 @@ std::vector<Share> shares_of(const Nodes& nodes, const DynamicPart& part) {
   return list;
 }
 
-/// Those that are objects of their own, the largest first.
+/// The masks with an object of their own, the largest first.
 std::vector<Share> owners(const std::vector<Share>& shares, std::size_t part_size,
                           const FusionConfig& config) {
   const double least = std::max(static_cast<double>(config.min_points),
@@ -41,12 +41,12 @@ std::vector<Share> owners(const std::vector<Share>& shares, std::size_t part_siz
   std::vector<Share> kept;
   for (const Share& share : shares) {
     if (share.nodes < least) continue;
-    const bool own_place = std::all_of(kept.begin(), kept.end(), [&](const Share& other) {
+    const bool is_apart = std::all_of(kept.begin(), kept.end(), [&](const Share& other) {
       // Across the floor; the camera is held level, so its y axis is upright.
-      const Eigen::Vector3f offset = share.middle - other.middle;
+      const Eigen::Vector3f offset = share.center - other.center;
       return Eigen::Vector2f(offset.x(), offset.z()).norm() > apart;
     });
-    if (own_place) kept.push_back(share);
+    if (is_apart) kept.push_back(share);
   }
   return kept;
 }
@@ -55,8 +55,8 @@ std::size_t owner_of(const Nodes& nodes, std::size_t node, const std::vector<Sha
   std::size_t nearest = 0;
   for (std::size_t k = 0; k < owners.size(); ++k) {
     if (nodes.raw[node] == owners[k].instance + 1) return k;
-    const float off = (nodes.points[node] - owners[k].middle).squaredNorm();
-    if (off < (nodes.points[node] - owners[nearest].middle).squaredNorm()) nearest = k;
+    const float off = (nodes.points[node] - owners[k].center).squaredNorm();
+    if (off < (nodes.points[node] - owners[nearest].center).squaredNorm()) nearest = k;
   }
   return nearest;
 }

@@ -10,9 +10,9 @@ namespace mms {
 
 /// Divides a dynamic part that several masks cover (people who touch, or stand closer than the
 /// cluster tolerance) into one part an instance: masked nodes go with their mask, the others with
-/// the instance whose middle is nearest. Masks with little of the part, or with the same place on
-/// the floor as a larger one (two halves of one body), do not count. Boxes are left empty.
-/// @return the part itself where there is nothing to divide
+/// the instance whose center is nearest. Masks with a small share of the part, or at the same
+/// position on the floor as a larger one (two halves of one body), do not count. Boxes are empty.
+/// @return the part itself if one mask or none counts
 std::vector<DynamicPart> divide_part(const Nodes& nodes, DynamicPart part,
                                      const FusionConfig& config);
 

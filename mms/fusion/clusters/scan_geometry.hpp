@@ -9,8 +9,8 @@
 
 namespace mms {
 
-/// III-B.2 for an unorganised cloud in the LiDAR frame: thins it by a voxel grid, takes out the
-/// ground and large planes, finds the dynamic clusters and relabels `cloud` by them.
+/// III-B.2 for an unorganised cloud in the LiDAR frame: downsamples it by a voxel grid, removes
+/// the ground and large planes, finds the dynamic clusters and relabels `cloud` by them.
 void fuse_scan_geometry(const MaskImage& mask, const std::vector<Instance>& instances,
                         const Calibration& calibration, const FusionConfig& config,
                         LabeledCloud& cloud);

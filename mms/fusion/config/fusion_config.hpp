@@ -15,9 +15,9 @@ enum class FusionMode {
   kNone,        ///< nothing: every point is static
 };
 
-/// Which planes are taken out before clustering, so that a person does not drag along the floor
-/// under or the wall behind them. `min_extent` is above the width that a torso (radius 0.17 m) is
-/// flat within `tolerance`; flat sides of masked objects are told by `max_masked_share`.
+/// Planes removed before clustering, so that a person is not connected with the floor below or the
+/// wall behind. `min_extent` exceeds the width over which a torso (radius 0.17 m) is flat within
+/// `tolerance`; `max_masked_share` detects flat sides of masked objects.
 struct PlaneRemoval {
   double min_area = 0.05;         ///< [m^2]
   double min_extent = 0.2;        ///< along the shorter principal axis [m]
@@ -35,10 +35,10 @@ struct PlaneRemoval {
   }
 };
 
-/// Largest box one object of a class fills [m]: `length` along its longest side, `width` along the
-/// other two. Parts one behind the other are together at most `depth` times as deep as the larger
-/// side they show: a forklift's mast stands behind its engine, but what is far behind a small robot
-/// is none of it.
+/// Largest box of one object of a class [m]: `length` along its longest side, `width` along the
+/// other two. Parts behind each other are together at most `depth` times as deep as the larger side
+/// towards the sensor: a forklift's mast stands behind its engine, but an object far behind a small
+/// robot is not part of it.
 struct ObjectSize {
   double length = 2.3;
   double width = 1.2;
@@ -46,7 +46,7 @@ struct ObjectSize {
   void visit(ConfigVisitor& v);
 };
 
-/// Everything that steers the multi-modal fusion (III-B).
+/// Settings of the multi-modal fusion (III-B).
 struct FusionConfig {
   FusionMode mode = FusionMode::kMultimodal;
 
@@ -80,7 +80,8 @@ struct FusionConfig {
 
   DepthNoise noise;  ///< of the depth camera; the sensor's, so not among the visited fields
   PlaneRemoval planes;
-  std::array<ObjectSize, kObjectClassCount> sizes{{{2.3, 1.2, 1.0}, {4.0, 2.5, 1.5}}};
+  std::array<ObjectSize, kObjectClassCount> sizes{
+      {{.length = 2.3, .width = 1.2, .depth = 1.0}, {.length = 4.0, .width = 2.5, .depth = 1.5}}};
 
   void visit(ConfigVisitor& v);
 };

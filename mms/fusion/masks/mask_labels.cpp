@@ -6,8 +6,9 @@
 namespace mms {
 namespace {
 
-/// A mask's boundary lies on what is behind; so much is cut off at either end of each axis of the
-/// box.
+/// [-]: share of the points cut off at either end of each axis of a box.
+/// Source: initial choice; a mask dilated by 3 px around a person 80 px wide has 7 % of
+/// background.
 constexpr double kBoxTrim = 0.05;
 
 }  // namespace

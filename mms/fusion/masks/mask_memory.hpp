@@ -12,18 +12,18 @@
 
 namespace mms {
 
-/// Carries dynamic objects over frames in which their masks are missing (beyond the paper, whose
-/// clusters need a mask in every frame). What was dynamic in the last frame and still has the same
-/// depth stands for a mask; the clusters then complete it, so that it follows an object that moves.
+/// Keeps dynamic objects over frames in which their masks are missing (beyond the paper, whose
+/// clusters need a mask in every frame). Pixels that were dynamic in the last frame and have the
+/// same depth serve as a mask; the clusters then complete it, so that it follows a moving object.
 class MaskMemory {
  public:
   explicit MaskMemory(const FusionConfig& config) : config_(config) {}
 
-  /// Adds the remembered objects that no mask covers now to `mask` and `instances`, with a score of
-  /// 0: nothing in this frame says that they are there.
+  /// Adds the remembered objects that no mask covers now to `mask` and `instances`, with score 0
+  /// for lack of a detection in this frame.
   void recall(const LabeledCloud& cloud, MaskImage& mask, std::vector<Instance>& instances);
 
-  /// Keeps the objects found with the instances that `recall` left.
+  /// Stores the objects found with the instances of `recall`.
   void remember(const LabeledCloud& cloud, const std::vector<DynamicObjects::Object>& objects);
 
  private:

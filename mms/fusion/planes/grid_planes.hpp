@@ -10,7 +10,7 @@
 namespace mms {
 
 /// The large planes of an organised cloud, and where in the grid each of them is seen. A plane is
-/// endless, what it was found on is not: a desk's plane cuts a standing person at the hips, but no
+/// infinite, the surface is not: a desk's plane intersects a standing person at the hips, but no
 /// cell there faces upwards.
 struct GridPlanes {
   std::vector<Plane> planes;
