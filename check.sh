@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Checks the sources: format, clang-tidy, architecture, documents. Needs the packages of the groups
-# [demo], [tests] and [training]; builds what a check needs.
+# Checks the sources: format, clang-tidy, architecture, documents. Builds what a check needs.
 # usage: ./check.sh [CHECK...] [--since REVISION | --all]
 #   CHECK             format, tidy, architecture or docs (default: all four)
 #   --since REVISION  clang-tidy checks the files that differ from REVISION (default: HEAD)
@@ -14,21 +13,33 @@ usage() {
   exit 2
 }
 
-# Sources for clang-tidy, each ending with a zero byte.
-tidy_files() {
-  local changed
-  changed="$(git diff --name-only "$since" && git ls-files --others --exclude-standard)"
-  cpp_files | grep -zE '^(mms|apps)/' |
-    if [ -n "$all" ]; then grep -z '\.cpp$'; else grep -zxFf <(echo "$changed") || true; fi
+# clang-tidy cannot use gcc's precompiled headers and joined sources: it has a folder of its own,
+# which is configured and not built, without libtorch where that is missing.
+configure_tidy() {
+  local options=(-G Ninja -DMMS_PRECOMPILED_HEADERS=OFF -DMMS_UNITY_BUILD=OFF
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON)
+  cmake -S . -B build/tidy "${options[@]}" -DMMS_WITH_TORCH=ON > /dev/null 2>&1 ||
+    cmake -S . -B build/tidy "${options[@]}" -DMMS_WITH_TORCH=OFF > /dev/null
 }
 
-# clang-tidy cannot use gcc's precompiled headers and joined sources: it has a folder of its own,
-# which is configured and not built.
+# Sources for clang-tidy. A header is checked with the source of the same name.
+tidy_files() {
+  local sources
+  sources="$(sed -nE "s,^ *\"file\": \"$PWD/((mms|apps)/.*)\".*,\1,p" build/tidy/compile_commands.json)"
+  if [ -n "$all" ]; then
+    echo "$sources"
+  else
+    { git diff --name-only "$since"; git ls-files --others --exclude-standard; } |
+      sed 's/\.hpp$/.cpp/' | sort -u | grep -xFf - <(echo "$sources")
+  fi
+}
+
 check_tidy() {
-  cmake -S . -B build/tidy -G Ninja -DMMS_PRECOMPILED_HEADERS=OFF -DMMS_UNITY_BUILD=OFF \
-    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > /dev/null &&
-    tidy_files | xargs -0 -r -n 1 -P "$(nproc)" clang-tidy -p build/tidy --quiet \
-      --warnings-as-errors='*' --extra-arg=-Wno-unknown-warning-option 2>&1 |
+  local files
+  configure_tidy || return 1
+  files="$(tidy_files)" || { echo "no source has changed"; return 0; }
+  echo "$files" | xargs -n 1 -P "$(nproc)" clang-tidy -p build/tidy --quiet \
+    --warnings-as-errors='*' --extra-arg=-Wno-unknown-warning-option 2>&1 |
     sed -E '/^[0-9]+ warnings? .*generated\.$/d'
 }
 
