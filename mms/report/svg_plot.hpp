@@ -38,7 +38,7 @@ class SvgPlot {
   /// A dot, for places such as the start.
   void add_marker(const std::string& name, int color, double x, double y);
 
-  /// The legend, where there are two or more series, and the <svg> element; a note "no data" where
+  /// The legend, where there are two or more series, and the `svg` element; a note "no data" where
   /// nothing can be drawn.
   std::string render() const;
 

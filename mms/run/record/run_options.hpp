@@ -15,7 +15,7 @@ namespace mms {
 struct RunOptions {
   std::string data = "sim:warehouse_loop";
   std::filesystem::path config;  ///< empty: the defaults
-  std::filesystem::path output;  ///< empty: results/<time>_<name>
+  std::filesystem::path output;  ///< empty: `results/TIME_NAME`
   std::string segmenter;         ///< "network", "masks" or "none"
   std::filesystem::path masks;   ///< empty: the recording's own
   std::string weights;           ///< of the network; empty: as the config says

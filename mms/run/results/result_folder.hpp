@@ -9,7 +9,7 @@ namespace mms {
 /// time.
 class ResultFolder {
  public:
-  /// @param output  empty: results/<time>_<name of the data> in the working directory
+  /// @param output  empty: `results/TIME_NAME` in the working directory
   /// @throws FileError when the folder cannot be made or written to.
   ResultFolder(const std::filesystem::path& output, const std::string& data);
 
