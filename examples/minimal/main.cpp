@@ -1,7 +1,5 @@
-// Localises a recording, or a simulated aisle of a warehouse with people in it, and prints a pose a
-// frame:
-//   minimal [FOLDER]
-// Shows how a program of your own feeds its frames to the library; `mms run` does much more.
+// Localizes a recording, or a simulated warehouse aisle with people, and prints a pose per frame:
+//   minimal [RECORDING]
 
 #include <cstdio>
 #include <exception>
@@ -9,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/segmentation/segmenters/mask_segmenter.hpp"
@@ -24,9 +21,8 @@ void print(const mms::Frame& frame, const mms::FrameResult& result) {
               status.c_str());
 }
 
-void localise(const std::string& data) {
-  // A frame may as well be filled from a camera's driver: images, stamp and calibration.
-  const std::unique_ptr<mms::FrameSource> source = mms::open_dataset(data);
+void localize(const std::string& recording) {
+  const std::unique_ptr<mms::FrameSource> source = mms::open_dataset(recording);
   source->on_warning([](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); });
 
   mms::SystemConfig config;
@@ -36,7 +32,7 @@ void localise(const std::string& data) {
     print(*frame, system.process(*frame));
   }
 
-  std::printf("static map: %zu points without the %d people and vehicles\n",
+  std::printf("static map: %zu points, without %d people and vehicles\n",
               system.static_map().cloud().points.size(), system.dynamic_map().confirmed());
 }
 
@@ -44,7 +40,7 @@ void localise(const std::string& data) {
 
 int main(int argc, char** argv) {
   try {
-    localise(argc > 1 ? argv[1] : "sim:rack_aisle?frames=10");
+    localize(argc > 1 ? argv[1] : "sim:rack_aisle?frames=10");
   } catch (const std::exception& error) {  // mms::Error says where, what and what to do about it
     std::fprintf(stderr, "minimal: %s\n", error.what());
     return 1;
