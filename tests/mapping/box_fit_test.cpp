@@ -36,14 +36,14 @@ ObjectMeasurement view_of(const Eigen::Vector3d& center, double heading) {
   return object;
 }
 
-/// Without the points beyond x, as by the image's right border.
-ObjectMeasurement cut_right(ObjectMeasurement object, double x) {
+/// Removes the points beyond x, as the image's right border does.
+ObjectMeasurement truncated_right(ObjectMeasurement object, double x) {
   std::erase_if(object.points, [x](const Eigen::Vector3d& point) { return point.x() > x; });
   object.truncation.right = true;
   return object;
 }
 
-TEST(GroundFrame, AxesAreARightHandedFrameWithItsHeading) {
+TEST(GroundFrame, AxesAreRightHandedWithHeading) {
   for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0.1, -2, 0.3),
                                     Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0.2, 5)}) {
     const GroundFrame ground(up);
@@ -57,7 +57,7 @@ TEST(GroundFrame, AxesAreARightHandedFrameWithItsHeading) {
   }
 }
 
-TEST(BoxFit, FindsTheMiddleFromAnySide) {
+TEST(BoxFit, FindsCenterFromAnySide) {
   for (double heading = 0.0; heading < 6.2; heading += 0.13) {
     const Eigen::Vector3d center(0.4, 0.3, 4.0);
     const BoxFit fit = fit_box(view_of(center, heading), kGround, heading, kSize);
@@ -66,8 +66,8 @@ TEST(BoxFit, FindsTheMiddleFromAnySide) {
   }
 }
 
-TEST(BoxFit, StandsOnTheFloorThoughItsFootIsHidden) {
-  const Eigen::Vector3d center(0.4, 0.3, 4.0);  // its foot at y = 0.9
+TEST(BoxFit, ExtendsToFloorWhenBottomIsHidden) {
+  const Eigen::Vector3d center(0.4, 0.3, 4.0);  // bottom at y = 0.9
   ObjectMeasurement object = view_of(center, 0.4);
   std::erase_if(object.points, [](const Eigen::Vector3d& point) { return point.y() > 0.3; });
   object.truncation.bottom = true;
@@ -79,14 +79,14 @@ TEST(BoxFit, StandsOnTheFloorThoughItsFootIsHidden) {
   EXPECT_FALSE(fit_box(object, kGround, 0.4, kSize).whole[2]);
 }
 
-TEST(BoxFit, WhatIsHighAboveTheFloorDoesNotReachDownToIt) {
+TEST(BoxFit, DoesNotExtendToDistantFloor) {
   const GroundFrame low_floor(kGround.up(), -3.0);
   const Eigen::Vector3d center(0.4, 0.3, 4.0);
   const BoxFit fit = fit_box(view_of(center, 0.4), low_floor, 0.4, kSize);
   EXPECT_NEAR(fit.center.y(), 0.3, 0.03);
 }
 
-TEST(BoxFit, FromTheFrontOnlyWidthAndHeightAreWhole) {
+TEST(BoxFit, FrontViewHasWholeWidthAndHeightOnly) {
   const BoxFit fit = fit_box(view_of({0, 0.3, 4}, 0.0), kGround, 0.0, kSize);
   EXPECT_FALSE(fit.whole[0]);
   EXPECT_TRUE(fit.whole[1]);
@@ -94,27 +94,28 @@ TEST(BoxFit, FromTheFrontOnlyWidthAndHeightAreWhole) {
   EXPECT_NEAR(fit.extent.y(), kSize.y(), 0.05);
 }
 
-TEST(BoxFit, ACutEndFollowsFromTheSize) {
+TEST(BoxFit, CompletesTruncatedEndFromSize) {
   const double heading = 0.5 * std::numbers::pi;  // across the view
   const Eigen::Vector3d center(0.5, 0.3, 4.0);
-  const BoxFit fit = fit_box(cut_right(view_of(center, heading), 0.4), kGround, heading, kSize);
+  const BoxFit fit =
+      fit_box(truncated_right(view_of(center, heading), 0.4), kGround, heading, kSize);
   EXPECT_LT((fit.center - center).norm(), 0.06);
   EXPECT_FALSE(fit.whole[0]);
   EXPECT_TRUE(fit.anchored);
 }
 
-TEST(BoxFit, WithBothEndsCutItSaysSo) {
+TEST(BoxFit, IsUnanchoredWithBothEndsTruncated) {
   ObjectMeasurement object = view_of({0.0, 0.3, 2.0}, 0.0);
   object.truncation.left = object.truncation.right = true;
   EXPECT_FALSE(fit_box(object, kGround, 0.0, {2.0, 2.0, 2.0}).anchored);
 }
 
-TEST(RectangleHeading, IsThatOfTheSidesButForQuartersOfATurn) {
+TEST(RectangleHeading, MatchesSidesUpToQuarterTurns) {
   const double quarter = 0.5 * std::numbers::pi;
   for (double heading = 0.1; heading < 6.2; heading += 0.31) {
     const double found = rectangle_heading(view_of({0.6, 0.3, 4.0}, heading), kGround);
-    const double off = std::remainder(found - heading, quarter);
-    EXPECT_LT(std::abs(off), 0.06) << heading;
+    const double error = std::remainder(found - heading, quarter);
+    EXPECT_LT(std::abs(error), 0.06) << heading;
   }
 }
 

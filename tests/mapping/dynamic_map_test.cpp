@@ -19,9 +19,9 @@ DynamicCluster cluster_at(const Eigen::Vector3f& center,
   return cluster;
 }
 
-/// Gives the map frame number `index` with those clusters, seen from a pose.
-void give(DynamicMap& map, int index, const std::vector<DynamicCluster>& clusters,
-          const Eigen::Isometry3d& T_world_sensor = Eigen::Isometry3d::Identity()) {
+/// Updates the map with frame `index`: those clusters, observed from that pose.
+void update(DynamicMap& map, int index, const std::vector<DynamicCluster>& clusters,
+            const Eigen::Isometry3d& T_world_sensor = Eigen::Isometry3d::Identity()) {
   LabeledCloud cloud;
   cloud.stamp = Timestamp::from_seconds(1.0 + kPeriod * index);
   cloud.clusters = clusters;
@@ -36,14 +36,14 @@ void give(DynamicMap& map, int index, const std::vector<DynamicCluster>& cluster
   map.update(cloud, odometry);
 }
 
-TEST(DynamicMap, MeasuresTheVelocityOfASteadyBoxFromAMovingCamera) {
+TEST(DynamicMap, MeasuresVelocityFromMovingCamera) {
   DynamicMap map;
   for (int i = 0; i < 60; ++i) {
     const double t = kPeriod * i;
     const Eigen::Isometry3d T(Eigen::Translation3d(0.3 * t, 0.0, 0.0) *
                               Eigen::AngleAxisd(0.2 * t, Eigen::Vector3d::UnitY()));
     const Eigen::Vector3d world(-1.0 + 1.1 * t, 0.0, 3.0 - 0.1 * t);
-    give(map, i, {cluster_at((T.inverse() * world).cast<float>())}, T);
+    update(map, i, {cluster_at((T.inverse() * world).cast<float>())}, T);
   }
   ASSERT_EQ(map.objects().size(), 1U);
   const TrackedObject object = map.objects()[0];
@@ -52,19 +52,19 @@ TEST(DynamicMap, MeasuresTheVelocityOfASteadyBoxFromAMovingCamera) {
   EXPECT_NEAR(object.box.velocity.x(), 1.1, 0.1);
   EXPECT_NEAR(object.box.velocity.z(), -0.1, 0.15);
   EXPECT_LT(object.motion.velocity_covariance().trace(), 0.3);
-  // It faces where it goes.
+  // It faces its direction of motion.
   EXPECT_GT(object.box.T_world_box.linear().col(0).x(), 0.9);
   EXPECT_NEAR(object.box.T_world_box.linear().col(2).y(), -1.0, 1e-9);
 }
 
-TEST(DynamicMap, KeepsTheIdsOfTwoThatCross) {
+TEST(DynamicMap, KeepsIdsOfCrossingObjects) {
   DynamicMap map;
   for (int i = 0; i < 45; ++i) {
     const auto t = static_cast<float>(kPeriod * i);
-    // Clusters come in any order: here by side, so that it changes when they pass each other.
+    // The order of clusters changes when they pass each other.
     const DynamicCluster right = cluster_at({-1.5F + t, 0.0F, 2.5F});
     const DynamicCluster left = cluster_at({1.5F - t, 0.0F, 3.1F}, ObjectClass::kAgv);
-    i < 22 ? give(map, i, {right, left}) : give(map, i, {left, right});
+    i < 22 ? update(map, i, {right, left}) : update(map, i, {left, right});
   }
   ASSERT_EQ(map.objects().size(), 2U);
   EXPECT_EQ(map.objects()[0].box.id, 1);
@@ -75,125 +75,125 @@ TEST(DynamicMap, KeepsTheIdsOfTwoThatCross) {
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-TEST(DynamicMap, CoastsBehindAPillarAndEndsAfterThat) {
+TEST(DynamicMap, CoastsThroughOcclusionThenEnds) {
   DynamicMap map;
-  const auto at = [](int i) { return cluster_at({static_cast<float>(0.08 * i), 0.0F, 3.0F}); };
-  for (int i = 0; i < 15; ++i) give(map, i, {at(i)});
-  for (int i = 15; i < 20; ++i) give(map, i, {});
+  const auto cluster = [](int i) { return cluster_at({static_cast<float>(0.08 * i), 0.0F, 3.0F}); };
+  for (int i = 0; i < 15; ++i) update(map, i, {cluster(i)});
+  for (int i = 15; i < 20; ++i) update(map, i, {});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].state, TrackState::kCoasting);
   EXPECT_NEAR(map.objects()[0].box.center().x(), 0.08 * 19, 0.15);
-  for (int i = 20; i < 32; ++i) give(map, i, {});
-  EXPECT_TRUE(map.objects().empty());  // unseen for longer than objects are shown
-  give(map, 32, {at(32)});
+  for (int i = 20; i < 32; ++i) update(map, i, {});
+  EXPECT_TRUE(map.objects().empty());  // unseen for longer than coasting objects are output
+  update(map, 32, {cluster(32)});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].box.id, 1);
   EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
-  for (int i = 33; i < 100; ++i) give(map, i, {});
-  for (int i = 100; i < 105; ++i) give(map, i, {at(i)});
+  for (int i = 33; i < 100; ++i) update(map, i, {});
+  for (int i = 100; i < 105; ++i) update(map, i, {cluster(i)});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].box.id, 2);
 }
 
-/// What no mask named, but which moves.
+/// A moving cluster without a mask.
 DynamicCluster moving_at(const Eigen::Vector3f& center) {
   DynamicCluster cluster = cluster_at(center, ObjectClass::kUnknown);
   cluster.score = 0.0F;
   return cluster;
 }
 
-TEST(DynamicMap, WhatMovesWithoutAMaskIsAnObjectOfUnknownClass) {
+TEST(DynamicMap, ClusterWithoutMaskHasUnknownClass) {
   DynamicMap map;
-  const auto at = [](int i) { return moving_at({static_cast<float>(0.07 * i), 0.0F, 3.0F}); };
-  for (int i = 0; i < 9; ++i) give(map, i, {at(i)});
+  const auto cluster = [](int i) { return moving_at({static_cast<float>(0.07 * i), 0.0F, 3.0F}); };
+  for (int i = 0; i < 9; ++i) update(map, i, {cluster(i)});
   EXPECT_TRUE(map.objects().empty());  // it may be an error of the pose
-  for (int i = 9; i < 20; ++i) give(map, i, {at(i)});
+  for (int i = 9; i < 20; ++i) update(map, i, {cluster(i)});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].box.object_class, ObjectClass::kUnknown);
   EXPECT_TRUE(map.objects()[0].box.moving);
   EXPECT_NEAR(map.objects()[0].box.velocity.x(), 1.05, 0.2);
 }
 
-TEST(DynamicMap, ItGetsTheNameThatAMaskGives) {
+TEST(DynamicMap, UnknownObjectTakesClassOfLaterMask) {
   DynamicMap map;
-  const auto place = [](int i) { return Eigen::Vector3f(static_cast<float>(0.07 * i), 0, 3); };
-  for (int i = 0; i < 20; ++i) give(map, i, {moving_at(place(i))});
-  for (int i = 20; i < 24; ++i) give(map, i, {cluster_at(place(i))});
-  for (int i = 24; i < 40; ++i) give(map, i, {moving_at(place(i))});
+  const auto position = [](int i) { return Eigen::Vector3f(static_cast<float>(0.07 * i), 0, 3); };
+  for (int i = 0; i < 20; ++i) update(map, i, {moving_at(position(i))});
+  for (int i = 20; i < 24; ++i) update(map, i, {cluster_at(position(i))});
+  for (int i = 24; i < 40; ++i) update(map, i, {moving_at(position(i))});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].box.object_class, ObjectClass::kPerson);
   EXPECT_EQ(map.objects()[0].box.id, 1);
   EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
 }
 
-TEST(DynamicMap, WhatMovesBesideAnObjectIsAPartOfIt) {
+TEST(DynamicMap, MergesMovingPartIntoAdjacentObject) {
   DynamicMap map;
   for (int i = 0; i < 40; ++i) {
-    const Eigen::Vector3f place(static_cast<float>(0.07 * i), 0, 3);
-    DynamicCluster arm = moving_at(place + Eigen::Vector3f(0.4F, 0.0F, 0.0F));
+    const Eigen::Vector3f position(static_cast<float>(0.07 * i), 0, 3);
+    DynamicCluster arm = moving_at(position + Eigen::Vector3f(0.4F, 0.0F, 0.0F));
     arm.box_min = arm.centroid.array() - 0.1F;
     arm.box_max = arm.centroid.array() + 0.1F;
-    give(map, i, {cluster_at(place), arm});
+    update(map, i, {cluster_at(position), arm});
   }
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.confirmed(), 1);
 }
 
-TEST(DynamicMap, OneThatStandsForTwentySecondsStaysTheSameObject) {
+TEST(DynamicMap, KeepsIdOfStoppedObject) {
   DynamicMap map;
   for (int i = 0; i < 30; ++i) {
-    give(map, i, {cluster_at({static_cast<float>(0.07 * i), 0.0F, 3.0F})});
+    update(map, i, {cluster_at({static_cast<float>(0.07 * i), 0.0F, 3.0F})});
   }
   EXPECT_TRUE(map.objects().at(0).box.moving);
-  int recognised = -1;
+  int stop_frame = -1;
   for (int i = 30; i < 330; ++i) {
-    give(map, i, {cluster_at({static_cast<float>(0.07 * 29), 0.0F, 3.0F})});
-    if (recognised < 0 && !map.objects().at(0).box.moving) recognised = i;
+    update(map, i, {cluster_at({static_cast<float>(0.07 * 29), 0.0F, 3.0F})});
+    if (stop_frame < 0 && !map.objects().at(0).box.moving) stop_frame = i;
   }
-  EXPECT_LT(kPeriod * (recognised - 30), 1.0);
+  EXPECT_LT(kPeriod * (stop_frame - 30), 1.0);
   EXPECT_EQ(map.objects().at(0).box.id, 1);
   EXPECT_FALSE(map.objects()[0].box.moving);
   EXPECT_EQ(map.confirmed(), 1);
 }
 
-TEST(DynamicMap, DropsWhatWasSeenOnlyOnce) {
+TEST(DynamicMap, DropsSingleObservation) {
   DynamicMap map;
-  give(map, 0, {cluster_at({0.0F, 0.0F, 2.0F})});
-  for (int i = 1; i < 80; ++i) give(map, i, {});
+  update(map, 0, {cluster_at({0.0F, 0.0F, 2.0F})});
+  for (int i = 1; i < 80; ++i) update(map, i, {});
   EXPECT_TRUE(map.objects().empty());
   EXPECT_EQ(map.confirmed(), 0);
 }
 
-TEST(DynamicMap, DoesNotLinkBeyondTheGate) {
+TEST(DynamicMap, DoesNotAssociateBeyondGate) {
   DynamicMap map;
-  for (int i = 0; i < 5; ++i) give(map, i, {cluster_at({0.0F, 0.0F, 2.0F})});
-  for (int i = 5; i < 10; ++i) give(map, i, {cluster_at({2.0F, 0.0F, 2.0F})});
+  for (int i = 0; i < 5; ++i) update(map, i, {cluster_at({0.0F, 0.0F, 2.0F})});
+  for (int i = 5; i < 10; ++i) update(map, i, {cluster_at({2.0F, 0.0F, 2.0F})});
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-TEST(DynamicMap, TheClassIsWhatMostFramesSaw) {
+TEST(DynamicMap, ClassIsMajorityOfFrames) {
   DynamicMap map;
   for (int i = 0; i < 9; ++i) {
     const auto seen = i % 3 == 0 ? ObjectClass::kPerson : ObjectClass::kAgv;
-    give(map, i, {cluster_at({0.0F, 0.0F, 2.0F}, seen)});
+    update(map, i, {cluster_at({0.0F, 0.0F, 2.0F}, seen)});
   }
   EXPECT_EQ(map.objects().at(0).box.object_class, ObjectClass::kAgv);
 }
 
-TEST(DynamicMap, APieceOfAnObjectIsNoNewOne) {
+TEST(DynamicMap, FragmentStartsNoObject) {
   DynamicMap map;
   const DynamicCluster whole = cluster_at({0.0F, 0.0F, 2.0F});
   DynamicCluster foot = cluster_at({0.0F, 0.7F, 2.0F});
   foot.box_min = foot.centroid - Eigen::Vector3f::Constant(0.05F);
   foot.box_max = foot.centroid + Eigen::Vector3f::Constant(0.05F);
-  for (int i = 0; i < 10; ++i) give(map, i, {whole});
-  for (int i = 10; i < 20; ++i) give(map, i, {whole, foot});
+  for (int i = 0; i < 10; ++i) update(map, i, {whole});
+  for (int i = 10; i < 20; ++i) update(map, i, {whole, foot});
   EXPECT_EQ(map.objects().size(), 1U);
 }
 
-TEST(DynamicMap, OneWhoJoinsAnotherAndLeavesIsTheSame) {
+TEST(DynamicMap, KeepsIdsAfterMergeAndSplit) {
   DynamicMap map;
-  // Two walk side by side, are one cluster for half a second, and part again.
+  // Two walk side by side, form one cluster for half a second, and separate again.
   for (int i = 0; i < 40; ++i) {
     const auto x = static_cast<float>(0.06 * i);
     const DynamicCluster near = cluster_at({x, 0.0F, 2.5F});
@@ -201,71 +201,71 @@ TEST(DynamicMap, OneWhoJoinsAnotherAndLeavesIsTheSame) {
     DynamicCluster both = cluster_at({x, 0.0F, 2.8F});
     both.box_min.z() = near.box_min.z();
     both.box_max.z() = far.box_max.z();
-    i >= 20 && i < 27 ? give(map, i, {both}) : give(map, i, {near, far});
+    i >= 20 && i < 27 ? update(map, i, {both}) : update(map, i, {near, far});
   }
   ASSERT_EQ(map.objects().size(), 2U);
   EXPECT_EQ(map.confirmed(), 2);
   EXPECT_LT(map.objects()[0].box.size.maxCoeff(), 1.8);
 }
 
-TEST(DynamicMap, WhatTheNetworkDoubtsIsNoObject) {
+TEST(DynamicMap, LowScoreStartsNoObject) {
   DynamicMap map;
-  DynamicCluster doubtful = cluster_at({0.0F, 0.0F, 2.0F});
-  doubtful.score = 0.2F;
-  for (int i = 0; i < 10; ++i) give(map, i, {doubtful});
+  DynamicCluster cluster = cluster_at({0.0F, 0.0F, 2.0F});
+  cluster.score = 0.2F;
+  for (int i = 0; i < 10; ++i) update(map, i, {cluster});
   EXPECT_TRUE(map.objects().empty());
-  doubtful.score = 0.9F;
-  for (int i = 10; i < 15; ++i) give(map, i, {doubtful});
+  cluster.score = 0.9F;
+  for (int i = 10; i < 15; ++i) update(map, i, {cluster});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_NEAR(map.objects()[0].box.score, (10 * 0.2 + 5 * 0.9) / 15, 1e-6);
 }
 
-TEST(DynamicMap, WhatIsOnlyRememberedBeginsNoObjectButKeepsOne) {
+TEST(DynamicMap, RememberedMaskKeepsButStartsNoObject) {
   DynamicMap map;
   DynamicCluster remembered = cluster_at({0.0F, 0.0F, 2.0F});
   remembered.score = 0.0F;
-  for (int i = 0; i < 10; ++i) give(map, i, {remembered});
+  for (int i = 0; i < 10; ++i) update(map, i, {remembered});
   EXPECT_TRUE(map.objects().empty());
-  for (int i = 10; i < 16; ++i) give(map, i, {cluster_at({0.0F, 0.0F, 2.0F})});
-  for (int i = 16; i < 20; ++i) give(map, i, {remembered});
+  for (int i = 10; i < 16; ++i) update(map, i, {cluster_at({0.0F, 0.0F, 2.0F})});
+  for (int i = 16; i < 20; ++i) update(map, i, {remembered});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
   EXPECT_EQ(map.objects()[0].box.score, 1.0);
 }
 
-TEST(DynamicMap, WhatElseAMaskCoversIsNoObject) {
+TEST(DynamicMap, SecondClusterOfMaskStartsNoObject) {
   DynamicMap map;
   DynamicCluster person = cluster_at({0.0F, 0.0F, 2.0F});
   DynamicCluster wall = cluster_at({0.5F, 0.0F, 4.0F});
   person.instance = wall.instance = 3;
-  for (int i = 0; i < 10; ++i) give(map, i, {person, wall});
+  for (int i = 0; i < 10; ++i) update(map, i, {person, wall});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_LT(map.objects()[0].box.center().z(), 2.5);
 }
 
-TEST(DynamicMap, FollowsWhatItKnowsWhereAMaskCoversMoreOfSomethingElse) {
+TEST(DynamicMap, PrefersTrackedClusterOverLargerOne) {
   DynamicMap map;
   DynamicCluster vehicle = cluster_at({0.0F, 0.0F, 3.0F}, ObjectClass::kAgv);
   DynamicCluster shelf = cluster_at({0.5F, 0.0F, 5.0F}, ObjectClass::kAgv);
   vehicle.instance = shelf.instance = 3;
-  for (int i = 0; i < 10; ++i) give(map, i, {vehicle});
-  for (int i = 10; i < 30; ++i) give(map, i, {shelf, vehicle});  // the largest comes first
+  for (int i = 0; i < 10; ++i) update(map, i, {vehicle});
+  for (int i = 10; i < 30; ++i) update(map, i, {shelf, vehicle});  // the largest comes first
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
   EXPECT_LT(map.objects()[0].box.center().z(), 3.5);
   EXPECT_EQ(map.confirmed(), 1);
 }
 
-TEST(DynamicMap, OneMaskKeepsOneObjectAlive) {
+TEST(DynamicMap, OneMaskKeepsOneObject) {
   DynamicMap map;
   DynamicCluster engine = cluster_at({0.0F, 0.0F, 3.0F}, ObjectClass::kAgv);
   DynamicCluster mast = cluster_at({0.0F, 0.0F, 4.2F}, ObjectClass::kAgv);
   engine.instance = 0;
   mast.instance = 1;
-  for (int i = 0; i < 10; ++i) give(map, i, {engine, mast});
+  for (int i = 0; i < 10; ++i) update(map, i, {engine, mast});
   EXPECT_EQ(map.objects().size(), 2U);
   mast.instance = 0;
-  for (int i = 10; i < 40; ++i) give(map, i, {engine, mast});
+  for (int i = 10; i < 40; ++i) update(map, i, {engine, mast});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_LT(map.objects()[0].box.center().z(), 3.5);
 }
@@ -276,14 +276,14 @@ TEST(DynamicMap, AClusterWithoutPointsIsWhereItsBoxIsAndOneWithoutABoxIsNowhere)
   lost_points.centroid.setZero();
   DynamicCluster no_box = lost_points;
   no_box.box_min.setConstant(NAN);
-  for (int i = 0; i < 10; ++i) give(map, i, {no_box, lost_points});
+  for (int i = 0; i < 10; ++i) update(map, i, {no_box, lost_points});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_NEAR(map.objects()[0].box.center().z(), 3.0, 0.3);
 }
 
 TEST(DynamicMap, IgnoresFramesOutOfOrder) {
   DynamicMap map;
-  for (const int index : {3, 3, 1, 3}) give(map, index, {cluster_at({0.0F, 0.0F, 2.0F})});
+  for (const int index : {3, 3, 1, 3}) update(map, index, {cluster_at({0.0F, 0.0F, 2.0F})});
   EXPECT_EQ(map.confirmed(), 0);
 }
 

@@ -14,31 +14,32 @@ namespace {
 
 using namespace test;  // NOLINT: helpers of the tests
 
-OccupancyVoxels some_voxels(std::vector<VoxelKey> occupied, std::vector<VoxelKey> free) {
+OccupancyVoxels make_voxels(std::vector<VoxelKey> occupied, std::vector<VoxelKey> free) {
   return {0.1, std::move(occupied), std::move(free)};
 }
 
-Occupancy verdict(const OccupancyVoxels& voxels) {
+Occupancy first_cell(const OccupancyVoxels& voxels) {
   const OccupancyGrid grid = floor_grid(voxels, Transform<World, Map>(), GridConfig{});
   return grid.cells.empty() ? Occupancy::kUnknown : grid.cells[0];
 }
 
-TEST(FloorGrid, AColumnIsWhatItsVoxelsMakeIt) {
-  EXPECT_EQ(verdict(some_voxels({}, {})), Occupancy::kUnknown);
-  EXPECT_EQ(verdict(some_voxels({{0, 0, 0}}, {})), Occupancy::kFree) << "floor";
-  EXPECT_EQ(verdict(some_voxels({}, {{0, 0, 3}})), Occupancy::kFree) << "low and empty";
-  EXPECT_EQ(verdict(some_voxels({}, {{0, 0, 9}})), Occupancy::kUnknown) << "high and empty";
-  EXPECT_EQ(verdict(some_voxels({{0, 0, 5}, {0, 0, 6}}, {{0, 0, 3}})), Occupancy::kOccupied)
+TEST(FloorGrid, ClassifiesColumnByItsVoxels) {
+  EXPECT_EQ(first_cell(make_voxels({}, {})), Occupancy::kUnknown);
+  EXPECT_EQ(first_cell(make_voxels({{0, 0, 0}}, {})), Occupancy::kFree) << "floor";
+  EXPECT_EQ(first_cell(make_voxels({}, {{0, 0, 3}})), Occupancy::kFree) << "low and empty";
+  EXPECT_EQ(first_cell(make_voxels({}, {{0, 0, 9}})), Occupancy::kUnknown) << "high and empty";
+  EXPECT_EQ(first_cell(make_voxels({{0, 0, 5}, {0, 0, 6}}, {{0, 0, 3}})), Occupancy::kOccupied)
       << "table";
-  EXPECT_EQ(verdict(some_voxels({{0, 0, 16}, {0, 0, 17}}, {})), Occupancy::kOccupied) << "head";
-  EXPECT_EQ(verdict(some_voxels({{0, 0, 19}}, {{0, 0, 1}})), Occupancy::kFree) << "lamp";
-  EXPECT_EQ(verdict(some_voxels({{0, 0, 7}}, {{0, 0, 3}})), Occupancy::kFree) << "speck";
-  EXPECT_EQ(verdict(some_voxels({{0, 0, 0}, {0, 0, 1}}, {})), Occupancy::kFree) << "on the floor";
-  EXPECT_EQ(verdict(some_voxels({{0, 0, -9}}, {})), Occupancy::kUnknown) << "pit";
+  EXPECT_EQ(first_cell(make_voxels({{0, 0, 16}, {0, 0, 17}}, {})), Occupancy::kOccupied) << "head";
+  EXPECT_EQ(first_cell(make_voxels({{0, 0, 19}}, {{0, 0, 1}})), Occupancy::kFree) << "lamp";
+  EXPECT_EQ(first_cell(make_voxels({{0, 0, 7}}, {{0, 0, 3}})), Occupancy::kFree) << "single voxel";
+  EXPECT_EQ(first_cell(make_voxels({{0, 0, 0}, {0, 0, 1}}, {})), Occupancy::kFree)
+      << "on the floor";
+  EXPECT_EQ(first_cell(make_voxels({{0, 0, -9}}, {})), Occupancy::kUnknown) << "pit";
 }
 
-TEST(FloorGrid, HasItsOriginAtTheLowestCorner) {
-  const OccupancyGrid grid = floor_grid(some_voxels({{-3, 5, 4}, {-3, 5, 5}}, {{1, -2, 3}}),
+TEST(FloorGrid, OriginIsLowestCorner) {
+  const OccupancyGrid grid = floor_grid(make_voxels({{-3, 5, 4}, {-3, 5, 5}}, {{1, -2, 3}}),
                                         Transform<World, Map>(), GridConfig{});
   EXPECT_EQ(grid.cells.width(), 5);
   EXPECT_EQ(grid.cells.height(), 8);
@@ -48,25 +49,25 @@ TEST(FloorGrid, HasItsOriginAtTheLowestCorner) {
   EXPECT_EQ(grid.cells(2, 3), Occupancy::kUnknown);
 }
 
-TEST(FloorGrid, VeryLargeMapsGetCoarseCells) {
+TEST(FloorGrid, LargeMapsGetCoarseCells) {
   const OccupancyGrid grid =
-      floor_grid(some_voxels({{-60000, -60000, 4}, {-60000, -60000, 5}}, {{60000, 60000, 4}}),
+      floor_grid(make_voxels({{-60000, -60000, 4}, {-60000, -60000, 5}}, {{60000, 60000, 4}}),
                  Transform<World, Map>(), GridConfig{});
   EXPECT_LE(grid.cells.size(), 100'000'000U);
   EXPECT_NEAR(grid.resolution, 1.6, 1e-9);
   EXPECT_EQ(grid.cells(0, 0), Occupancy::kOccupied);
 }
 
-/// A camera pitched down by 25 degrees goes through a room with a crate, a door sill and a lamp.
+/// A camera pitched down by 25 degrees maps a room with a crate, a door sill and a lamp.
 class TiltedCamera : public ::testing::Test {
  protected:
   TiltedCamera() {
-    room_.things = {{{0.8, -0.3, 0.0}, {1.4, 0.3, 0.6}},
-                    {{-1.2, 0.5, 0.0}, {-0.6, 1.0, 0.04}},
-                    {{0.0, 0.8, 2.0}, {0.3, 1.1, 2.3}}};
+    room_.boxes = {{{0.8, -0.3, 0.0}, {1.4, 0.3, 0.6}},
+                   {{-1.2, 0.5, 0.0}, {-0.6, 1.0, 0.04}},
+                   {{0.0, 0.8, 2.0}, {0.3, 1.1, 2.3}}};
     for (const double x : {-2.0, 0.0, 2.2}) {
       for (const double y : {-1.2, 1.3}) {
-        for (int i = 0; i < 12; ++i) look(camera_in_room({x, y, 1.2}, i * 0.5236, 0.436));
+        for (int i = 0; i < 12; ++i) integrate(camera_in_room({x, y, 1.2}, i * 0.5236, 0.436));
       }
     }
     floor_ = find_floor(static_map_.cloud(), SensorAxes::camera().up, FloorConfig{});
@@ -75,7 +76,7 @@ class TiltedCamera : public ::testing::Test {
     grid_ = floor_grid(voxels_, T_world_map_, GridConfig{});
   }
 
-  void look(const Transform<RoomFrame, Sensor>& T_room_sensor) {
+  void integrate(const Transform<RoomFrame, Sensor>& T_room_sensor) {
     const Transform<World, Sensor> T_world_sensor(T_room_first_.isometry().inverse() *
                                                   T_room_sensor.isometry());
     const LabeledCloud cloud = view(room_, T_room_sensor);
@@ -108,23 +109,23 @@ class TiltedCamera : public ::testing::Test {
   OccupancyGrid grid_;
 };
 
-TEST_F(TiltedCamera, FindsTheFloor) {
+TEST_F(TiltedCamera, FindsFloor) {
   ASSERT_TRUE(floor_.found);
   const Eigen::Vector3d up = T_room_first_.rotation() * floor_.up;
   EXPECT_GT(up.z(), std::cos(0.005));
   EXPECT_NEAR(floor_.height, -1.2, 0.01);
 }
 
-TEST_F(TiltedCamera, TheFloorIsFreeTheCrateIsNot) {
+TEST_F(TiltedCamera, FloorIsFreeAndCrateOccupied) {
   auto crate = count(0.9, -0.2, 1.3, 0.2);
-  EXPECT_GE(crate[Occupancy::kOccupied], 4);  // its top is seen
+  EXPECT_GE(crate[Occupancy::kOccupied], 4);  // its top is visible
   EXPECT_EQ(crate[Occupancy::kFree], 0);
   auto open = count(-2.7, -1.7, 0.6, 1.7);
-  EXPECT_EQ(open[Occupancy::kOccupied], 0);  // nor are sill and lamp
+  EXPECT_EQ(open[Occupancy::kOccupied], 0);  // sill and lamp are not obstacles
   EXPECT_LT(open[Occupancy::kUnknown], open[Occupancy::kFree] / 50);
 }
 
-TEST_F(TiltedCamera, WallsStandAroundIt) {
+TEST_F(TiltedCamera, WallsAreOccupied) {
   for (int i = 0; i < 30; ++i) {
     const double y = -1.5 + 0.1 * i;
     EXPECT_GE(count(2.8, y - 0.06, 3.2, y + 0.06)[Occupancy::kOccupied], 1) << y;
@@ -133,7 +134,7 @@ TEST_F(TiltedCamera, WallsStandAroundIt) {
   EXPECT_EQ(count(3.25, -2.0, 10.0, 2.0)[Occupancy::kOccupied], 0);
 }
 
-TEST_F(TiltedCamera, VoxelsOfTheMapFrameComeOnceAndSorted) {
+TEST_F(TiltedCamera, VoxelsAreUniqueAndSorted) {
   EXPECT_TRUE(std::is_sorted(voxels_.occupied.begin(), voxels_.occupied.end()));
   std::set<VoxelKey> all(voxels_.occupied.begin(), voxels_.occupied.end());
   all.insert(voxels_.free.begin(), voxels_.free.end());

@@ -16,16 +16,16 @@ double radians(double degrees) {
   return degrees * std::numbers::pi / 180.0;
 }
 
-/// Points on a rectangle, a few centimetres apart, with noise across it.
+/// Points on a rectangle, a few centimetres apart, with noise along its normal.
 void add_plane(const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                MapCloud& map, double noise = 0.01) {
   RandomStream random(map.size() + 1);
   const Eigen::Vector3d normal = a.cross(b).normalized();
   const auto count = static_cast<int>(a.cross(b).norm() / (0.04 * 0.04));
   for (int i = 0; i < count; ++i) {
-    const double off = noise * (random.uniform() + random.uniform() - 1.0);
+    const double error = noise * (random.uniform() + random.uniform() - 1.0);
     const Eigen::Vector3d point =
-        corner + random.uniform() * a + random.uniform() * b + off * normal;
+        corner + random.uniform() * a + random.uniform() * b + error * normal;
     map.points.push_back(point.cast<float>());
     map.normals.push_back(normal.cast<float>());
   }
@@ -52,7 +52,7 @@ double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::acos(std::min(1.0, a.dot(b)));
 }
 
-TEST(Floor, IsFoundUnderATiltedSensor) {
+TEST(Floor, IsFoundWithTiltedSensor) {
   for (const double pitch : {-35.0, -20.0, 0.0, 10.0, 35.0}) {
     for (const double roll : {-10.0, 0.0, 15.0}) {
       Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -76,7 +76,7 @@ TEST(Floor, NeedsNoNormals) {
   EXPECT_NEAR(floor.height, 0.0, 0.01);
 }
 
-TEST(Floor, IsTheLowestLevelNotTheLargest) {
+TEST(Floor, IsLowestLevelNotLargest) {
   MapCloud map;
   add_plane({0, 0, 0}, {2, 0, 0}, {0, 1.5, 0}, map);
   add_plane({0, 2, 0.75}, {4, 0, 0}, {0, 3, 0}, map);
@@ -85,24 +85,24 @@ TEST(Floor, IsTheLowestLevelNotTheLargest) {
   EXPECT_NEAR(floor.height, 0.0, 0.01);
 }
 
-TEST(Floor, StrayPointsBelowItAreNoFloor) {
+TEST(Floor, IgnoresOutliersBelow) {
   MapCloud map = room();
   add_plane({0, 0, -1.0}, {0.5, 0, 0}, {0, 0.5, 0}, map);
   const Floor floor = find_floor(map, kUp, FloorConfig{});
   EXPECT_NEAR(floor.height, 0.0, 0.01);
 }
 
-TEST(Floor, CeilingsAndWallsAreNone) {
+TEST(Floor, IgnoresCeilingsAndWalls) {
   MapCloud map;
   add_plane({-3, -2, 2.5}, {0, 5, 0}, {6, 0, 0}, map);
   add_plane({-3, -2, 0}, {0, 5, 0}, {0, 0, 2.5}, map);
   const Floor floor = find_floor(map, kUp, FloorConfig{});
   EXPECT_FALSE(floor.found);
   EXPECT_EQ(floor.up, kUp);
-  EXPECT_NEAR(floor.height, 0.1, 0.2);  // the lowest points, but for strays
+  EXPECT_NEAR(floor.height, 0.1, 0.2);  // the lowest points without outliers
 }
 
-TEST(Floor, OfNothingIsAtTheSensor) {
+TEST(Floor, EmptyMapGivesSensorHeight) {
   const Floor floor = find_floor(MapCloud{}, kUp, FloorConfig{});
   EXPECT_FALSE(floor.found);
   EXPECT_EQ(floor.height, 0.0);
@@ -111,7 +111,7 @@ TEST(Floor, OfNothingIsAtTheSensor) {
                   .isApprox(Eigen::Isometry3d::Identity()));
 }
 
-TEST(Floor, TheMapFrameStandsOnItBelowTheSensor) {
+TEST(Floor, MapFrameIsOnFloorBelowSensor) {
   const Floor floor{Eigen::Vector3d(0.1, -1.0, 0.3).normalized(), -1.4, true};
   const Transform<World, Map> T = map_frame(floor, Eigen::Vector3d::UnitZ());
   EXPECT_NEAR(T.rotation().determinant(), 1.0, 1e-12);
@@ -120,7 +120,7 @@ TEST(Floor, TheMapFrameStandsOnItBelowTheSensor) {
   EXPECT_TRUE((T.inverse() * Eigen::Vector3d::Zero()).isApprox(Eigen::Vector3d(0, 0, 1.4), 1e-9));
 }
 
-TEST(Floor, ASensorThatLooksDownHasAMapFrameToo) {
+TEST(Floor, MapFrameExistsForDownwardSensor) {
   const Floor floor{-Eigen::Vector3d::UnitZ(), -1.4, true};
   const Transform<World, Map> T = map_frame(floor, Eigen::Vector3d::UnitZ());
   EXPECT_TRUE((T.rotation() * T.rotation().transpose()).isIdentity(1e-12));

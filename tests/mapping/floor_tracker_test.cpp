@@ -10,48 +10,48 @@ namespace {
 const Eigen::Vector3d kCameraUp(0, -1, 0);
 
 /// Gives the watch `frames` views of the room; the world is the first camera's frame.
-void watch(FloorTracker& watch, const Room& room, const Transform<RoomFrame, Sensor>& first,
+void track(FloorTracker& tracker, const Room& room, const Transform<RoomFrame, Sensor>& first,
            const Transform<RoomFrame, Sensor>& now, int frames) {
   const Transform<World, Sensor> T_world_sensor(first.isometry().inverse() * now.isometry());
-  for (int i = 0; i < frames; ++i) watch.update(view(room, now), T_world_sensor, kCameraUp);
+  for (int i = 0; i < frames; ++i) tracker.update(view(room, now), T_world_sensor, kCameraUp);
 }
 
-TEST(FloorTracker, FindsTheFloorUnderACameraThatLooksDown) {
+TEST(FloorTracker, FindsFloorBelowPitchedCamera) {
   const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.3);
   FloorTracker floor;
-  watch(floor, Room(), camera, camera, 20);
+  track(floor, Room(), camera, camera, 20);
   ASSERT_TRUE(floor.floor().has_value());
   const Eigen::Vector3d up = camera.rotation().transpose() * Eigen::Vector3d::UnitZ();
   EXPECT_GT(floor.floor()->up.dot(up), std::cos(0.01));
   EXPECT_NEAR(floor.floor()->height, -1.4, 0.02);
 }
 
-TEST(FloorTracker, ATableIsNotTheFloor) {
+TEST(FloorTracker, TableDoesNotReplaceFloor) {
   Room room;
   const auto first = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.3);
   FloorTracker floor;
-  watch(floor, room, first, first, 10);
-  room.things.push_back({{-1.5, -1.9, 0.0}, {2.9, 1.9, 0.8}});
-  watch(floor, room, first, camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.6), 10);
+  track(floor, room, first, first, 10);
+  room.boxes.push_back({{-1.5, -1.9, 0.0}, {2.9, 1.9, 0.8}});
+  track(floor, room, first, camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.6), 10);
   ASSERT_TRUE(floor.floor().has_value());
   EXPECT_NEAR(floor.floor()->height, -1.4, 0.03);
 }
 
-TEST(FloorTracker, ALowerFloorTakesItsPlaceAtOnce) {
+TEST(FloorTracker, LowerFloorReplacesFormerImmediately) {
   Room room;
-  room.things.push_back({{-2.9, -1.9, 0.0}, {2.9, 1.9, 0.5}});
+  room.boxes.push_back({{-2.9, -1.9, 0.0}, {2.9, 1.9, 0.5}});
   const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.4);
   FloorTracker floor;
-  watch(floor, room, camera, camera, 10);
+  track(floor, room, camera, camera, 10);
   EXPECT_NEAR(floor.floor().value().height, -0.9, 0.03);
-  watch(floor, Room(), camera, camera, 5);
+  track(floor, Room(), camera, camera, 5);
   EXPECT_NEAR(floor.floor().value().height, -1.4, 0.03);
 }
 
-TEST(FloorTracker, WithoutAFloorInViewThereIsNone) {
+TEST(FloorTracker, HasNoFloorWithoutOneInView) {
   const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, -0.6);
   FloorTracker floor;
-  watch(floor, Room(), camera, camera, 10);
+  track(floor, Room(), camera, camera, 10);
   EXPECT_FALSE(floor.floor().has_value());
 }
 

@@ -25,7 +25,7 @@ TEST(FrameViewpoints, AreFoundByFrameNumber) {
   }
 }
 
-TEST(FrameViewpoints, PruningKeepsNumbersAndRemovesTheRest) {
+TEST(FrameViewpoints, PruningKeepsNeededFramesAndNumbers) {
   FrameViewpoints viewpoints = viewpoints_of(10);
   viewpoints.prune(needed(10, {2, 7}));
   EXPECT_EQ(viewpoints.size(), 2U);
@@ -36,7 +36,7 @@ TEST(FrameViewpoints, PruningKeepsNumbersAndRemovesTheRest) {
   EXPECT_EQ(viewpoints.at(11).x(), 11.0F);
 }
 
-TEST(FrameViewpoints, WantPruningAgainOnlyAfterDoubling) {
+TEST(FrameViewpoints, WantPruningAfterDoubling) {
   FrameViewpoints viewpoints = viewpoints_of(4095);
   EXPECT_FALSE(viewpoints.wants_pruning());
   viewpoints.add(Eigen::Vector3f::Zero());

@@ -63,16 +63,16 @@ std::set<int> parts_of(const ClusterParts& parts, const std::set<std::size_t>& p
   return found;
 }
 
-TEST(GroupDivision, OnePersonIsOnePart) {
+TEST(GroupDivision, KeepsSinglePersonWhole) {
   Scene scene;
   scene.add_body(scene.add_cluster(ObjectClass::kPerson), 0.5, 4.0, 0.4);
   EXPECT_EQ(scene.divide().cluster, std::vector<std::size_t>{0});
 }
 
-TEST(GroupDivision, PeopleInAClusterAreTold) {
-  for (const double turn : {0.0, 0.7, 2.5}) {
+TEST(GroupDivision, SeparatesPeopleInOneCluster) {
+  for (const double rotation : {0.0, 0.7, 2.5}) {
     Scene scene(Eigen::Translation3d(1.0, 0.2, -0.5) *
-                Eigen::AngleAxisd(turn, Eigen::Vector3d(0.2, 1.0, 0.1).normalized()));
+                Eigen::AngleAxisd(rotation, Eigen::Vector3d(0.2, 1.0, 0.1).normalized()));
     scene.add_body(scene.add_cluster(ObjectClass::kPerson), -2.0, 3.0);
     const int group = scene.add_cluster(ObjectClass::kPerson);
     const auto front = scene.add_body(group, 0.0, 4.0);
@@ -83,14 +83,14 @@ TEST(GroupDivision, PeopleInAClusterAreTold) {
     std::set<int> all;
     for (const auto& body : {front, behind, beside}) {
       const std::set<int> of_body = parts_of(parts, body);
-      ASSERT_EQ(of_body.size(), 1U) << "turn " << turn;
+      ASSERT_EQ(of_body.size(), 1U) << "rotation " << rotation;
       all.insert(*of_body.begin());
     }
     EXPECT_EQ(all, (std::set<int>{1, 2, 3}));
   }
 }
 
-TEST(GroupDivision, StrayPointsMakeNoPerson) {
+TEST(GroupDivision, OutliersFormNoPart) {
   Scene scene;
   const int cluster = scene.add_cluster(ObjectClass::kPerson);
   scene.add_body(cluster, 0.0, 4.0);
@@ -98,7 +98,7 @@ TEST(GroupDivision, StrayPointsMakeNoPerson) {
   EXPECT_EQ(scene.divide().cluster, std::vector<std::size_t>{0});
 }
 
-TEST(GroupDivision, AVehicleIsAsLongAsItIs) {
+TEST(GroupDivision, DoesNotDivideVehicles) {
   Scene scene;
   const int cluster = scene.add_cluster(ObjectClass::kAgv);
   scene.add_body(cluster, 0.0, 4.0);
@@ -106,17 +106,17 @@ TEST(GroupDivision, AVehicleIsAsLongAsItIs) {
   EXPECT_EQ(scene.divide().cluster, std::vector<std::size_t>{0});
 }
 
-TEST(GroupDivision, ClustersWithoutPointsAndPointsWithoutReturnsAreKeptApart) {
+TEST(GroupDivision, AssignsNoPartToInvalidOrUnclusteredPoints) {
   Scene scene;
   scene.add_cluster(ObjectClass::kPerson);
   const int cluster = scene.add_cluster(ObjectClass::kPerson);
-  const std::size_t lost = scene.add_point(cluster, Eigen::Vector3d::Constant(NAN));
-  const std::size_t loose = scene.add_point(-1, {0.0, 0.0, 3.0});
+  const std::size_t invalid = scene.add_point(cluster, Eigen::Vector3d::Constant(NAN));
+  const std::size_t unclustered = scene.add_point(-1, {0.0, 0.0, 3.0});
   const auto body = scene.add_body(cluster, 0.0, 4.0);
   const ClusterParts parts = scene.divide();
   EXPECT_EQ(parts.cluster, (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(parts.part[lost], -1);
-  EXPECT_EQ(parts.part[loose], -1);
+  EXPECT_EQ(parts.part[invalid], -1);
+  EXPECT_EQ(parts.part[unclustered], -1);
   EXPECT_EQ(parts_of(parts, body), std::set<int>{1});
 }
 

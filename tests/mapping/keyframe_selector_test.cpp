@@ -19,12 +19,12 @@ OdometryEstimate estimate(double seconds, double x, double degrees,
   return odometry;
 }
 
-TEST(KeyframeSelector, TakesTheFirstFrame) {
+TEST(KeyframeSelector, SelectsFirstFrame) {
   KeyframeSelector selector;
   EXPECT_TRUE(selector.is_keyframe(estimate(0.0, 0.0, 0.0, Status::kInitialized)));
 }
 
-TEST(KeyframeSelector, MeasuresMotionFromTheLastKeyframe) {
+TEST(KeyframeSelector, MeasuresMotionFromLastKeyframe) {
   KeyframeSelector selector({.translation = 0.10, .rotation = 5.0, .max_interval = 100.0});
   ASSERT_TRUE(selector.is_keyframe(estimate(0.0, 0.0, 0.0)));
   EXPECT_FALSE(selector.is_keyframe(estimate(0.1, 0.06, 0.0)));
@@ -33,7 +33,7 @@ TEST(KeyframeSelector, MeasuresMotionFromTheLastKeyframe) {
   EXPECT_TRUE(selector.is_keyframe(estimate(0.4, 0.20, 6.0)));
 }
 
-TEST(KeyframeSelector, TakesAStillCameraAfterTheInterval) {
+TEST(KeyframeSelector, SelectsStaticCameraAfterInterval) {
   KeyframeSelector selector({.translation = 0.10, .rotation = 5.0, .max_interval = 1.0});
   ASSERT_TRUE(selector.is_keyframe(estimate(0.0, 0.0, 0.0)));
   EXPECT_FALSE(selector.is_keyframe(estimate(0.9, 0.0, 0.0)));
@@ -41,7 +41,7 @@ TEST(KeyframeSelector, TakesAStillCameraAfterTheInterval) {
   EXPECT_FALSE(selector.is_keyframe(estimate(1.9, 0.0, 0.0)));
 }
 
-TEST(KeyframeSelector, NeverTakesALostFrame) {
+TEST(KeyframeSelector, NeverSelectsLostFrame) {
   KeyframeSelector selector;
   EXPECT_FALSE(selector.is_keyframe(estimate(0.0, 0.0, 0.0, Status::kLost)));
   ASSERT_TRUE(selector.is_keyframe(estimate(0.1, 0.0, 0.0)));

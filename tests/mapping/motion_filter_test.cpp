@@ -16,7 +16,7 @@ namespace {
 
 const Eigen::Vector3d kUp(0, 0, 1);
 
-TEST(MotionFilter, FollowsASteadyPointExactlyInTheEnd) {
+TEST(MotionFilter, ConvergesToConstantVelocity) {
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.2, 1.0);
   const Eigen::Vector3d velocity(1.0, -0.5, 0.0);
   for (int i = 1; i <= 300; ++i) {
@@ -27,17 +27,17 @@ TEST(MotionFilter, FollowsASteadyPointExactlyInTheEnd) {
   EXPECT_TRUE(filter.position().isApprox(10.0 * velocity, 1e-4));
 }
 
-TEST(MotionFilter, TwoShortStepsAreOneLongOne) {
-  MotionFilter once(Eigen::Vector3d(1, 2, 3), kUp, 0.1, 0.5);
-  MotionFilter twice = once;
-  once.predict(0.4, 0.2);
-  twice.predict(0.1, 0.2);
-  twice.predict(0.3, 0.2);
-  EXPECT_TRUE(once.position_covariance().isApprox(twice.position_covariance(), 1e-12));
-  EXPECT_TRUE(once.velocity_covariance().isApprox(twice.velocity_covariance(), 1e-12));
+TEST(MotionFilter, PredictionIsIndependentOfStepSize) {
+  MotionFilter one_step(Eigen::Vector3d(1, 2, 3), kUp, 0.1, 0.5);
+  MotionFilter two_steps = one_step;
+  one_step.predict(0.4, 0.2);
+  two_steps.predict(0.1, 0.2);
+  two_steps.predict(0.3, 0.2);
+  EXPECT_TRUE(one_step.position_covariance().isApprox(two_steps.position_covariance(), 1e-12));
+  EXPECT_TRUE(one_step.velocity_covariance().isApprox(two_steps.velocity_covariance(), 1e-12));
 }
 
-TEST(MotionFilter, ItsCovarianceIsHonest) {
+TEST(MotionFilter, CovarianceMatchesError) {
   // White noise of the measurements: errors are within three sigma nearly always.
   RandomStream random(5);
   const double sigma = 0.05;
@@ -61,7 +61,7 @@ TEST(MotionFilter, ItsCovarianceIsHonest) {
   EXPECT_LT(outside, runs / 25);
 }
 
-TEST(MotionFilter, WhatComesIntoViewDoesNotRise) {
+TEST(MotionFilter, AppearingHeightIsNoVerticalMotion) {
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.1, 1.0);
   for (int i = 1; i <= 60; ++i) {
     filter.predict(1.0 / 30.0, 0.1);
@@ -71,46 +71,46 @@ TEST(MotionFilter, WhatComesIntoViewDoesNotRise) {
   EXPECT_NEAR(filter.position().z(), 1.0, 0.02);
 }
 
-TEST(MotionFilter, AJumpCountsLittle) {
-  // By how much one measurement that is so far off [m] changes the velocity.
-  const auto effect_of = [](double off) {
+TEST(MotionFilter, LimitsInfluenceOfOutliers) {
+  // Change of the velocity by one measurement with that error [m].
+  const auto velocity_error = [](double error) {
     MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.1, 1.0);
     for (int i = 1; i <= 61; ++i) {
       filter.predict(1.0 / 30.0, 0.1);
-      filter.update({i / 30.0 + (i == 61 ? off : 0.0), 0.0, 0.0}, {0.03});
+      filter.update({i / 30.0 + (i == 61 ? error : 0.0), 0.0, 0.0}, {0.03});
     }
     return filter.velocity().x() - 1.0;
   };
-  EXPECT_NEAR(effect_of(0.04), 2.0 * effect_of(0.02), 1e-3);
-  EXPECT_LT(effect_of(1.0), 3.0 * effect_of(0.1));
+  EXPECT_NEAR(velocity_error(0.04), 2.0 * velocity_error(0.02), 1e-3);
+  EXPECT_LT(velocity_error(1.0), 3.0 * velocity_error(0.1));
 }
 
-/// Largest error of the velocity of a point at 1 m/s whose measured place is off by 0.3 m in some
-/// of its 75 frames, from frame 15 on.
-double worst_velocity(int off_begin, int off_end, const PositionError& error_while_off) {
+/// Largest velocity error of a point at 1 m/s whose measured position has an offset of 0.3 m in
+/// frames [offset_begin, offset_end) of 75. The first 15 frames do not count.
+double worst_velocity(int offset_begin, int offset_end, const PositionError& error_with_offset) {
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.3, 0.7);
   double worst = 0.0;
   for (int i = 1; i <= 75; ++i) {
     filter.predict(1.0 / 15.0, 0.2);
-    const bool is_off = i >= off_begin && i < off_end;
-    filter.update({i / 15.0 + (is_off ? 0.3 : 0.0), 0.0, 0.0},
-                  is_off ? error_while_off : PositionError{0.03, 0.0});
+    const bool has_offset = i >= offset_begin && i < offset_end;
+    filter.update({i / 15.0 + (has_offset ? 0.3 : 0.0), 0.0, 0.0},
+                  has_offset ? error_with_offset : PositionError{0.03, 0.0});
     if (i >= 15) worst = std::max(worst, std::abs(filter.velocity().x() - 1.0));
   }
   return worst;
 }
 
-TEST(MotionFilter, AnOffsetThatComesAndGoesIsNoMotion) {
+TEST(MotionFilter, TemporaryOffsetIsNoMotion) {
   EXPECT_LT(worst_velocity(30, 45, {0.03, 0.3}), 0.2);
   EXPECT_GT(worst_velocity(30, 45, {0.03, 0.0}), 0.6);
 }
 
-TEST(MotionFilter, AnOffsetFromTheBeginningIsNoMotionEither) {
+TEST(MotionFilter, InitialOffsetIsNoMotion) {
   EXPECT_LT(worst_velocity(0, 25, {0.03, 0.3}), 0.3);
   EXPECT_GT(worst_velocity(0, 25, {0.03, 0.0}), 0.6);
 }
 
-TEST(MotionFilter, TheWholeInViewEndsTheDoubtAboutThePlace) {
+TEST(MotionFilter, CompleteViewReducesPositionCovariance) {
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.3, 0.7);
   for (int i = 1; i <= 30; ++i) {
     filter.predict(1.0 / 15.0, 0.2);
@@ -123,14 +123,14 @@ TEST(MotionFilter, TheWholeInViewEndsTheDoubtAboutThePlace) {
   EXPECT_NEAR(filter.position().x(), 0.0, 0.03);
 }
 
-TEST(MotionFilter, AShiftIsNoMotion) {
+TEST(MotionFilter, ShiftKeepsVelocity) {
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.1, 1.0);
   filter.shift({0.5, 0.0, 0.0});
   EXPECT_EQ(filter.position().x(), 0.5);
   EXPECT_EQ(filter.velocity().norm(), 0.0);
 }
 
-TEST(MotionFilter, AnotherUpLeavesNoVelocityAlongIt) {
+TEST(MotionFilter, SetUpRemovesVerticalVelocity) {
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.01, 10.0);
   filter.predict(1.0, 0.1);
   filter.update({1.0, 0.0, 0.0}, {0.001});
@@ -141,7 +141,7 @@ TEST(MotionFilter, AnotherUpLeavesNoVelocityAlongIt) {
   EXPECT_NEAR(filter.velocity().norm(), 1.0, 0.02);
 }
 
-TEST(MotionFilter, LimitsTheSpeedButNotTheDirection) {
+TEST(MotionFilter, LimitsSpeedNotDirection) {
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.01, 100.0);
   filter.predict(1.0, 0.1);
   filter.update({3.0, 4.0, 0.0}, {0.001});
@@ -150,13 +150,13 @@ TEST(MotionFilter, LimitsTheSpeedButNotTheDirection) {
   EXPECT_NEAR(filter.velocity().y() / filter.velocity().x(), 4.0 / 3.0, 1e-6);
 }
 
-/// A walk over the floor with white accelerations, seen with errors, and what filters make of it.
+/// A path with random accelerations, its noisy measurements and the filter after each of them.
 struct Walk {
   static constexpr double kStep = 0.1;   // [s]
   static constexpr double kNoise = 0.3;  // of the acceleration [m^2/s^3]
   static constexpr double kSigma = 0.05;
-  std::vector<Eigen::Vector3d> seen;
-  std::vector<MotionFilter> filters;  // after each of the measurements
+  std::vector<Eigen::Vector3d> measurements;
+  std::vector<MotionFilter> filters;  // after each measurement
 
   explicit Walk(int steps) {
     RandomStream random(3);
@@ -166,8 +166,8 @@ struct Walk {
     for (int i = 0; i < steps; ++i) {
       if (i > 0) filter.predict(kStep, kNoise);
       const auto error = [&] { return 2.0 * static_cast<double>(random.uniform()) - 1.0; };
-      seen.push_back(position + kSigma * Eigen::Vector3d(error(), error(), error()));
-      filter.update(seen.back(), {kSigma});
+      measurements.push_back(position + kSigma * Eigen::Vector3d(error(), error(), error()));
+      filter.update(measurements.back(), {kSigma});
       filters.push_back(filter);
       velocity += Eigen::Vector3d(0.2 * error(), 0.2 * error(), 0.0);
       position += kStep * velocity;
@@ -180,9 +180,9 @@ struct Walk {
     }
   }
 
-  /// x and its speed at all steps, by least squares over everything at once.
+  /// x and its velocity at all steps, by batch least squares.
   Eigen::VectorXd batch() const {
-    const auto n = static_cast<Eigen::Index>(seen.size());
+    const auto n = static_cast<Eigen::Index>(measurements.size());
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * n);
     information(0, 0) += 1.0 / (0.2 * 0.2);
@@ -193,7 +193,7 @@ struct Walk {
     motion << -1.0, -kStep, 1.0, 0.0, 0.0, -1.0, 0.0, 1.0;
     for (Eigen::Index i = 0; i < n; ++i) {
       information(2 * i, 2 * i) += 1.0 / (kSigma * kSigma);
-      right(2 * i) += seen[static_cast<std::size_t>(i)].x() / (kSigma * kSigma);
+      right(2 * i) += measurements[static_cast<std::size_t>(i)].x() / (kSigma * kSigma);
       if (i == 0) continue;
       information.block<4, 4>(2 * i - 2, 2 * i - 2) +=
           motion.transpose() * (kNoise * noise).inverse() * motion;
@@ -202,7 +202,7 @@ struct Walk {
   }
 };
 
-TEST(MotionFilter, SmoothedItIsTheLeastSquaresSolutionOfAllMeasurements) {
+TEST(MotionFilter, SmootherEqualsBatchLeastSquares) {
   Walk walk(40);
   const Eigen::VectorXd expected = walk.batch();
   walk.smooth();
@@ -213,7 +213,7 @@ TEST(MotionFilter, SmoothedItIsTheLeastSquaresSolutionOfAllMeasurements) {
   }
 }
 
-TEST(MotionFilter, SmoothingMakesItSurer) {
+TEST(MotionFilter, SmoothingReducesCovariance) {
   Walk walk(40);
   const std::vector<MotionFilter> before = walk.filters;
   walk.smooth();
@@ -224,7 +224,7 @@ TEST(MotionFilter, SmoothingMakesItSurer) {
   }
 }
 
-TEST(MotionFilter, WhatWasOnlyExpectedTeachesNothing) {
+TEST(MotionFilter, SmoothingFromPredictionChangesNothing) {
   MotionFilter filter = Walk(20).filters.back();
   const MotionFilter before = filter;
   MotionFilter later = filter;
@@ -235,7 +235,7 @@ TEST(MotionFilter, WhatWasOnlyExpectedTeachesNothing) {
   EXPECT_TRUE(filter.velocity_covariance().isApprox(before.velocity_covariance(), 1e-6));
 }
 
-TEST(MotionFilter, AShiftIsNoMotionToTheSmootherEither) {
+TEST(MotionFilter, ShiftDoesNotAffectSmoothing) {
   Walk straight(40);
   Walk shifted = straight;
   const Eigen::Vector3d shift(0.5, 0.0, 0.0);
@@ -252,8 +252,8 @@ TEST(MotionFilter, AShiftIsNoMotionToTheSmootherEither) {
   EXPECT_TRUE(shifted.filters[k].position().isApprox(straight.filters[k].position(), 1e-9));
 }
 
-TEST(MotionFilter, AnOffsetThatEndedIsNoNewsOfTheMotion) {
-  // Half a view of a thing that stands, then all of it.
+TEST(MotionFilter, SmootherIgnoresTruncationOffset) {
+  // A static object, first truncated, then complete.
   std::vector<MotionFilter> filters;
   MotionFilter filter(Eigen::Vector3d::Zero(), kUp, 0.2, 0.7);
   for (int i = 0; i < 40; ++i) {

@@ -16,38 +16,38 @@ Timestamp stamp_of(int frame) {
   return Timestamp::from_seconds(1.0 + kStep * frame);
 }
 
-/// Goes at 1 m/s for the first half of its frames, then stands.
+/// Velocity of an object that moves for the first half of its frames, then stops [m/s].
 double true_speed(int frame, int frames) {
   return frame < frames / 2 ? 1.0 : 0.0;
 }
 
-/// What the dynamic map tells of such an object, frame by frame.
+/// Such an object as the dynamic map tracks it, frame by frame.
 std::vector<TrackedObject> stopping_object(int id, int frames, const DynamicMapConfig& config) {
-  std::vector<TrackedObject> seen;
+  std::vector<TrackedObject> tracked;
   MotionFilter motion(Eigen::Vector3d::Zero(), kUp, 0.1, 0.7);
-  double way = 0.0;
+  double distance = 0.0;
   bool moving = false;
   for (int i = 0; i < frames; ++i) {
     if (i > 0) {
       motion.predict(kStep, config.track.acceleration_noise);
-      way += kStep * true_speed(i - 1, frames);
+      distance += kStep * true_speed(i - 1, frames);
     }
-    motion.update({way, 0.0, 0.0}, {0.03});
+    motion.update({distance, 0.0, 0.0}, {0.03});
     moving = config.track.is_moving(motion.velocity().norm(), moving);
     ObjectBox box;
     box.id = id;
     box.T_world_box.translation() = motion.position();
     box.velocity = motion.velocity();
     box.moving = moving;
-    seen.push_back({box, TrackState::kActive, motion, stamp_of(0), stamp_of(i)});
+    tracked.push_back({box, TrackState::kActive, motion, stamp_of(0), stamp_of(i)});
   }
-  return seen;
+  return tracked;
 }
 
-ObjectHistory smoothed(const std::vector<TrackedObject>& seen, const DynamicMapConfig& config) {
+ObjectHistory smoothed(const std::vector<TrackedObject>& tracked, const DynamicMapConfig& config) {
   ObjectSmoother smoother(config);
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    smoother.add(stamp_of(static_cast<int>(i)), {seen[i]});
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    smoother.add(stamp_of(static_cast<int>(i)), {tracked[i]});
   }
   return smoother.history();
 }
@@ -67,25 +67,25 @@ std::vector<ObjectBox> boxes_of(const ObjectHistory& history) {
   return boxes;
 }
 
-std::vector<ObjectBox> boxes_of(const std::vector<TrackedObject>& seen) {
+std::vector<ObjectBox> boxes_of(const std::vector<TrackedObject>& tracked) {
   std::vector<ObjectBox> boxes;
-  for (const TrackedObject& object : seen) boxes.push_back(object.box);
+  for (const TrackedObject& object : tracked) boxes.push_back(object.box);
   return boxes;
 }
 
-TEST(ObjectSmoother, KnowsBetterWhenSomethingStopped) {
+TEST(ObjectSmoother, ReducesVelocityErrorAtStop) {
   const DynamicMapConfig config;
-  const auto seen = stopping_object(7, 100, config);
-  const double live = velocity_rmse(boxes_of(seen));
-  const double later = velocity_rmse(boxes_of(smoothed(seen, config)));
-  EXPECT_LT(later, 0.6 * live) << "live " << live << ", later " << later << " m/s";
+  const auto tracked = stopping_object(7, 100, config);
+  const double online = velocity_rmse(boxes_of(tracked));
+  const double smooth = velocity_rmse(boxes_of(smoothed(tracked, config)));
+  EXPECT_LT(smooth, 0.6 * online) << "online " << online << ", smoothed " << smooth << " m/s";
 }
 
-TEST(ObjectSmoother, GivesEveryFrameOnceInOrder) {
+TEST(ObjectSmoother, ReturnsEveryFrameOnceInOrder) {
   const DynamicMapConfig config;
-  const auto seen = stopping_object(7, 100, config);
-  const ObjectHistory history = smoothed(seen, config);
-  ASSERT_EQ(history.size(), seen.size());
+  const auto tracked = stopping_object(7, 100, config);
+  const ObjectHistory history = smoothed(tracked, config);
+  ASSERT_EQ(history.size(), tracked.size());
   for (std::size_t i = 0; i < history.size(); ++i) {
     EXPECT_EQ(history[i].stamp, stamp_of(static_cast<int>(i)));
     ASSERT_EQ(history[i].objects.size(), 1U);
@@ -93,7 +93,7 @@ TEST(ObjectSmoother, GivesEveryFrameOnceInOrder) {
   }
 }
 
-TEST(ObjectSmoother, WhetherItMovesAgreesWithItsVelocity) {
+TEST(ObjectSmoother, MotionStateAgreesWithVelocity) {
   const DynamicMapConfig config;
   for (const ObjectBox& box : boxes_of(smoothed(stopping_object(1, 100, config), config))) {
     const double speed = box.velocity.norm();
@@ -104,29 +104,29 @@ TEST(ObjectSmoother, WhetherItMovesAgreesWithItsVelocity) {
   }
 }
 
-TEST(ObjectSmoother, ALagOfNothingIsWhatWasKnownAtOnce) {
+TEST(ObjectSmoother, ZeroLagEqualsOnlineEstimate) {
   DynamicMapConfig config;
   config.history_lag = 0.0;
-  const auto seen = stopping_object(1, 40, config);
-  const ObjectHistory history = smoothed(seen, config);
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    EXPECT_EQ(history[i].objects[0].velocity, seen[i].box.velocity);
-    EXPECT_EQ(history[i].objects[0].center(), seen[i].box.center());
+  const auto tracked = stopping_object(1, 40, config);
+  const ObjectHistory history = smoothed(tracked, config);
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    EXPECT_EQ(history[i].objects[0].velocity, tracked[i].box.velocity);
+    EXPECT_EQ(history[i].objects[0].center(), tracked[i].box.center());
   }
 }
 
-TEST(ObjectSmoother, ALagIsEnoughToTellNearlyAsMuchAsTheWholeRun) {
+TEST(ObjectSmoother, LagApproximatesWholeRun) {
   DynamicMapConfig config;
-  const auto seen = stopping_object(1, 200, config);
-  const auto lagged = boxes_of(smoothed(seen, config));
+  const auto tracked = stopping_object(1, 200, config);
+  const auto lagged = boxes_of(smoothed(tracked, config));
   config.history_lag = 60.0;
-  const auto whole = boxes_of(smoothed(seen, config));
-  for (std::size_t i = 0; i < seen.size(); ++i) {
+  const auto whole = boxes_of(smoothed(tracked, config));
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
     EXPECT_NEAR((lagged[i].velocity - whole[i].velocity).norm(), 0.0, 0.1) << "frame " << i;
   }
 }
 
-TEST(ObjectSmoother, ObjectsDoNotTellOfEachOther) {
+TEST(ObjectSmoother, ObjectsAreIndependent) {
   const DynamicMapConfig config;
   const auto first = stopping_object(1, 60, config);
   auto second = stopping_object(2, 60, config);
@@ -142,14 +142,14 @@ TEST(ObjectSmoother, ObjectsDoNotTellOfEachOther) {
   }
 }
 
-TEST(ObjectSmoother, FramesWithoutObjectsStay) {
+TEST(ObjectSmoother, KeepsFramesWithoutObjects) {
   const DynamicMapConfig config;
-  const auto seen = stopping_object(3, 100, config);
+  const auto tracked = stopping_object(3, 100, config);
   ObjectSmoother smoother(config);
   for (int i = 0; i < 100; ++i) {
     const bool gone = i >= 40 && i < 50;
     smoother.add(stamp_of(i), gone ? std::vector<TrackedObject>{}
-                                   : std::vector{seen[static_cast<std::size_t>(i)]});
+                                   : std::vector{tracked[static_cast<std::size_t>(i)]});
   }
   const ObjectHistory history = smoother.history();
   ASSERT_EQ(history.size(), 100U);
@@ -157,18 +157,18 @@ TEST(ObjectSmoother, FramesWithoutObjectsStay) {
   EXPECT_EQ(history[55].objects.size(), 1U);
 }
 
-TEST(ObjectSmoother, AFrameOutOfOrderTellsNothing) {
+TEST(ObjectSmoother, DoesNotSmoothFramesOutOfOrder) {
   const DynamicMapConfig config;
-  const auto seen = stopping_object(3, 10, config);
+  const auto tracked = stopping_object(3, 10, config);
   ObjectSmoother smoother(config);
-  smoother.add(stamp_of(5), {seen[5]});
-  smoother.add(stamp_of(5), {seen[5]});
-  smoother.add(stamp_of(2), {seen[9]});
+  smoother.add(stamp_of(5), {tracked[5]});
+  smoother.add(stamp_of(5), {tracked[5]});
+  smoother.add(stamp_of(2), {tracked[9]});
   const ObjectHistory history = smoother.history();
   ASSERT_EQ(history.size(), 3U);
-  EXPECT_EQ(history[0].objects[0].center(), seen[5].box.center());
-  EXPECT_EQ(history[1].objects[0].velocity, seen[5].box.velocity);
-  EXPECT_EQ(history[2].objects[0].velocity, seen[9].box.velocity);
+  EXPECT_EQ(history[0].objects[0].center(), tracked[5].box.center());
+  EXPECT_EQ(history[1].objects[0].velocity, tracked[5].box.velocity);
+  EXPECT_EQ(history[2].objects[0].velocity, tracked[9].box.velocity);
 }
 
 }  // namespace

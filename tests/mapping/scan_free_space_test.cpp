@@ -11,7 +11,7 @@ constexpr double kMargin = 0.1;
 
 /// Points at distance `range` in every direction, or in those that `has` accepts.
 template <class Has>
-LabeledCloud ball(float range, const Has& has) {
+LabeledCloud sphere(float range, const Has& has) {
   std::mt19937 random(1);
   std::normal_distribution<float> normal;
   LabeledCloud cloud;
@@ -23,12 +23,12 @@ LabeledCloud ball(float range, const Has& has) {
   return cloud;
 }
 
-LabeledCloud ball(float range) {
-  return ball(range, [](const Eigen::Vector3f&) { return true; });
+LabeledCloud sphere(float range) {
+  return sphere(range, [](const Eigen::Vector3f&) { return true; });
 }
 
-TEST(ScanFreeSpace, IsBeforeThePointsInEveryDirection) {
-  const ScanFreeSpace space(ball(5.0F), kMargin);
+TEST(ScanFreeSpace, EndsAtPointsInAllDirections) {
+  const ScanFreeSpace space(sphere(5.0F), kMargin);
   std::mt19937 random(2);
   std::normal_distribution<float> normal;
   for (int i = 0; i < 2000; ++i) {
@@ -43,10 +43,10 @@ TEST(ScanFreeSpace, IsBeforeThePointsInEveryDirection) {
   }
 }
 
-TEST(ScanFreeSpace, EndsAtTheNearestOfNeighbouringPoints) {
-  LabeledCloud cloud = ball(5.0F);
+TEST(ScanFreeSpace, EndsAtNearestNeighborPoint) {
+  LabeledCloud cloud = sphere(5.0F);
   cloud.points.emplace_back(2.0F, 0.0F, 0.0F);
-  cloud.labels.push_back(PointLabel::kDynamic);  // whoever stands there hides what is behind
+  cloud.labels.push_back(PointLabel::kDynamic);  // occludes the space behind it
   const ScanFreeSpace space(cloud, kMargin);
   EXPECT_FALSE(space.sees_through({3.0F, 0.0F, 0.0F}));
   EXPECT_FALSE(space.sees_through({3.0F, 0.05F, 0.0F}));
@@ -54,8 +54,8 @@ TEST(ScanFreeSpace, EndsAtTheNearestOfNeighbouringPoints) {
   EXPECT_TRUE(space.sees_through({1.5F, 0.0F, 0.0F}));
 }
 
-TEST(ScanFreeSpace, IsUnknownWhereNothingWasMeasured) {
-  LabeledCloud cloud = ball(5.0F, [](const Eigen::Vector3f& d) { return d.x() < 0.0F; });
+TEST(ScanFreeSpace, IsUnknownWithoutReturns) {
+  LabeledCloud cloud = sphere(5.0F, [](const Eigen::Vector3f& d) { return d.x() < 0.0F; });
   cloud.points.emplace_back(1.0F, 1.0F, 1.0F);
   cloud.labels.push_back(PointLabel::kInvalid);
   const ScanFreeSpace space(cloud, kMargin);

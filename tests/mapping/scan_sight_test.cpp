@@ -19,7 +19,7 @@ using test::StandingBox;
 constexpr double kMargin = 0.15;
 const StandingBox kPerson{{3.8, -0.25, -1.0}, {4.2, 0.25, 0.75}};
 
-/// Sees `point` (world frame [m]) through from a pose.
+/// Whether a scan from that pose saw through `point` (world frame [m]).
 bool sees(const ScanSight& sight, const Transform<World, Sensor>& T_world_sensor,
           const Eigen::Vector3d& point) {
   return sight.sees_through((T_world_sensor.inverse() * point).cast<float>());
@@ -42,7 +42,7 @@ class SurfacePoints {
   std::uniform_int_distribution<int> side_{0, 2};
 };
 
-TEST(ScanSight, NeverSeesThroughWhatStands) {
+TEST(ScanSight, DoesNotSeeThroughStaticSurfaces) {
   const StandingBox hall{{-8.0, -8.0, -1.0}, {8.0, 8.0, 4.0}};
   const StandingBox pallet{{2.0, 1.0, -1.0}, {3.2, 1.8, -0.4}};
   SurfacePoints points;
@@ -59,7 +59,7 @@ TEST(ScanSight, NeverSeesThroughWhatStands) {
   }
 }
 
-TEST(ScanSight, SeesThroughWhereSomebodyStood) {
+TEST(ScanSight, SeesThroughFormerPosition) {
   const auto T = pose({0.0, 0.0, 0.0});
   const ScanSight sight(hall_scan({}, T), kMargin);
   SurfacePoints points;
@@ -74,7 +74,7 @@ TEST(ScanSight, SeesThroughWhereSomebodyStood) {
   EXPECT_GT(seen, 0.9 * high);
 }
 
-TEST(ScanSight, DoesNotSeeWhatIsBehindOrCloseBesideSomebody) {
+TEST(ScanSight, DoesNotSeeBehindOrCloseToPerson) {
   const auto T = pose({0.0, 0.0, 0.0});
   const ScanSight sight(hall_scan({kPerson}, T), kMargin);
   const ScanSight empty(hall_scan({}, T), kMargin);
@@ -87,7 +87,7 @@ TEST(ScanSight, DoesNotSeeWhatIsBehindOrCloseBesideSomebody) {
   for (const Eigen::Vector3d& point : {behind, beside, away}) EXPECT_TRUE(sees(empty, T, point));
 }
 
-TEST(ScanSight, KnowsNothingBeyondItsRingsOrWithoutReturns) {
+TEST(ScanSight, SeesNothingBeyondRingsOrWithoutReturns) {
   const auto T = pose({0.0, 0.0, 0.0});
   LabeledCloud scan = hall_scan({}, T);
   const Eigen::Vector3d above(1.0, 0.0, 0.5);  // 27 degrees, the last ring has 15
@@ -101,14 +101,15 @@ TEST(ScanSight, KnowsNothingBeyondItsRingsOrWithoutReturns) {
   EXPECT_FALSE(sees(ScanSight(LabeledCloud{}, kMargin), T, ahead));
 }
 
-TEST(ScanSight, IsNotMisledByPointsThatAreNone) {
+TEST(ScanSight, IgnoresInvalidPoints) {
   const auto T = pose({0.0, 0.0, 0.0});
   LabeledCloud scan = hall_scan({}, T);
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInf = std::numeric_limits<float>::infinity();
-  for (const Eigen::Vector3f& none : {Eigen::Vector3f(kNan, 0, 0), Eigen::Vector3f(kInf, 0, 0),
-                                      Eigen::Vector3f(kInf, -kInf, 1), Eigen::Vector3f(0, 0, 0)}) {
-    scan.points.push_back(none);
+  for (const Eigen::Vector3f& invalid :
+       {Eigen::Vector3f(kNan, 0, 0), Eigen::Vector3f(kInf, 0, 0), Eigen::Vector3f(kInf, -kInf, 1),
+        Eigen::Vector3f(0, 0, 0)}) {
+    scan.points.push_back(invalid);
     scan.labels.push_back(PointLabel::kStatic);
   }
   const ScanSight sight(scan, kMargin);
@@ -117,7 +118,7 @@ TEST(ScanSight, IsNotMisledByPointsThatAreNone) {
   EXPECT_FALSE(sees(sight, T, {9.0, 0.1, 0.1}));
 }
 
-TEST(ScanSight, MaySeeIntoTheBallsWhoseMiddleIsFree) {
+TEST(ScanSight, MaySeeIntoSpheresWithFreeCenter) {
   const auto T = pose({0.0, 0.0, 0.0});
   const ScanSight sight(hall_scan({}, T), kMargin);
   EXPECT_TRUE(sight.may_see_into({6.0F, 0.1F, 0.1F}, 0.1F));

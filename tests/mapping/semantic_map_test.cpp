@@ -9,11 +9,11 @@ namespace {
 
 constexpr double kSpacing = 0.05;
 
-ObjectBox object(int id, ObjectClass object_class, const Eigen::Vector3d& at) {
+ObjectBox object(int id, ObjectClass object_class, const Eigen::Vector3d& center) {
   ObjectBox box;
   box.id = id;
   box.object_class = object_class;
-  box.T_world_box.translation() = at;
+  box.T_world_box.translation() = center;
   box.size = {1.0, 0.5, 2.0};
   return box;
 }
@@ -27,13 +27,13 @@ MapCloud one_point() {
   return map;
 }
 
-TEST(SemanticMap, WithoutObjectsIsTheMap) {
+TEST(SemanticMap, EqualsMapWithoutObjects) {
   const MapCloud map = semantic_map(one_point(), {}, kSpacing);
   EXPECT_EQ(map.points, one_point().points);
   EXPECT_EQ(map.observations, one_point().observations);
 }
 
-TEST(SemanticMap, ABoxIsItsTwelveEdges) {
+TEST(SemanticMap, DrawsTwelveEdgesOfBox) {
   const ObjectHistory history = {{Timestamp(1), {object(1, ObjectClass::kAgv, {0, 0, 1})}}};
   const MapCloud map = semantic_map(one_point(), history, kSpacing);
   // 4 edges of each length, with a point more than steps.
@@ -42,15 +42,15 @@ TEST(SemanticMap, ABoxIsItsTwelveEdges) {
   EXPECT_EQ(map.normals.size(), map.points.size());
   EXPECT_EQ(map.observations.size(), map.points.size());
   for (std::size_t i = 1; i < map.points.size(); ++i) {
-    const Eigen::Array3f off = map.points[i].array() - Eigen::Array3f(0, 0, 1);
+    const Eigen::Array3f offset = map.points[i].array() - Eigen::Array3f(0, 0, 1);
     const Eigen::Array3f half(0.5F, 0.25F, 1.0F);
-    EXPECT_TRUE((off.abs() <= half + 1e-5F).all());
-    EXPECT_GE((off.abs() >= half - 1e-5F).count(), 2);  // on an edge
+    EXPECT_TRUE((offset.abs() <= half + 1e-5F).all());
+    EXPECT_GE((offset.abs() >= half - 1e-5F).count(), 2);  // on an edge
     EXPECT_GT(map.colors[i].g, map.colors[i].r);
   }
 }
 
-TEST(SemanticMap, WhatMovesWithoutANameIsAmber) {
+TEST(SemanticMap, UnknownClassIsAmber) {
   const ObjectHistory history = {{Timestamp(1), {object(1, ObjectClass::kUnknown, {0, 0, 1})}}};
   const MapCloud map = semantic_map({}, history, kSpacing);
   ASSERT_FALSE(map.colors.empty());
@@ -58,23 +58,23 @@ TEST(SemanticMap, WhatMovesWithoutANameIsAmber) {
                           [](Rgb c) { return c.r > c.g && c.g > 2 * c.b; }));
 }
 
-TEST(SemanticMap, AWayRunsOverTheFloorToTheLastBox) {
+TEST(SemanticMap, TrajectoryIsOnFloorUpToLastBox) {
   ObjectHistory history;
   for (int i = 0; i < 5; ++i) {
     history.push_back({Timestamp(i), {object(3, ObjectClass::kPerson, {0.5 * i, 0, 1})}});
   }
   const MapCloud map = semantic_map({}, history, kSpacing);
-  const auto on_way =
+  const auto on_trajectory =
       std::count_if(map.points.begin(), map.points.end(), [](const Eigen::Vector3f& p) {
         return p.x() < 1.4F && std::abs(p.y()) < 1e-5F && std::abs(p.z()) < 1e-5F;
       });
-  EXPECT_GE(on_way, 28);
+  EXPECT_GE(on_trajectory, 28);
   EXPECT_TRUE(std::all_of(map.points.begin(), map.points.end(),
                           [](const Eigen::Vector3f& p) { return p.x() < 2.6F; }));
   EXPECT_TRUE(std::all_of(map.colors.begin(), map.colors.end(), [](Rgb c) { return c.r > c.g; }));
 }
 
-TEST(SemanticMap, TheWayHasAGapWhereNobodySawIt) {
+TEST(SemanticMap, TrajectoryHasGapWithoutObservations) {
   ObjectHistory history;
   for (const int second : {0, 2}) {
     history.push_back({Timestamp(second * 1'000'000'000LL),

@@ -12,7 +12,7 @@ namespace {
 using test::organised_cloud;
 using test::pose;
 
-/// A wall at 3 m; before it, in every third keyframe, something that is seen through in the others.
+/// A wall at 3 m and, in every third keyframe, a box in front of it that the others see through.
 LabeledCloud keyframe_cloud(int index) {
   return organised_cloud([=](int x, int, const Eigen::Vector3f&) {
     return index % 3 == 0 && x >= 60 && x < 100 ? 1.5F : 3.0F;
@@ -23,10 +23,10 @@ Transform<World, Sensor> keyframe_pose(int index) {
   return pose({0.04 * index, 0.02 * index, 0.0}, 0.02 * index);
 }
 
-using Shown = std::map<VoxelKey, std::size_t>;  // voxel, index into the cloud
+using VoxelIndices = std::map<VoxelKey, std::size_t>;  // voxel, index into the cloud
 
-Shown shown(const StaticMap& map, const MapCloud& cloud) {
-  Shown voxels;
+VoxelIndices voxel_indices(const StaticMap& map, const MapCloud& cloud) {
+  VoxelIndices voxels;
   const auto inverse = static_cast<float>(1.0 / map.voxel_size());
   for (std::size_t i = 0; i < cloud.size(); ++i) voxels[voxel_key(cloud.points[i], inverse)] = i;
   return voxels;
@@ -37,28 +37,28 @@ void expect_same_surface(const StaticMap& map, const StaticMap& replayed) {
   const MapCloud cloud = map.cloud();
   const MapCloud copy = replayed.cloud();
   ASSERT_EQ(cloud.size(), copy.size());
-  const Shown voxels = shown(map, cloud);
-  std::size_t elsewhere = 0;  // rounding may take a mean on a voxel's side into the next one
-  std::size_t moved = 0;      // a voxel with two surfaces may see more of the other one later
-  for (const auto& [key, j] : shown(replayed, copy)) {
+  const VoxelIndices voxels = voxel_indices(map, cloud);
+  std::size_t missing = 0;  // rounding may move a mean on a voxel's side into the neighbor
+  std::size_t moved = 0;    // a voxel with two surfaces may later get more points of the other
+  for (const auto& [key, j] : voxel_indices(replayed, copy)) {
     const auto found = voxels.find(key);
     if (found == voxels.end()) {
-      ++elsewhere;
+      ++missing;
       continue;
     }
     const std::size_t i = found->second;
     EXPECT_LE(copy.observations[j], cloud.observations[i]);
     EXPECT_GT(2 * copy.observations[j], cloud.observations[i]);
-    const bool turned = !cloud.normals[i].isZero() && !copy.normals[j].isZero() &&
-                        cloud.normals[i].dot(copy.normals[j]) < 0.9F;
+    const bool is_rotated = !cloud.normals[i].isZero() && !copy.normals[j].isZero() &&
+                            cloud.normals[i].dot(copy.normals[j]) < 0.9F;
     const float distance = (cloud.points[i] - copy.points[j]).norm();
-    if (turned || distance > 0.5 * map.voxel_size()) ++moved;
+    if (is_rotated || distance > 0.5 * map.voxel_size()) ++moved;
   }
-  EXPECT_LE(elsewhere, cloud.size() / 100);
+  EXPECT_LE(missing, cloud.size() / 100);
   EXPECT_LE(moved, cloud.size() / 500);
 }
 
-/// After every keyframe, the changes so far make a map that shows the same.
+/// After every keyframe, the changes so far reproduce the map.
 /// @param between  frames before each keyframe
 void expect_changes_suffice(const StaticMapConfig& config, int keyframes, int between = 0) {
   StaticMap map(config);
@@ -74,7 +74,7 @@ void expect_changes_suffice(const StaticMapConfig& config, int keyframes, int be
   EXPECT_EQ(replayed.views(), map.views());
 }
 
-TEST(StaticMapChanges, TellOfTheFramesAfterTheLastKeyframe) {
+TEST(StaticMapChanges, IncludeFramesAfterLastKeyframe) {
   StaticMap map;
   StaticMap replayed;
   map.integrate(keyframe_cloud(0), keyframe_pose(0));
@@ -88,22 +88,22 @@ TEST(StaticMapChanges, TellOfTheFramesAfterTheLastKeyframe) {
   expect_same_surface(map, replayed);
 }
 
-TEST(StaticMapChanges, MakeAMapThatShowsTheSameVoxels) {
+TEST(StaticMapChanges, ReproduceMap) {
   expect_changes_suffice({}, 12);
 }
 
-TEST(StaticMapChanges, TellOfTheFramesBeforeAKeyframeToo) {
+TEST(StaticMapChanges, IncludeFramesBeforeKeyframe) {
   expect_changes_suffice({}, 8, 2);
   expect_changes_suffice({.min_observations = 3}, 8, 3);
 }
 
-TEST(StaticMapChanges, SufficeForAnyNumberOfNeededObservations) {
+TEST(StaticMapChanges, ReproduceMapForAnyMinObservations) {
   expect_changes_suffice({.min_observations = 1}, 8);
   expect_changes_suffice({.min_observations = 3}, 8);
   expect_changes_suffice({.min_observations = 7}, 10);
 }
 
-TEST(StaticMapChanges, TellTheWholeMapWhenItGrowsCoarser) {
+TEST(StaticMapChanges, ContainWholeMapAfterCoarsening) {
   StaticMapConfig config{.voxel_size = 0.01, .memory = 3.0};
   expect_changes_suffice(config, 6);
   StaticMap map(config);
@@ -116,7 +116,7 @@ TEST(StaticMapChanges, TellTheWholeMapWhenItGrowsCoarser) {
   EXPECT_GT(map.voxel_size(), config.voxel_size);
 }
 
-TEST(StaticMapChanges, TellWhatWasCarved) {
+TEST(StaticMapChanges, ContainCarvedVoxels) {
   StaticMap map({.min_observations = 1});
   map.integrate(keyframe_cloud(0), keyframe_pose(0));
   std::size_t erased = 0;
@@ -128,23 +128,23 @@ TEST(StaticMapChanges, TellWhatWasCarved) {
   EXPECT_GT(erased, 500U);
 }
 
-TEST(StaticMapChanges, OfASensorThatStandsStillGetRare) {
+TEST(StaticMapChanges, GetRareForStaticSensor) {
   StaticMap map;
-  std::size_t told = 0;
+  std::size_t changed = 0;
   for (int i = 0; i < 64; ++i) {
     map.integrate(keyframe_cloud(1), keyframe_pose(0));
-    for (const BlockChange& block : map.changes().blocks) told += block.voxels.size();
+    for (const BlockChange& block : map.changes().blocks) changed += block.voxels.size();
   }
-  EXPECT_LE(told, 7 * map.size());  // at 1, 2, 4, ... 64 observations
+  EXPECT_LE(changed, 7 * map.size());  // at 1, 2, 4, ... 64 observations
 }
 
-TEST(StaticMapChanges, OfAnEmptyMapAreNone) {
+TEST(StaticMapChanges, AreEmptyForEmptyMap) {
   const StaticMap map;
   EXPECT_TRUE(map.changes().blocks.empty());
   EXPECT_EQ(map.changes().voxel_size, map.voxel_size());
 }
 
-TEST(StaticMapChanges, RefuseAPlaceOutsideOfABlock) {
+TEST(StaticMapChanges, RejectCellOutsideBlock) {
   MapChanges changes;
   changes.voxel_size = 0.02;
   changes.blocks.push_back({{0, 0, 0}, 1, {VoxelChange{.cell = 512, .hits = 1}}});

@@ -18,19 +18,19 @@ using test::pose;
 
 const Eigen::Vector3d kForward(0.0, 0.0, 1.0);
 
-/// A wall at 3 m, with something 0.4 m wide before it.
+/// A wall at 3 m with a box 0.4 m wide in front of it.
 LabeledCloud wall_with_ghost(float ghost_depth) {
   return organised_cloud(
       [=](int x, int, const Eigen::Vector3f&) { return x >= 60 && x < 100 ? ghost_depth : 3.0F; });
 }
 
-std::size_t points_before_the_wall(const StaticMap& map) {
+std::size_t points_before_wall(const StaticMap& map) {
   std::size_t count = 0;
   for (const Eigen::Vector3f& point : map.cloud().points) count += point.z() < 2.5F;
   return count;
 }
 
-TEST(StaticMap, MeansOfAPlaneSeenFromSeveralPosesLieOnIt) {
+TEST(StaticMap, PlaneFromSeveralPosesIsExact) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.2, 1.0).normalized();
   StaticMap map;
   for (int i = 0; i < 5; ++i) {
@@ -48,7 +48,7 @@ TEST(StaticMap, MeansOfAPlaneSeenFromSeveralPosesLieOnIt) {
   }
 }
 
-TEST(StaticMap, CountsKeyframesNotPoints) {
+TEST(StaticMap, CountsKeyframesAsObservations) {
   StaticMap map({.voxel_size = 0.5});
   const LabeledCloud cloud = plane_cloud(kForward, 2.1, pose({0, 0, 0}));
   for (int i = 0; i < 3; ++i) map.integrate(cloud, pose({0, 0, 0}));
@@ -56,30 +56,30 @@ TEST(StaticMap, CountsKeyframesNotPoints) {
   EXPECT_EQ(map.views(), 3U);
 }
 
-TEST(StaticMap, ShowsWhatWasSeenOnceOnlyWhereNobodyLookedAgain) {
+TEST(StaticMap, HidesSingleObservationsInReobservedBlocks) {
   StaticMap map({.carving = {.enabled = false}});
   const LabeledCloud wall = plane_cloud(kForward, 2.01, pose({0, 0, 0}));
   map.integrate(wall, pose({0, 0, 0}));
   EXPECT_EQ(map.cloud().size(), map.size());
-  const auto elsewhere = pose({0, 0, 0}, 3.0);
-  map.integrate(plane_cloud({0, 0, -1}, 2.0, elsewhere), elsewhere);
+  const auto other_pose = pose({0, 0, 0}, 3.0);
+  map.integrate(plane_cloud({0, 0, -1}, 2.0, other_pose), other_pose);
   EXPECT_EQ(map.cloud().size(), map.size());
-  // Looked at again and again two voxels farther on, in the same blocks: what was seen once goes.
+  // The same blocks, observed again two voxels behind: single observations are hidden.
   const LabeledCloud behind = plane_cloud(kForward, 2.05, pose({0, 0, 0}));
   for (int i = 0; i < 8; ++i) map.integrate(behind, pose({0, 0, 0}));
-  EXPECT_EQ(map.cloud().size(), map.size()) << "nine views of two needed observations";
+  EXPECT_EQ(map.cloud().size(), map.size()) << "nine observations, with two needed";
   for (int i = 0; i < 2; ++i) map.integrate(behind, pose({0, 0, 0}));
   EXPECT_LT(map.cloud().size(), map.size());
 }
 
-/// A wall at 3 m of which every other pixel's column is measured.
+/// A wall at 3 m with returns in every other group of four columns.
 LabeledCloud striped_wall(int first_column) {
   return organised_cloud([=](int x, int, const Eigen::Vector3f&) {
     return (x / 4) % 2 == first_column ? 3.0F : 0.0F;
   });
 }
 
-TEST(StaticMap, FramesBetweenKeyframesFillTheirHoles) {
+TEST(StaticMap, FramesBetweenKeyframesFillHoles) {
   StaticMap map;
   map.integrate(striped_wall(0), pose({0, 0, 0}));
   const std::size_t before = map.cloud().size();
@@ -89,17 +89,17 @@ TEST(StaticMap, FramesBetweenKeyframesFillTheirHoles) {
   for (const Eigen::Vector3f& normal : map.cloud().normals) EXPECT_LT(normal.z(), 0.1F);
 }
 
-TEST(StaticMap, FramesUpToAKeyframeCountAsOneLook) {
+TEST(StaticMap, FramesUpToKeyframeAreOneObservation) {
   StaticMap map({.voxel_size = 0.5});
   const LabeledCloud cloud = plane_cloud(kForward, 2.1, pose({0, 0, 0}));
-  for (int look = 0; look < 3; ++look) {
+  for (int observation = 0; observation < 3; ++observation) {
     for (int i = 0; i < 4; ++i) map.add(cloud, pose({0, 0, 0}));
     map.integrate(cloud, pose({0, 0, 0}));
   }
   for (const int observations : map.cloud().observations) EXPECT_EQ(observations, 3);
 }
 
-/// A scan of `count` points on a line to the right, from the third metre on.
+/// A scan of `count` points, 1 m apart along x, from 3 m on.
 LabeledCloud small_scan(int count) {
   LabeledCloud cloud;
   for (int i = 0; i < count; ++i) cloud.points.emplace_back(3.0F + static_cast<float>(i), 0, 0);
@@ -110,7 +110,7 @@ LabeledCloud small_scan(int count) {
   return cloud;
 }
 
-TEST(StaticMap, LongRunsKeepTheViewpointsThatVoxelsNeed) {
+TEST(StaticMap, LongRunsKeepNeededViewpoints) {
   StaticMap map({.carving = {.enabled = false}});
   map.integrate(small_scan(3), pose({0, 0, 0}));
   for (int i = 0; i < 9000; ++i) map.integrate(small_scan(1), pose({0, 0, 0}));
@@ -120,21 +120,22 @@ TEST(StaticMap, LongRunsKeepTheViewpointsThatVoxelsNeed) {
   EXPECT_EQ(map.changes().viewpoint.z(), 0.25F);
 }
 
-TEST(StaticMap, AKeyframeSeesThroughWhatTheFrameBeforeMeasured) {
+TEST(StaticMap, KeyframeCarvesPointsOfFrameBefore) {
   StaticMap map({.min_observations = 1});
   map.add(wall_with_ghost(1.5F), pose({0, 0, 0}));
   EXPECT_GT(map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0})).carved, 1000U);
-  EXPECT_LT(points_before_the_wall(map), 100U);
+  EXPECT_LT(points_before_wall(map), 100U);
 }
 
-TEST(StaticMap, AFrameWithoutAPoseAddsNothing) {
+TEST(StaticMap, FrameWithoutPoseAddsNothing) {
   StaticMap map;
-  const Transform<World, Sensor> nowhere(Eigen::Isometry3d(Eigen::Translation3d(NAN, 0.0, 0.0)));
-  EXPECT_EQ(map.add(wall_with_ghost(1.5F), nowhere), 0U);
+  const Transform<World, Sensor> invalid_pose(
+      Eigen::Isometry3d(Eigen::Translation3d(NAN, 0.0, 0.0)));
+  EXPECT_EQ(map.add(wall_with_ghost(1.5F), invalid_pose), 0U);
   EXPECT_EQ(map.size(), 0U);
 }
 
-/// Share of a wall's voxels that is shown, of which some were seen once and others again and again.
+/// Share of a wall's voxels in the cloud, where some were observed once and others 29 times.
 double share_shown(const DepthNoise& noise) {
   StaticMapConfig config;
   config.carving.enabled = false;
@@ -147,27 +148,27 @@ double share_shown(const DepthNoise& noise) {
   return static_cast<double>(map.cloud().size()) / static_cast<double>(map.size());
 }
 
-TEST(StaticMap, AsksNoSecondLookWhereNoiseScattersASurface) {
-  const DepthNoise sharp{.base = 0.001, .quadratic = 0.0};
-  const DepthNoise fuzzy{.base = 0.001, .quadratic = 0.02};
-  EXPECT_LT(share_shown(sharp), 0.9);
-  EXPECT_EQ(share_shown(fuzzy), 1.0);
+TEST(StaticMap, HighNoiseNeedsNoSecondObservation) {
+  const DepthNoise low_noise{.base = 0.001, .quadratic = 0.0};
+  const DepthNoise high_noise{.base = 0.001, .quadratic = 0.02};
+  EXPECT_LT(share_shown(low_noise), 0.9);
+  EXPECT_EQ(share_shown(high_noise), 1.0);
 }
 
-TEST(StaticMap, CarvesAGhostButNotTheWall) {
+TEST(StaticMap, CarvesGhostNotWall) {
   StaticMap map({.min_observations = 1});
   map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0}));
-  ASSERT_GT(points_before_the_wall(map), 1000U);
+  ASSERT_GT(points_before_wall(map), 1000U);
   std::size_t carved = 0;
   for (int i = 0; i < 3; ++i) {
     carved += map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0})).carved;
   }
   EXPECT_GT(carved, 1000U);
-  EXPECT_LT(points_before_the_wall(map), 100U);  // its boundary in the image's outermost pixels
+  EXPECT_LT(points_before_wall(map), 100U);  // its boundary in the image's outermost pixels
   EXPECT_EQ(map.size(), map.cloud().size());
 }
 
-TEST(StaticMap, KeepsWhatIsHiddenOrHit) {
+TEST(StaticMap, KeepsHiddenAndHitVoxels) {
   StaticMap map({.min_observations = 1});
   map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0}));
   const std::size_t before = map.size();
@@ -179,26 +180,26 @@ TEST(StaticMap, KeepsWhatIsHiddenOrHit) {
   EXPECT_GT(map.size(), before);
 }
 
-TEST(StaticMap, DynamicDepthBehindCarvesToo) {
+TEST(StaticMap, DynamicPointsBehindCarve) {
   StaticMap map({.min_observations = 1});
   map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0}));
   LabeledCloud behind = wall_with_ghost(2.5F);
   for (PointLabel& label : behind.labels) label = PointLabel::kDynamic;
   for (int i = 0; i < 3; ++i) map.integrate(behind, pose({0, 0, 0}));
-  EXPECT_LT(points_before_the_wall(map), 100U);
+  EXPECT_LT(points_before_wall(map), 100U);
 }
 
 TEST(StaticMap, DepthWithHolesDoesNotCarve) {
   StaticMap map({.min_observations = 1});
   map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0}));
-  const std::size_t ghost = points_before_the_wall(map);
+  const std::size_t ghost = points_before_wall(map);
   const LabeledCloud holes = organised_cloud(
       [](int x, int y, const Eigen::Vector3f&) { return x % 2 == 0 && y % 2 == 0 ? 0.0F : 3.0F; });
   for (int i = 0; i < 5; ++i) EXPECT_EQ(map.integrate(holes, pose({0, 0, 0})).carved, 0U);
-  EXPECT_EQ(points_before_the_wall(map), ghost);
+  EXPECT_EQ(points_before_wall(map), ghost);
 }
 
-TEST(StaticMap, CarvingCanBeSwitchedOff) {
+TEST(StaticMap, DoesNotCarveWhenDisabled) {
   StaticMapConfig config;
   config.carving.enabled = false;
   StaticMap map(config);
@@ -208,7 +209,7 @@ TEST(StaticMap, CarvingCanBeSwitchedOff) {
   }
 }
 
-TEST(StaticMap, ScansCarveWhoWentAwayAndNothingElse) {
+TEST(StaticMap, ScansCarveOnlyDepartedPerson) {
   const test::StandingBox person{{3.8, -0.25, -1.0}, {4.2, 0.25, 0.75}};
   StaticMap map({.min_observations = 1});
   StaticMap uncarved({.min_observations = 1, .carving = {.enabled = false}});
@@ -219,19 +220,19 @@ TEST(StaticMap, ScansCarveWhoWentAwayAndNothingElse) {
     map.integrate(scan, T);
     uncarved.integrate(scan, T);
   }
-  const Eigen::AlignedBox3d place(person.low + Eigen::Vector3d(-0.05, -0.05, 0.05),
-                                  person.high.array() + 0.05);
-  const auto left = [&](const StaticMap& m) {
+  const Eigen::AlignedBox3d volume(person.low + Eigen::Vector3d(-0.05, -0.05, 0.05),
+                                   person.high.array() + 0.05);
+  const auto count = [&](const StaticMap& m) {
     const std::vector<Eigen::Vector3f> points = m.cloud().points;
     return std::count_if(points.begin(), points.end(),
-                         [&](const auto& p) { return place.contains(p.template cast<double>()); });
+                         [&](const auto& p) { return volume.contains(p.template cast<double>()); });
   };
-  EXPECT_GT(left(uncarved), 300);
-  EXPECT_LT(left(map), 0.1 * static_cast<double>(left(uncarved)));
-  EXPECT_EQ(static_cast<long>(uncarved.size() - map.size()), left(uncarved) - left(map));
+  EXPECT_GT(count(uncarved), 300);
+  EXPECT_LT(count(map), 0.1 * static_cast<double>(count(uncarved)));
+  EXPECT_EQ(static_cast<long>(uncarved.size() - map.size()), count(uncarved) - count(map));
 }
 
-TEST(StaticMap, DoublesTheVoxelSizeInsteadOfForgetting) {
+TEST(StaticMap, DoublesVoxelSizeAtMemoryLimit) {
   StaticMap whole;
   StaticMap bounded({.memory = 1.0});
   bool coarsened = false;
@@ -244,10 +245,10 @@ TEST(StaticMap, DoublesTheVoxelSizeInsteadOfForgetting) {
   }
   EXPECT_TRUE(coarsened);
   EXPECT_GT(bounded.voxel_size(), whole.voxel_size());
-  VoxelGrid kept(bounded.voxel_size());
+  VoxelGrid voxels(bounded.voxel_size());
   for (const Eigen::Vector3f& point : bounded.cloud().points) {
     EXPECT_NEAR(point.z(), 2.0F, 1e-4F);
-    kept.at(point);
+    voxels.at(point);
   }
   const auto inverse = static_cast<float>(1.0 / bounded.voxel_size());
   for (const Eigen::Vector3f& point : whole.cloud().points) {
@@ -255,13 +256,13 @@ TEST(StaticMap, DoublesTheVoxelSizeInsteadOfForgetting) {
     bool found = false;
     for (int dx = -1; dx <= 1; ++dx) {
       for (int dy = -1; dy <= 1; ++dy)
-        found |= kept.find({key.x + dx, key.y + dy, key.z}) != nullptr;
+        found |= voxels.find({key.x + dx, key.y + dy, key.z}) != nullptr;
     }
     EXPECT_TRUE(found) << point.transpose();
   }
 }
 
-TEST(StaticMap, GivesScansNormalsFromTheirNeighbourhood) {
+TEST(StaticMap, ScanNormalsComeFromNeighborhood) {
   LabeledCloud scan;
   for (int i = 0; i < 400; ++i) {
     scan.points.emplace_back(0.1F * static_cast<float>(i % 20), 0.1F * static_cast<float>(i / 20),
@@ -278,7 +279,7 @@ TEST(StaticMap, GivesScansNormalsFromTheirNeighbourhood) {
   EXPECT_EQ(cloud.colors[0], (Rgb{128, 128, 128}));
 }
 
-TEST(StaticMap, IgnoresAPoseThatIsNotFinite) {
+TEST(StaticMap, IgnoresNonFinitePose) {
   StaticMap map;
   const LabeledCloud cloud = plane_cloud(kForward, 2.0, pose({0, 0, 0}));
   EXPECT_EQ(map.integrate(cloud, pose({NAN, 0, 0})).points, 0U);

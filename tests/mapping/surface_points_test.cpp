@@ -12,7 +12,7 @@ using test::organised_cloud;
 using test::plane_cloud;
 using test::pose;
 
-TEST(SurfacePoints, KeepAWholePlaneWithItsNormal) {
+TEST(SurfacePoints, KeepPlaneWithNormal) {
   const auto points = surface_points(plane_cloud({0, 0, 1}, 2.0, pose({0, 0, 0})), {});
   ASSERT_EQ(points.size(), 160U * 120U);
   const SurfacePoint& center = points[60 * 160 + 80];
@@ -20,17 +20,17 @@ TEST(SurfacePoints, KeepAWholePlaneWithItsNormal) {
   EXPECT_EQ(center.color, (Rgb{100, 150, 200}));
 }
 
-TEST(SurfacePoints, KeepAFloorAtAGrazingAngle) {
+TEST(SurfacePoints, KeepFloorAtGrazingAngle) {
   const LabeledCloud cloud = organised_cloud([](int, int, const Eigen::Vector3f& ray) {
     const float z = 1.2F / ray.y();
     return z > 0.0F && z < 6.0F ? z : 0.0F;
   });
   const auto returns = std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kStatic);
-  // Only the row next to the horizon, where the first difference is all there is, may go.
+  // Only the row next to the horizon, which has a single difference, may be dropped.
   EXPECT_GE(surface_points(cloud, {}).size(), static_cast<std::size_t>(returns - 160));
 }
 
-TEST(SurfacePoints, DropPixelsBetweenTwoSurfaces) {
+TEST(SurfacePoints, DropMixedPixelsBetweenSurfaces) {
   const LabeledCloud cloud = organised_cloud([](int x, int, const Eigen::Vector3f&) {
     return x < 80 ? 1.0F : x == 80 ? 2.0F : 3.0F;
   });
@@ -39,7 +39,7 @@ TEST(SurfacePoints, DropPixelsBetweenTwoSurfaces) {
   }
 }
 
-TEST(SurfacePoints, KeepAWallWithManyDropouts) {
+TEST(SurfacePoints, KeepWallWithDropouts) {
   RandomStream random(1);
   const LabeledCloud cloud = organised_cloud(
       [&](int, int, const Eigen::Vector3f&) { return random.uniform() < 0.4 ? 0.0F : 2.0F; });
@@ -49,15 +49,15 @@ TEST(SurfacePoints, KeepAWallWithManyDropouts) {
               0.77 * static_cast<double>(returns), 0.03 * static_cast<double>(returns));
 }
 
-TEST(SurfacePoints, DropTheRimOfAHole) {
+TEST(SurfacePoints, DropBoundaryOfHole) {
   const LabeledCloud cloud = organised_cloud(
       [](int x, int y, const Eigen::Vector3f&) { return x > 100 && y > 50 ? 0.0F : 2.0F; });
   const auto returns = std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kStatic);
-  // Up to the image's border, and but for the corner, whose sides are not missing whole.
+  // One row and one column beside the hole, without the corner, whose sides are partly present.
   EXPECT_EQ(surface_points(cloud, {}).size(), static_cast<std::size_t>(returns - 57 - 67));
 }
 
-TEST(SurfacePoints, DropTheRimOfWhatIsDynamic) {
+TEST(SurfacePoints, DropBoundaryOfDynamicPixels) {
   LabeledCloud cloud = plane_cloud({0, 0, 1}, 2.0, pose({0, 0, 0}));
   const std::size_t all = surface_points(cloud, {}).size();
   cloud.dynamic_pixels = Image<std::uint8_t>(cloud.width, cloud.height);
@@ -69,7 +69,7 @@ TEST(SurfacePoints, DropTheRimOfWhatIsDynamic) {
   EXPECT_EQ(surface_points(cloud, {.boundary = 0.0}).size(), all - 2);
 }
 
-TEST(SurfacePoints, DropWhatIsFarDynamicOrInvalid) {
+TEST(SurfacePoints, DropFarDynamicAndInvalidPoints) {
   LabeledCloud cloud = organised_cloud([](int x, int, const Eigen::Vector3f&) {
     return x < 40 ? 0.0F : x < 80 ? 7.0F : 2.0F;
   });
@@ -77,7 +77,7 @@ TEST(SurfacePoints, DropWhatIsFarDynamicOrInvalid) {
     if (i % 160 >= 120) cloud.labels[i] = PointLabel::kDynamic;
   }
   const auto points = surface_points(cloud, {});
-  // Columns 80 to 119 are near and static; the jump takes the first and its neighbour.
+  // Columns 80 to 119 are near and static; the depth step removes the first two.
   EXPECT_EQ(points.size(), 38U * 120U);
   for (const SurfacePoint& surface : points) EXPECT_EQ(surface.point.z(), 2.0F);
 }
@@ -88,7 +88,7 @@ TEST(SurfacePoints, WeighNearPointsMore) {
   EXPECT_GT(near[9680].weight, 10.0F * far[9680].weight);
 }
 
-TEST(SurfacePoints, TakeFarPointsOfScans) {
+TEST(SurfacePoints, KeepFarPointsOfScans) {
   LabeledCloud scan;
   scan.height = 1;
   scan.points = {{50.0F, 0.0F, 0.0F}, {NAN, NAN, NAN}, {2000.0F, 0.0F, 0.0F}, {0.0F, -3.0F, 0.0F}};

@@ -42,7 +42,7 @@ inline LabeledCloud organised_cloud(const DepthOf& depth_of) {
   return cloud;
 }
 
-/// The plane normal . p = offset of the world as a camera at that pose sees it.
+/// View of the world's plane normal . p = offset by a camera at that pose.
 inline LabeledCloud plane_cloud(const Eigen::Vector3d& normal, double offset,
                                 const Transform<World, Sensor>& T_world_sensor) {
   const Eigen::Vector3d n = T_world_sensor.rotation().transpose() * normal;

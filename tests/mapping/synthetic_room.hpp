@@ -20,18 +20,18 @@ struct Box {
 struct Room {
   Eigen::Vector3d low{-3.0, -2.0, 0.0};
   Eigen::Vector3d high{3.0, 2.0, 2.5};
-  std::vector<Box> things{};
+  std::vector<Box> boxes{};
 
-  /// Where a ray from inside ends, as a multiple of `ray`; and on what.
+  /// End of a ray from inside as a multiple of `ray`, and the label of what it hits.
   std::pair<double, PointLabel> hit(const Eigen::Vector3d& origin,
                                     const Eigen::Vector3d& ray) const {
     double end = crossing(origin, ray, low, high).second;
     PointLabel label = PointLabel::kStatic;
-    for (const Box& thing : things) {
-      const auto [enter, leave] = crossing(origin, ray, thing.low, thing.high);
+    for (const Box& box : boxes) {
+      const auto [enter, leave] = crossing(origin, ray, box.low, box.high);
       if (enter > leave || enter <= 0.0 || enter >= end) continue;
       end = enter;
-      label = thing.label;
+      label = box.label;
     }
     return {end, label};
   }
@@ -60,7 +60,7 @@ inline Transform<RoomFrame, Sensor> camera_in_room(const Eigen::Vector3d& positi
   return Transform<RoomFrame, Sensor>(T);
 }
 
-/// What the small camera sees of the room.
+/// View of the room by the small camera.
 inline LabeledCloud view(const Room& room, const Transform<RoomFrame, Sensor>& T_room_sensor) {
   std::vector<PointLabel> labels;
   LabeledCloud cloud = organised_cloud([&](int, int, const Eigen::Vector3f& ray) {
@@ -73,7 +73,7 @@ inline LabeledCloud view(const Room& room, const Transform<RoomFrame, Sensor>& T
   return cloud;
 }
 
-/// What a LiDAR of 32 rings sees of it, with its z axis up.
+/// Scan of the room by a LiDAR of 32 rings with its z axis up.
 inline LabeledCloud scan(const Room& room, const Eigen::Vector3d& position) {
   LabeledCloud cloud;
   for (int ring = -16; ring < 16; ++ring) {

@@ -16,13 +16,13 @@ struct StandingBox {
   Eigen::Vector3d high;
 };
 
-/// Where a ray enters a box, in lengths of `ray`; infinity where it does not.
+/// Entry of a ray into a box as a multiple of `ray`; infinity without an intersection.
 inline double entry(const StandingBox& box, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& ray) {
   const Eigen::Array3d a = (box.low - origin).array() / ray.array();
   const Eigen::Array3d b = (box.high - origin).array() / ray.array();
-  const double in = a.min(b).maxCoeff();
-  return in > 0.0 && in <= a.max(b).minCoeff() ? in : INFINITY;
+  const double enter = a.min(b).maxCoeff();
+  return enter > 0.0 && enter <= a.max(b).minCoeff() ? enter : INFINITY;
 }
 
 /// A scan of 16 rings, 2 degrees apart, in a hall of 16 x 16 m whose floor is 1 m below the world's
@@ -37,14 +37,15 @@ inline LabeledCloud hall_scan(const std::vector<StandingBox>& boxes,
       const double elevation = (-15.0 + 2.0 * ring) * M_PI / 180.0;
       const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth),
                                 std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-      const Eigen::Vector3d there = T_world_sensor.rotation() * ray;
+      const Eigen::Vector3d direction = T_world_sensor.rotation() * ray;
       double range = INFINITY;  // to the walls, the floor and the ceiling, from within
       const Eigen::Vector3d low(-8.0, -8.0, -1.0);
       const Eigen::Vector3d high(8.0, 8.0, 4.0);
       for (int i = 0; i < 3; ++i) {
-        range = std::min(range, ((there(i) > 0.0 ? high(i) : low(i)) - origin(i)) / there(i));
+        range =
+            std::min(range, ((direction(i) > 0.0 ? high(i) : low(i)) - origin(i)) / direction(i));
       }
-      for (const StandingBox& box : boxes) range = std::min(range, entry(box, origin, there));
+      for (const StandingBox& box : boxes) range = std::min(range, entry(box, origin, direction));
       cloud.points.emplace_back((range * ray).cast<float>());
     }
   }

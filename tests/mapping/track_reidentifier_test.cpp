@@ -50,8 +50,8 @@ LabeledCloud scan_of(const std::vector<Person>& persons, double seconds) {
   return cloud;
 }
 
-/// Gives the map ten frames of the same persons, from a second on.
-void show(DynamicMap& map, double from, const std::vector<Person>& persons) {
+/// Updates the map with ten frames of the same persons from time `from` [s] on.
+void update(DynamicMap& map, double from, const std::vector<Person>& persons) {
   for (int i = 0; i < 10; ++i) {
     const LabeledCloud cloud = scan_of(persons, from + kPeriod * i);
     OdometryEstimate odometry;
@@ -60,88 +60,88 @@ void show(DynamicMap& map, double from, const std::vector<Person>& persons) {
   }
 }
 
-/// The ids there are now, by their order.
+/// The current ids, in the order of the objects.
 std::vector<int> ids(const DynamicMap& map) {
   std::vector<int> ids;
   for (const TrackedObject& object : map.objects()) ids.push_back(object.box.id);
   return ids;
 }
 
-TEST(TrackReidentifier, WhoComesBackElsewhereInTheSameDressKeepsTheId) {
+TEST(TrackReidentifier, ReidentifiesByAppearanceElsewhere) {
   DynamicMap map;
-  show(map, 0.0, {{3.0, -2.0, kRed}, {3.0, 2.0, kBlue}});
-  show(map, 1.0, {});
-  show(map, 8.0, {{5.0, 2.0, kRed}});
+  update(map, 0.0, {{3.0, -2.0, kRed}, {3.0, 2.0, kBlue}});
+  update(map, 1.0, {});
+  update(map, 8.0, {{5.0, 2.0, kRed}});
   EXPECT_EQ(ids(map), std::vector<int>{1});
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-TEST(TrackReidentifier, WhoComesBackWhileExpectedElsewhereKeepsTheId) {
+TEST(TrackReidentifier, ReidentifiesWhileTrackCoasts) {
   DynamicMap map;
-  show(map, 0.0, {{3.0, -2.0, kRed}});
-  // Half a second unseen, and farther away than where an object may be expected.
-  show(map, 1.4, {{3.0, -0.5, kRed}});
+  update(map, 0.0, {{3.0, -2.0, kRed}});
+  // Unseen for half a second, at a position outside the gate of the prediction.
+  update(map, 1.4, {{3.0, -0.5, kRed}});
   EXPECT_EQ(ids(map), std::vector<int>{1});
   EXPECT_EQ(map.objects().at(0).state, TrackState::kActive);
   EXPECT_EQ(map.confirmed(), 1);
 }
 
-TEST(TrackReidentifier, WhoStandsBesideOneInTheSameDressIsSomebodyElse) {
+TEST(TrackReidentifier, NewIdBesideVisiblePersonOfEqualAppearance) {
   DynamicMap map;
-  show(map, 0.0, {{3.0, -2.0, kRed}});
-  show(map, 1.0, {{3.0, -2.0, kRed}, {3.0, -0.5, kRed}});
+  update(map, 0.0, {{3.0, -2.0, kRed}});
+  update(map, 1.0, {{3.0, -2.0, kRed}, {3.0, -0.5, kRed}});
   EXPECT_EQ(ids(map).size(), 2U);
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-TEST(TrackReidentifier, WhoIsDressedOtherwiseIsSomebodyElse) {
+TEST(TrackReidentifier, NewIdForDifferentAppearance) {
   DynamicMap map;
-  show(map, 0.0, {{3.0, -2.0, kRed}});
-  show(map, 1.0, {});
-  show(map, 8.0, {{3.0, -2.0, kBlue}});
+  update(map, 0.0, {{3.0, -2.0, kRed}});
+  update(map, 1.0, {});
+  update(map, 8.0, {{3.0, -2.0, kBlue}});
   ASSERT_EQ(ids(map).size(), 1U);
   EXPECT_NE(ids(map)[0], 1);
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-/// Whether the one who went keeps his id when somebody comes after so many seconds.
-bool is_known_again(double seconds, const Person& who) {
+/// Whether a person who appears that long after the first one left gets the first one's id.
+bool is_reidentified(double seconds, const Person& person) {
   DynamicMap map;
-  show(map, 0.0, {{3.0, -2.0, kRed}});
-  show(map, 1.0, {});
-  show(map, 1.0 + seconds, {who});
+  update(map, 0.0, {{3.0, -2.0, kRed}});
+  update(map, 1.0, {});
+  update(map, 1.0 + seconds, {person});
   return ids(map) == std::vector<int>{1};
 }
 
-TEST(TrackReidentifier, TheLongerAndFartherTheMoreAlikeOneHasToBe) {
-  EXPECT_TRUE(is_known_again(2.0, {3.0, -2.0, kRed, kBlue}));
-  EXPECT_FALSE(is_known_again(30.0, {3.0, 3.0, kRed, kBlue}));
-  EXPECT_TRUE(is_known_again(30.0, {3.0, 3.0, kRed}));
+TEST(TrackReidentifier, NeedsMoreSimilarityWithTimeAndDistance) {
+  EXPECT_TRUE(is_reidentified(2.0, {3.0, -2.0, kRed, kBlue}));
+  EXPECT_FALSE(is_reidentified(30.0, {3.0, 3.0, kRed, kBlue}));
+  EXPECT_TRUE(is_reidentified(30.0, {3.0, 3.0, kRed}));
 }
 
-TEST(TrackReidentifier, WhoCannotHaveComeSoFarIsSomebodyElse) {
+TEST(TrackReidentifier, NewIdForUnreachablePosition) {
   DynamicMap map;
-  show(map, 0.0, {{3.0, -2.0, kRed}});
-  show(map, 1.0, {});
-  show(map, 4.0, {{20.0, 10.0, kRed}});
+  update(map, 0.0, {{3.0, -2.0, kRed}});
+  update(map, 1.0, {});
+  update(map, 4.0, {{20.0, 10.0, kRed}});
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-TEST(TrackReidentifier, OfTwoInTheSameDressNeitherIsGuessed) {
+TEST(TrackReidentifier, NewIdWhenTwoCandidatesAreEqual) {
   DynamicMap map;
-  show(map, 0.0, {{3.0, -2.0, kRed}, {3.0, 2.0, kRed}});
-  show(map, 1.0, {});
-  show(map, 8.0, {{4.0, 0.0, kRed}});
+  update(map, 0.0, {{3.0, -2.0, kRed}, {3.0, 2.0, kRed}});
+  update(map, 1.0, {});
+  update(map, 8.0, {{4.0, 0.0, kRed}});
   EXPECT_EQ(map.confirmed(), 3);
 }
 
-TEST(TrackReidentifier, AreForgottenInTheEnd) {
+TEST(TrackReidentifier, ForgetsAfterMaxAway) {
   DynamicMapConfig config;
   config.reidentification.max_away = 5.0;
   DynamicMap map(config);
-  show(map, 0.0, {{3.0, -2.0, kRed}});
-  show(map, 10.0, {});
-  show(map, 12.0, {{3.0, -2.0, kRed}});
+  update(map, 0.0, {{3.0, -2.0, kRed}});
+  update(map, 10.0, {});
+  update(map, 12.0, {{3.0, -2.0, kRed}});
   EXPECT_EQ(map.confirmed(), 2);
 }
 

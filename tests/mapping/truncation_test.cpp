@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-/// A wall 5 m ahead and before it a board at 3 m over the given pixels, which is a cluster.
+/// A wall at 5 m, and a board at 3 m in those pixels, which is the only cluster.
 LabeledCloud board(int x_begin, int x_end, int y_begin, int y_end) {
   const auto is_board = [=](int x, int y) {
     return x >= x_begin && x < x_end && y >= y_begin && y < y_end;
@@ -27,7 +27,7 @@ std::vector<ObjectMeasurement::Truncation> truncations_of(const LabeledCloud& cl
   return find_truncations(cloud, {cloud.cluster, {0}});
 }
 
-/// Puts something at a depth over pixels; no return for NaN.
+/// Sets the depth of pixels [m]; no return for NaN.
 void cover(LabeledCloud& cloud, int x_begin, int x_end, int y_begin, int y_end, float z) {
   for (int y = y_begin; y < y_end; ++y) {
     for (int x = x_begin; x < x_end; ++x) {
@@ -40,11 +40,11 @@ void cover(LabeledCloud& cloud, int x_begin, int x_end, int y_begin, int y_end, 
   }
 }
 
-TEST(ClusterTruncations, FreeOnAllSidesIsNotCut) {
+TEST(ClusterTruncations, NoneWhenVisibleOnAllSides) {
   EXPECT_FALSE(truncations_of(board(40, 90, 30, 100)).at(0).any());
 }
 
-TEST(ClusterTruncations, TheImagesBordersCut) {
+TEST(ClusterTruncations, ImageBorderTruncates) {
   const auto corner = truncations_of(board(0, 50, 60, 120)).at(0);
   EXPECT_TRUE(corner.left);
   EXPECT_TRUE(corner.bottom);
@@ -52,7 +52,7 @@ TEST(ClusterTruncations, TheImagesBordersCut) {
   EXPECT_FALSE(corner.top);
 }
 
-TEST(ClusterTruncations, SomethingNearerCutsThoughNoReturnLiesBetween) {
+TEST(ClusterTruncations, NearerSurfaceTruncatesAcrossNoReturns) {
   LabeledCloud cloud = board(40, 90, 30, 100);
   cover(cloud, 80, 110, 20, 110, 2.0F);
   cover(cloud, 78, 80, 20, 110, NAN);
@@ -62,7 +62,7 @@ TEST(ClusterTruncations, SomethingNearerCutsThoughNoReturnLiesBetween) {
   EXPECT_FALSE(truncation.top);
 }
 
-TEST(ClusterTruncations, ASmallThingBeforeTheRimDoesNotCut) {
+TEST(ClusterTruncations, SmallOccluderDoesNotTruncate) {
   LabeledCloud cloud = board(40, 90, 30, 100);
   cover(cloud, 86, 100, 30, 40, 2.0F);
   EXPECT_FALSE(truncations_of(cloud).at(0).right);

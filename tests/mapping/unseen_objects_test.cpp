@@ -12,7 +12,7 @@ namespace {
 using test::organised_cloud;
 using test::pose;
 
-/// A person 0.5 m wide and deep and 1.7 m high, 2 m before the camera, which is 1 m over the floor.
+/// A tracked person 0.5 m wide and deep and 1.7 m high. The camera is 1 m above the floor.
 TrackedObject person_at(const Eigen::Vector3d& center, TrackState state) {
   TrackedObject person{{}, state, MotionFilter(center, {0.0, -1.0, 0.0}, 0.1, 0.1), {}, {}};
   person.box.size = {0.5, 0.5, 1.7};
@@ -21,13 +21,13 @@ TrackedObject person_at(const Eigen::Vector3d& center, TrackState state) {
   return person;
 }
 
-const Eigen::Vector3d kBefore(0.0, 0.15, 2.0);
+const Eigen::Vector3d kCenter(0.0, 0.15, 2.0);
 
-/// A wall at 3 m, a floor 1 m below the camera, and a body before the wall.
+/// A wall at 3 m, a floor 1 m below the camera, and a person in front of the wall.
 LabeledCloud room() {
   return organised_cloud([](int x, int y, const Eigen::Vector3f& ray) {
-    const bool is_body = x >= 70 && x < 90 && y >= 20 && ray.y() * 2.0F < 1.0F;
-    const float depth = is_body ? 2.0F : 3.0F;
+    const bool is_person = x >= 70 && x < 90 && y >= 20 && ray.y() * 2.0F < 1.0F;
+    const float depth = is_person ? 2.0F : 3.0F;
     return ray.y() * depth > 1.0F ? 1.0F / ray.y() : depth;
   });
 }
@@ -37,32 +37,33 @@ std::size_t dynamic_points(const LabeledCloud& cloud) {
       std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kDynamic));
 }
 
-TEST(UnseenObjects, LeaveTheStaticPointsWhereTheyAreExpected) {
+TEST(UnseenObjects, MaskPointsAtPredictedBox) {
   LabeledCloud cloud = room();
   const std::size_t count =
-      mask_unseen_objects({person_at(kBefore, TrackState::kCoasting)}, pose({0, 0, 0}), cloud);
+      mask_unseen_objects({person_at(kCenter, TrackState::kCoasting)}, pose({0, 0, 0}), cloud);
   EXPECT_EQ(count, dynamic_points(cloud));
   EXPECT_GT(count, 1000U);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Eigen::Vector3f& point = cloud.points[i];
     const bool is_floor = point.y() > 0.99F;
-    const bool is_body = !is_floor && point.z() < 2.5F && std::abs(point.x()) < 0.35F;
-    EXPECT_EQ(cloud.labels[i] == PointLabel::kDynamic, is_body) << point.transpose();
+    const bool is_person = !is_floor && point.z() < 2.5F && std::abs(point.x()) < 0.35F;
+    EXPECT_EQ(cloud.labels[i] == PointLabel::kDynamic, is_person) << point.transpose();
   }
 }
 
-TEST(UnseenObjects, AreExpectedInTheWorldNotBeforeTheCamera) {
+TEST(UnseenObjects, ArePredictedInWorldFrame) {
   LabeledCloud cloud = room();
-  const auto elsewhere = pose({3.0, 0.0, 0.0});
-  EXPECT_EQ(mask_unseen_objects({person_at(kBefore, TrackState::kCoasting)}, elsewhere, cloud), 0U);
-  const TrackedObject there =
-      person_at(kBefore + Eigen::Vector3d(3.0, 0.0, 0.0), TrackState::kCoasting);
-  EXPECT_GT(mask_unseen_objects({there}, elsewhere, cloud), 1000U);
+  const auto other_pose = pose({3.0, 0.0, 0.0});
+  EXPECT_EQ(mask_unseen_objects({person_at(kCenter, TrackState::kCoasting)}, other_pose, cloud),
+            0U);
+  const TrackedObject moved =
+      person_at(kCenter + Eigen::Vector3d(3.0, 0.0, 0.0), TrackState::kCoasting);
+  EXPECT_GT(mask_unseen_objects({moved}, other_pose, cloud), 1000U);
 }
 
-TEST(UnseenObjects, AreNotThoseThatMasksShow) {
+TEST(UnseenObjects, DoNotIncludeActiveTracks) {
   LabeledCloud cloud = room();
-  EXPECT_EQ(mask_unseen_objects({person_at(kBefore, TrackState::kActive)}, pose({0, 0, 0}), cloud),
+  EXPECT_EQ(mask_unseen_objects({person_at(kCenter, TrackState::kActive)}, pose({0, 0, 0}), cloud),
             0U);
   EXPECT_EQ(dynamic_points(cloud), 0U);
 }

@@ -21,7 +21,7 @@ VoxelGrid cube(int half) {
   return grid;
 }
 
-TEST(VoxelGrid, FindsWhatWasMadeOnBothSidesOfTheOrigin) {
+TEST(VoxelGrid, FindsVoxelsOnBothSidesOfOrigin) {
   const VoxelGrid grid = cube(10);
   EXPECT_EQ(grid.size(), 8000U);
   for (const VoxelBlock& block : grid.blocks()) {
@@ -35,11 +35,11 @@ TEST(VoxelGrid, FindsWhatWasMadeOnBothSidesOfTheOrigin) {
   EXPECT_EQ(grid.find({100, 0, 0}), nullptr);
 }
 
-TEST(VoxelGrid, ErasesAndStillFindsTheRest) {
+TEST(VoxelGrid, FindsRemainingVoxelsAfterErasing) {
   VoxelGrid grid = cube(8);
-  const auto odd = [](const Voxel& voxel) { return std::floor(voxel.position.x()) > 2.0F; };
+  const auto is_right = [](const Voxel& voxel) { return std::floor(voxel.position.x()) > 2.0F; };
   std::size_t erased = 0;
-  for (VoxelBlock& block : grid.blocks()) erased += grid.erase_if(block, odd);
+  for (VoxelBlock& block : grid.blocks()) erased += grid.erase_if(block, is_right);
   EXPECT_EQ(erased, 5U * 256U);
   EXPECT_EQ(grid.size(), 4096U - erased);
   EXPECT_EQ(grid.find({3, 0, 0}), nullptr);
@@ -49,7 +49,7 @@ TEST(VoxelGrid, ErasesAndStillFindsTheRest) {
   EXPECT_NE(grid.find({3, 0, 0}), nullptr);
 }
 
-TEST(VoxelGrid, CoarseVoxelsAreMeansOfFineOnes) {
+TEST(VoxelGrid, CoarseVoxelsAreMeansOfFineVoxels) {
   const VoxelGrid coarse = cube(8).coarsened();
   EXPECT_EQ(coarse.voxel_size(), 2.0);
   EXPECT_EQ(coarse.size(), 512U);
@@ -60,7 +60,7 @@ TEST(VoxelGrid, CoarseVoxelsAreMeansOfFineOnes) {
   EXPECT_EQ(voxel->hits, 1);
 }
 
-TEST(VoxelGrid, MemoryGrowsWithItsContent) {
+TEST(VoxelGrid, MemoryGrowsWithVoxels) {
   EXPECT_GT(cube(16).memory_bytes(), 4 * cube(8).memory_bytes());
   EXPECT_GE(cube(16).memory_bytes(), cube(16).size() * sizeof(Voxel));
 }
