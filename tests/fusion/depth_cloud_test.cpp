@@ -13,7 +13,7 @@ using testing::render;
 using testing::room;
 using testing::View;
 
-TEST(DepthCloud, PointsProjectToTheirBlocksCentre) {
+TEST(DepthCloud, PointsProjectToBlockCenter) {
   const View view = render(room());
   const LabeledCloud cloud = DepthCloudBuilder(FusionConfig{}).build(view.frame);
   ASSERT_EQ(cloud.width, 320);
@@ -27,7 +27,7 @@ TEST(DepthCloud, PointsProjectToTheirBlocksCentre) {
   EXPECT_EQ(cloud.colors[i], (Rgb{100, 110, 120}));
 }
 
-TEST(DepthCloud, BlockOverAnOcclusionBorderKeepsTheNearSurface) {
+TEST(DepthCloud, BlockAcrossDepthStepKeepsNearSurface) {
   View view = render(room());
   view.frame.depth(200, 100) = 2.0F;
   view.frame.depth(201, 100) = 2.01F;
@@ -46,7 +46,7 @@ TEST(DepthCloud, DepthOutOfRangeIsNoReturn) {
   EXPECT_EQ(DepthCloudBuilder(config).build(view.frame).labels[1000], PointLabel::kStatic);
 }
 
-TEST(DepthCloud, OtherStridesAgreeOnAFlatWall) {
+TEST(DepthCloud, AnyStrideGivesSameWall) {
   const View view = render(room());
   for (const int stride : {1, 3, 4}) {
     FusionConfig config;
@@ -58,7 +58,7 @@ TEST(DepthCloud, OtherStridesAgreeOnAFlatWall) {
   }
 }
 
-TEST(DepthCloud, ColourOfAnotherSizeIsRefused) {
+TEST(DepthCloud, RejectsColorOfOtherSize) {
   View view = render(room());
   view.frame.color = Image<Rgb>(320, 240);
   EXPECT_THROW(DepthCloudBuilder(FusionConfig{}).build(view.frame), DataError);

@@ -16,7 +16,7 @@ Instance square(int x, int y, int side, float score = 1.0F) {
   return instance;
 }
 
-TEST(MaskImage, OverlapNamesTheHigherScore) {
+TEST(MaskImage, OverlapTakesHigherScore) {
   const Segmentation segmentation{64, 48, {square(0, 0, 20, 0.9F), square(10, 10, 20, 0.5F)}};
   const MaskImage mask = make_mask_image(segmentation, 64, 48, 1, 0.0);
   EXPECT_EQ(mask.raw(5, 5), 1);
@@ -33,7 +33,7 @@ TEST(MaskImage, BlockIsCoveredByAnyOfItsPixels) {
   EXPECT_EQ(mask.raw(6, 5), 0);
 }
 
-TEST(MaskImage, DilationScalesWithTheImageWidth) {
+TEST(MaskImage, DilationScalesWithImageWidth) {
   const Segmentation segmentation{640, 480, {square(300, 200, 20)}};
   const MaskImage mask = make_mask_image(segmentation, 640, 480, 1, 0.005);
   EXPECT_NE(mask.dilated(297, 210), 0);
@@ -41,14 +41,14 @@ TEST(MaskImage, DilationScalesWithTheImageWidth) {
   EXPECT_EQ(mask.raw(299, 210), 0);
 }
 
-TEST(MaskImage, InstancesAreCutAtTheImage) {
+TEST(MaskImage, ClipsInstancesToImage) {
   const Segmentation segmentation{64, 48, {square(-10, -10, 20), square(60, 40, 20)}};
   const MaskImage mask = make_mask_image(segmentation, 64, 48, 2, 0.01);
   EXPECT_EQ(mask.raw(4, 4), 1);
   EXPECT_EQ(mask.raw(31, 23), 2);
 }
 
-TEST(MaskImage, NoSegmentationIsAnEmptyMask) {
+TEST(MaskImage, EmptyWithoutSegmentation) {
   const MaskImage mask = make_mask_image({}, 64, 48, 2, 0.01);
   EXPECT_EQ(mask.dilated.width(), 32);
   EXPECT_EQ(mask.dilated(0, 0), 0);

@@ -15,10 +15,10 @@ using testing::render;
 using testing::room_with_person;
 using testing::Scene;
 using testing::segmentation_of;
-using testing::Thing;
+using testing::Surface;
 using testing::View;
 
-/// LiDAR 0.3 m above and 0.1 m beside the camera, x forward, z up.
+/// A LiDAR 0.3 m above and 0.1 m beside the camera, x forward, z up.
 Transform<Camera, Lidar> extrinsics() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() << 0, -1, 0,  //
@@ -30,11 +30,11 @@ Transform<Camera, Lidar> extrinsics() {
 
 struct ScanView {
   Frame frame;
-  std::vector<Thing> truth;
+  std::vector<Surface> truth;
   Segmentation segmentation;
 };
 
-/// 48 rings from -25 to 10 degrees, 0.4 degrees apart, all around.
+/// 48 rings from -25 to 10 degrees, with points 0.4 degrees apart over the full turn.
 ScanView scan(const Scene& scene, int mask_grow) {
   const View view = render(scene);
   ScanView result;
@@ -43,69 +43,69 @@ ScanView scan(const Scene& scene, int mask_grow) {
   result.frame.name = "scan";
   result.frame.calibration = calibration;
   result.frame.color = view.frame.color;
-  result.segmentation = segmentation_of(view, {mask_of(view, Thing::kPerson, mask_grow)});
+  result.segmentation = segmentation_of(view, {mask_of(view, Surface::kPerson, mask_grow)});
   const Eigen::Isometry3f T = extrinsics().isometry().cast<float>();
   constexpr float kDegree = std::numbers::pi_v<float> / 180.0F;
   for (int ring = 0; ring < 48; ++ring) {
-    const float up = (-25.0F + 35.0F * static_cast<float>(ring) / 47.0F) * kDegree;
+    const float elevation = (-25.0F + 35.0F * static_cast<float>(ring) / 47.0F) * kDegree;
     for (int step = 0; step < 900; ++step) {
-      const float around = (0.4F * static_cast<float>(step) + 0.01F) * kDegree;
-      const Eigen::Vector3f direction(std::cos(up) * std::cos(around),
-                                      std::cos(up) * std::sin(around), std::sin(up));
+      const float azimuth = (0.4F * static_cast<float>(step) + 0.01F) * kDegree;
+      const Eigen::Vector3f direction(std::cos(elevation) * std::cos(azimuth),
+                                      std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       const Scene::Hit hit = scene.cast(T.translation(), T.linear() * direction);
-      if (hit.thing == Thing::kNothing) continue;
+      if (hit.surface == Surface::kNone) continue;
       result.frame.scan.points.push_back(direction * hit.distance);
-      result.truth.push_back(hit.thing);
+      result.truth.push_back(hit.surface);
     }
   }
   return result;
 }
 
-double dynamic_share_of(const LabeledCloud& cloud, const ScanView& view, Thing thing) {
-  int seen = 0;
+double dynamic_share_of(const LabeledCloud& cloud, const ScanView& view, Surface surface) {
+  int count = 0;
   int dynamic = 0;
   for (std::size_t i = 0; i < view.truth.size(); ++i) {
-    if (view.truth[i] != thing) continue;
-    ++seen;
+    if (view.truth[i] != surface) continue;
+    ++count;
     dynamic += cloud.labels[i] == PointLabel::kDynamic;
   }
-  return static_cast<double>(dynamic) / seen;
+  return static_cast<double>(dynamic) / count;
 }
 
-TEST(ScanFusion, ExtrinsicsCarryTheMaskToTheScan) {
+TEST(ScanFusion, TransfersMaskByExtrinsics) {
   const ScanView view = scan(room_with_person(), 0);
   const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
   EXPECT_FALSE(cloud.organised());
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.97);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.001);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kFloor), 0.002);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.97);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.001);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kFloor), 0.002);
   ASSERT_EQ(cloud.clusters.size(), 1U);
   EXPECT_NEAR(cloud.clusters[0].centroid.x(), 2.5F, 0.1F);
 }
 
-TEST(ScanFusion, WallBehindASloppyMaskComesBack) {
+TEST(ScanFusion, RestoresWallUnderDilatedMask) {
   const ScanView view = scan(room_with_person(), 15);
   const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.97);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.001);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.97);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.001);
 }
 
-TEST(ScanFusion, VisionModeLabelsBehindTheOutlineToo) {
+TEST(ScanFusion, VisionModeLabelsWallUnderMask) {
   const ScanView view = scan(room_with_person(), 15);
   FusionConfig config;
   config.mode = FusionMode::kVision;
   const LabeledCloud cloud = SemanticFusion(config).fuse(view.frame, view.segmentation);
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kWall), 0.001);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kWall), 0.001);
 }
 
-TEST(ScanFusion, WithoutCameraAllIsStatic) {
+TEST(ScanFusion, AllStaticWithoutCamera) {
   ScanView view = scan(room_with_person(), 0);
   view.frame.calibration = std::make_shared<Calibration>();
   const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
   EXPECT_EQ(dynamic_share(cloud), 0.0);
 }
 
-TEST(ScanFusion, BadPointsAreInvalidAndAnEmptyScanIsEmpty) {
+TEST(ScanFusion, LabelsBadPointsInvalidAndKeepsScanEmpty) {
   ScanView view = scan(room_with_person(), 0);
   constexpr float kInf = std::numeric_limits<float>::infinity();
   view.frame.scan.points[0] = Eigen::Vector3f(kInf, 0.0F, 0.0F);
@@ -118,7 +118,7 @@ TEST(ScanFusion, BadPointsAreInvalidAndAnEmptyScanIsEmpty) {
   EXPECT_TRUE(fusion.fuse(view.frame, view.segmentation).points.empty());
 }
 
-TEST(ScanFusion, SameInputGivesTheSameBits) {
+TEST(ScanFusion, IsDeterministic) {
   const ScanView view = scan(room_with_person(), 3);
   SemanticFusion fusion{FusionConfig{}};
   const LabeledCloud a = fusion.fuse(view.frame, view.segmentation);

@@ -8,7 +8,7 @@
 namespace mms::testing {
 namespace {
 
-/// Mask with a pixel set where any within `radius` (a square) has the value `wanted`.
+/// Mask of the pixels with a pixel of value `wanted` within a square of that radius [pixels].
 Image<std::uint8_t> spread(const Image<std::uint8_t>& mask, int radius, std::uint8_t wanted) {
   Image<std::uint8_t> result(mask.width(), mask.height());
   for (int y = 0; y < mask.height(); ++y) {
@@ -26,8 +26,8 @@ Image<std::uint8_t> spread(const Image<std::uint8_t>& mask, int radius, std::uin
 
 }  // namespace
 
-Scene& Scene::add(Thing thing, const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
-  blocks.push_back({thing, Eigen::AlignedBox3f(low, high)});
+Scene& Scene::add(Surface surface, const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
+  blocks.push_back({surface, Eigen::AlignedBox3f(low, high)});
   return *this;
 }
 
@@ -39,8 +39,8 @@ Scene::Hit Scene::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& dir
     const float enter = a.min(b).maxCoeff();
     const float leave = a.max(b).minCoeff();
     if (enter > leave || enter <= 0.0F) continue;
-    if (nearest.thing == Thing::kNothing || enter < nearest.distance) {
-      nearest = {enter, block.thing};
+    if (nearest.surface == Surface::kNone || enter < nearest.distance) {
+      nearest = {enter, block.surface};
     }
   }
   return nearest;
@@ -48,12 +48,12 @@ Scene::Hit Scene::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& dir
 
 Scene room() {
   return Scene()
-      .add(Thing::kFloor, {-6.0F, 1.2F, -6.0F}, {6.0F, 1.3F, 6.0F})
-      .add(Thing::kWall, {-6.0F, -3.0F, 4.0F}, {6.0F, 1.2F, 4.1F});
+      .add(Surface::kFloor, {-6.0F, 1.2F, -6.0F}, {6.0F, 1.3F, 6.0F})
+      .add(Surface::kWall, {-6.0F, -3.0F, 4.0F}, {6.0F, 1.2F, 4.1F});
 }
 
 Scene room_with_person(float x) {
-  return room().add(Thing::kPerson, {x, -0.5F, 2.5F}, {x + 0.5F, 1.2F, 2.8F});
+  return room().add(Surface::kPerson, {x, -0.5F, 2.5F}, {x + 0.5F, 1.2F, 2.8F});
 }
 
 CameraIntrinsics test_camera() {
@@ -71,7 +71,7 @@ View render(const Scene& scene) {
   calibration->camera = test_camera();
   const int width = calibration->camera->width;
   const int height = calibration->camera->height;
-  View view{{}, Image<Thing>(width, height, Thing::kNothing)};
+  View view{{}, Image<Surface>(width, height, Surface::kNone)};
   view.frame.name = "synthetic";
   view.frame.calibration = calibration;
   view.frame.depth = Image<float>(width, height);
@@ -80,15 +80,15 @@ View render(const Scene& scene) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Scene::Hit hit = scene.cast(Eigen::Vector3f::Zero(), rays[i]);
     view.frame.depth[i] = hit.distance;
-    view.truth[i] = hit.thing;
+    view.truth[i] = hit.surface;
   }
   return view;
 }
 
-Instance mask_of(const View& view, Thing thing, int grow) {
+Instance mask_of(const View& view, Surface surface, int grow) {
   Instance instance;
   Image<std::uint8_t> mask(view.truth.width(), view.truth.height());
-  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = view.truth[i] == thing ? 1 : 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = view.truth[i] == surface ? 1 : 0;
   if (grow > 0) mask = spread(mask, grow, 1);
   if (grow < 0) {
     mask = spread(mask, -grow, 0);

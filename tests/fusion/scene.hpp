@@ -9,23 +9,24 @@
 
 namespace mms::testing {
 
-/// What a ray of the synthetic scenes hits.
-enum class Thing : std::uint8_t { kNothing, kFloor, kWall, kPerson, kOther, kDesk };
+/// Surfaces of the synthetic scenes.
+enum class Surface : std::uint8_t { kNone, kFloor, kWall, kPerson, kOther, kDesk };
 
 struct Block {
-  Thing thing;
+  Surface surface;
   Eigen::AlignedBox3f box;  ///< in the camera frame [m]
 };
 
-/// Axis-aligned blocks seen from the origin, z forward, y down; the floor is 1.2 m below.
+/// Axis-aligned blocks in the frame of a camera at the origin, z forward, y down. The floor is
+/// 1.2 m below.
 struct Scene {
   std::vector<Block> blocks;
 
-  Scene& add(Thing thing, const Eigen::Vector3f& low, const Eigen::Vector3f& high);
+  Scene& add(Surface surface, const Eigen::Vector3f& low, const Eigen::Vector3f& high);
 
   struct Hit {
-    float distance = 0.0F;  ///< in lengths of `direction`; 0 for none
-    Thing thing = Thing::kNothing;
+    float distance = 0.0F;  ///< as a multiple of `direction`; 0 for none
+    Surface surface = Surface::kNone;
   };
   Hit cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
 };
@@ -40,15 +41,15 @@ CameraIntrinsics test_camera();
 
 struct View {
   Frame frame;
-  Image<Thing> truth;
+  Image<Surface> truth;
 };
 
-/// The scene's depth image (and a grey colour image) with what every pixel sees.
+/// The scene's depth image (and a grey colour image) with the surface of every pixel.
 View render(const Scene& scene);
 
-/// The pixels of `thing` as one instance's mask, moved outwards by `grow` pixels (inwards if
+/// The pixels of `surface` as the mask of one instance, dilated by `grow` pixels (eroded if
 /// negative).
-Instance mask_of(const View& view, Thing thing, int grow = 0);
+Instance mask_of(const View& view, Surface surface, int grow = 0);
 
 Segmentation segmentation_of(const View& view, std::vector<Instance> instances);
 

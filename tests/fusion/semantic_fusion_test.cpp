@@ -16,7 +16,7 @@ using testing::render;
 using testing::room;
 using testing::room_with_person;
 using testing::segmentation_of;
-using testing::Thing;
+using testing::Surface;
 using testing::View;
 
 LabeledCloud fuse(const View& view, std::vector<Instance> instances,
@@ -26,33 +26,33 @@ LabeledCloud fuse(const View& view, std::vector<Instance> instances,
   return SemanticFusion(config).fuse(view.frame, segmentation_of(view, std::move(instances)));
 }
 
-/// Share of the dynamic points among those whose whole block sees `thing`.
-double dynamic_share_of(const LabeledCloud& cloud, const View& view, Thing thing) {
-  int seen = 0;
+/// Share of dynamic points among those whose whole block shows `surface`.
+double dynamic_share_of(const LabeledCloud& cloud, const View& view, Surface surface) {
+  int count = 0;
   int dynamic = 0;
   for (int y = 0; y < cloud.height; ++y) {
     for (int x = 0; x < cloud.width; ++x) {
       const auto i = static_cast<std::size_t>(y * cloud.width + x);
-      const bool is_thing =
-          view.truth(2 * x, 2 * y) == thing && view.truth(2 * x + 1, 2 * y) == thing &&
-          view.truth(2 * x, 2 * y + 1) == thing && view.truth(2 * x + 1, 2 * y + 1) == thing;
-      if (!is_thing) continue;
-      ++seen;
+      const bool is_surface =
+          view.truth(2 * x, 2 * y) == surface && view.truth(2 * x + 1, 2 * y) == surface &&
+          view.truth(2 * x, 2 * y + 1) == surface && view.truth(2 * x + 1, 2 * y + 1) == surface;
+      if (!is_surface) continue;
+      ++count;
       dynamic += cloud.labels[i] == PointLabel::kDynamic;
     }
   }
-  return seen == 0 ? 0.0 : static_cast<double>(dynamic) / seen;
+  return count == 0 ? 0.0 : static_cast<double>(dynamic) / count;
 }
 
 void expect_only_person(const LabeledCloud& cloud, const View& view) {
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.002);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kFloor), 0.01);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.002);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kFloor), 0.01);
 }
 
-TEST(SemanticFusion, ExactMaskMakesThePersonDynamicAndNothingElse) {
+TEST(SemanticFusion, ExactMaskLabelsOnlyPersonDynamic) {
   const View view = render(room_with_person());
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson)});
   expect_only_person(cloud, view);
   ASSERT_EQ(cloud.clusters.size(), 1U);
   const DynamicCluster& person = cloud.clusters[0];
@@ -64,52 +64,52 @@ TEST(SemanticFusion, ExactMaskMakesThePersonDynamicAndNothingElse) {
   EXPECT_GT(person.points, 9000);
 }
 
-TEST(SemanticFusion, HalfAMaskMakesTheWholePersonDynamic) {
+TEST(SemanticFusion, HalfMaskLabelsWholePersonDynamic) {
   const View view = render(room_with_person());
-  Instance half = mask_of(view, Thing::kPerson);
+  Instance half = mask_of(view, Surface::kPerson);
   for (int y = 307; y < 480; ++y) {
     for (int x = 0; x < 640; ++x) half.mask(x, y) = 0;
   }
   expect_only_person(fuse(view, {half}), view);
 }
 
-TEST(SemanticFusion, ErodedMaskIsCompletedByGeometry) {
+TEST(SemanticFusion, CompletesErodedMaskByGeometry) {
   const View view = render(room_with_person());
-  expect_only_person(fuse(view, {mask_of(view, Thing::kPerson, -15)}), view);
+  expect_only_person(fuse(view, {mask_of(view, Surface::kPerson, -15)}), view);
 }
 
-TEST(SemanticFusion, MaskFarTooLargeGivesTheWallBack) {
+TEST(SemanticFusion, RestoresWallUnderDilatedMask) {
   const View view = render(room_with_person());
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson, 20)});
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.001);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kFloor), 0.03);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson, 20)});
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.001);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kFloor), 0.03);
 }
 
-TEST(SemanticFusion, MissingMaskLeavesAllStatic) {
+TEST(SemanticFusion, AllStaticWithoutMasks) {
   const View view = render(room_with_person());
   const LabeledCloud cloud = fuse(view, {});
   EXPECT_EQ(dynamic_share(cloud), 0.0);
   EXPECT_TRUE(cloud.clusters.empty());
 }
 
-/// A person seen at `seconds`, their left side at `x` [m].
+/// View of a person at time `seconds`, the left side at `x` [m].
 View person_at(double seconds, float x) {
   View view = render(room_with_person(x));
   view.frame.stamp = Timestamp(static_cast<std::int64_t>(seconds * 1e9));
   return view;
 }
 
-TEST(SemanticFusion, AnObjectThatLosesItsMaskIsFollowedForAWhile) {
+TEST(SemanticFusion, RemembersLostMaskForHalfASecond) {
   SemanticFusion fusion{FusionConfig{}};
   const View masked = person_at(10.0, -0.25F);
-  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Thing::kPerson)}));
+  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Surface::kPerson)}));
   for (int i = 1; i <= 7; ++i) {
     const View view = person_at(10.0 + i / 15.0, -0.25F + 0.1F * static_cast<float>(i));
     const LabeledCloud cloud = fusion.fuse(view.frame, segmentation_of(view, {}));
-    EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.975);  // but for their soles
-    EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.002);
-    EXPECT_LT(dynamic_share_of(cloud, view, Thing::kFloor), 0.01);
+    EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.975);  // without the soles
+    EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.002);
+    EXPECT_LT(dynamic_share_of(cloud, view, Surface::kFloor), 0.01);
     ASSERT_EQ(cloud.clusters.size(), 1U);
     EXPECT_EQ(cloud.clusters[0].object_class, ObjectClass::kPerson);
   }
@@ -117,84 +117,85 @@ TEST(SemanticFusion, AnObjectThatLosesItsMaskIsFollowedForAWhile) {
   EXPECT_EQ(dynamic_share(fusion.fuse(late.frame, segmentation_of(late, {}))), 0.0);
 }
 
-TEST(SemanticFusion, NothingIsRememberedWhereSomebodyHasLeft) {
+TEST(SemanticFusion, RemembersNothingWherePersonLeft) {
   SemanticFusion fusion{FusionConfig{}};
   const View masked = person_at(10.0, -0.25F);
-  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Thing::kPerson)}));
+  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Surface::kPerson)}));
   View empty = render(room());
   empty.frame.stamp = Timestamp(10'066'000'000);
   EXPECT_EQ(dynamic_share(fusion.fuse(empty.frame, segmentation_of(empty, {}))), 0.0);
 }
 
-TEST(SemanticFusion, MasksAloneAreNotRemembered) {
+TEST(SemanticFusion, VisionModeRemembersNoMasks) {
   FusionConfig config;
   config.mode = FusionMode::kVision;
   SemanticFusion fusion{config};
   const View masked = person_at(10.0, -0.25F);
-  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Thing::kPerson)}));
+  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Surface::kPerson)}));
   const View view = person_at(10.066, -0.25F);
   EXPECT_EQ(dynamic_share(fusion.fuse(view.frame, segmentation_of(view, {}))), 0.0);
 }
 
-TEST(SemanticFusion, OverlappingMasksAreDynamicTwice) {
+TEST(SemanticFusion, SeparatesObjectsWithOverlappingMasks) {
   auto scene = room_with_person();
-  scene.add(Thing::kOther, {0.1F, -0.6F, 3.0F}, {0.6F, 1.2F, 3.3F});
+  scene.add(Surface::kOther, {0.1F, -0.6F, 3.0F}, {0.6F, 1.2F, 3.3F});
   const View view = render(scene);
-  Instance front = mask_of(view, Thing::kPerson, 6);
-  Instance back = mask_of(view, Thing::kOther, 6);
+  Instance front = mask_of(view, Surface::kPerson, 6);
+  Instance back = mask_of(view, Surface::kOther, 6);
   const LabeledCloud cloud = fuse(view, {front, back});
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kOther), 0.985);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kWall), 0.002);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.985);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kOther), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.002);
   EXPECT_EQ(cloud.clusters.size(), 2U);
 }
 
-TEST(SemanticFusion, PersonLeaningOnTheWallDoesNotTakeItAlong) {
-  const View view = render(room().add(Thing::kPerson, {-0.25F, -0.5F, 3.7F}, {0.25F, 1.2F, 4.0F}));
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
+TEST(SemanticFusion, KeepsWallBehindLeaningPersonStatic) {
+  const View view =
+      render(room().add(Surface::kPerson, {-0.25F, -0.5F, 3.7F}, {0.25F, 1.2F, 4.0F}));
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson)});
   expect_only_person(cloud, view);
 }
 
-TEST(SemanticFusion, DeskBehindASloppyMaskComesBack) {
+TEST(SemanticFusion, RestoresDeskUnderDilatedMask) {
   auto scene = room_with_person();
-  scene.add(Thing::kDesk, {-0.8F, 0.4F, 3.1F}, {1.0F, 1.2F, 3.6F});
+  scene.add(Surface::kDesk, {-0.8F, 0.4F, 3.1F}, {1.0F, 1.2F, 3.6F});
   const View view = render(scene);
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson, 10)});
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kDesk), 0.002);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson, 10)});
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kDesk), 0.002);
 }
 
-TEST(SemanticFusion, AFlatSideInLineWithARackIsNoneOfTheRack) {
+TEST(SemanticFusion, SeparatesFlatSideCoplanarWithRack) {
   auto scene = room();
-  scene.add(Thing::kDesk, {-2.0F, -1.0F, 3.0F}, {-0.6F, 1.2F, 3.3F});
-  scene.add(Thing::kPerson, {0.0F, 0.2F, 3.0F}, {0.8F, 1.1F, 3.6F});
+  scene.add(Surface::kDesk, {-2.0F, -1.0F, 3.0F}, {-0.6F, 1.2F, 3.3F});
+  scene.add(Surface::kPerson, {0.0F, 0.2F, 3.0F}, {0.8F, 1.1F, 3.6F});
   const View view = render(scene);
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kDesk), 0.002);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson)});
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kDesk), 0.002);
 }
 
-TEST(SemanticFusion, WhatIsTooSmallForAClusterIsAsItsMaskSays) {
-  const auto scene = room().add(Thing::kPerson, {0.5F, -0.6F, 2.0F}, {0.54F, -0.56F, 2.04F});
+TEST(SemanticFusion, LabelsTooSmallClustersByMask) {
+  const auto scene = room().add(Surface::kPerson, {0.5F, -0.6F, 2.0F}, {0.54F, -0.56F, 2.04F});
   const View view = render(scene);
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
-  EXPECT_EQ(dynamic_share_of(cloud, view, Thing::kPerson), 1.0);
-  EXPECT_EQ(dynamic_share_of(cloud, view, Thing::kWall), 0.0);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson)});
+  EXPECT_EQ(dynamic_share_of(cloud, view, Surface::kPerson), 1.0);
+  EXPECT_EQ(dynamic_share_of(cloud, view, Surface::kWall), 0.0);
   EXPECT_TRUE(cloud.clusters.empty());
 }
 
-TEST(SemanticFusion, PersonTouchingFurnitureIsSplitOff) {
+TEST(SemanticFusion, SplitsPersonFromTouchingFurniture) {
   auto scene = room_with_person();
-  // Shelf boards, each too low for a plane of its own, that meet the person's side.
+  // Shelf boards, each too low for a plane of its own, that touch the person's side.
   for (int k = 0; k < 6; ++k) {
     const float y = -0.4F + 0.25F * static_cast<float>(k);
     const float z = k % 2 == 0 ? 2.55F : 2.62F;
-    scene.add(Thing::kDesk, {0.25F, y, z}, {1.4F, y + 0.22F, z + 0.2F});
+    scene.add(Surface::kDesk, {0.25F, y, z}, {1.4F, y + 0.22F, z + 0.2F});
   }
   const View view = render(scene);
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
-  EXPECT_LT(dynamic_share_of(cloud, view, Thing::kDesk), 0.2);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson)});
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.985);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kDesk), 0.2);
 }
 
 /// The rows of a mask from `begin` on, `count` of them.
@@ -208,23 +209,23 @@ Instance rows_of(const Instance& whole, int begin, int count) {
   return part;
 }
 
-TEST(SemanticFusion, TwoWhoTouchAreTwoObjects) {
+TEST(SemanticFusion, TouchingPersonsAreTwoObjects) {
   testing::Scene scene = room_with_person(-0.5F);
-  scene.add(Thing::kOther, {0.0F, -0.5F, 2.5F}, {0.5F, 1.2F, 2.8F});
+  scene.add(Surface::kOther, {0.0F, -0.5F, 2.5F}, {0.5F, 1.2F, 2.8F});
   const View view = render(scene);
   const LabeledCloud cloud =
-      fuse(view, {mask_of(view, Thing::kPerson), mask_of(view, Thing::kOther, -3)});
+      fuse(view, {mask_of(view, Surface::kPerson), mask_of(view, Surface::kOther, -3)});
   ASSERT_EQ(cloud.clusters.size(), 2U);
   const bool first_is_left = cloud.clusters[0].centroid.x() < 0.0F;
   EXPECT_NEAR(cloud.clusters[first_is_left ? 0 : 1].centroid.x(), -0.25F, 0.05F);
   EXPECT_NEAR(cloud.clusters[first_is_left ? 1 : 0].centroid.x(), 0.25F, 0.05F);
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kPerson), 0.985);
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kOther), 0.985);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.985);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kOther), 0.985);
 }
 
-TEST(SemanticFusion, TwoMasksOnOneBodyAreOneObject) {
+TEST(SemanticFusion, TwoMasksOnOnePersonAreOneObject) {
   const View view = render(room_with_person());
-  const Instance whole = mask_of(view, Thing::kPerson);
+  const Instance whole = mask_of(view, Surface::kPerson);
   const int half = whole.mask.height() / 2;
   const LabeledCloud cloud =
       fuse(view, {rows_of(whole, 0, half), rows_of(whole, half, whole.mask.height() - half)});
@@ -232,34 +233,34 @@ TEST(SemanticFusion, TwoMasksOnOneBodyAreOneObject) {
   expect_only_person(cloud, view);
 }
 
-TEST(SemanticFusion, BothSidesOfAPillarAreOneVehicle) {
+TEST(SemanticFusion, JoinsVehicleAcrossOcclusion) {
   testing::Scene scene = room();
-  scene.add(Thing::kPerson, {-0.8F, 0.4F, 3.0F}, {0.8F, 1.2F, 3.4F});
-  scene.add(Thing::kOther, {-0.1F, -1.0F, 2.0F}, {0.1F, 1.2F, 2.2F});
+  scene.add(Surface::kPerson, {-0.8F, 0.4F, 3.0F}, {0.8F, 1.2F, 3.4F});
+  scene.add(Surface::kOther, {-0.1F, -1.0F, 2.0F}, {0.1F, 1.2F, 2.2F});
   const View view = render(scene);
-  Instance vehicle = mask_of(view, Thing::kPerson);
+  Instance vehicle = mask_of(view, Surface::kPerson);
   vehicle.object_class = ObjectClass::kAgv;
   const LabeledCloud cloud = fuse(view, {vehicle});
   ASSERT_EQ(cloud.clusters.size(), 1U);
   EXPECT_NEAR(cloud.clusters[0].box_max.x() - cloud.clusters[0].box_min.x(), 1.6F, 0.1F);
 }
 
-TEST(SemanticFusion, AForkliftsMastIsPartOfIt) {
+TEST(SemanticFusion, JoinsForkliftMastToBody) {
   testing::Scene scene = room();
-  scene.add(Thing::kPerson, {-0.5F, 0.4F, 2.2F}, {0.5F, 1.2F, 2.5F});
-  scene.add(Thing::kPerson, {-0.3F, -0.7F, 3.3F}, {0.3F, 0.4F, 3.4F});
+  scene.add(Surface::kPerson, {-0.5F, 0.4F, 2.2F}, {0.5F, 1.2F, 2.5F});
+  scene.add(Surface::kPerson, {-0.3F, -0.7F, 3.3F}, {0.3F, 0.4F, 3.4F});
   const View view = render(scene);
-  Instance vehicle = mask_of(view, Thing::kPerson);
+  Instance vehicle = mask_of(view, Surface::kPerson);
   vehicle.object_class = ObjectClass::kAgv;
   EXPECT_EQ(fuse(view, {vehicle}).clusters.size(), 1U);
 }
 
-TEST(SemanticFusion, WhatAMaskSpilledOntoFarBehindIsNoPartOfTheVehicle) {
+TEST(SemanticFusion, DoesNotJoinDistantBackgroundToVehicle) {
   testing::Scene scene = room();
-  scene.add(Thing::kPerson, {-0.2F, 0.8F, 2.5F}, {0.2F, 1.2F, 2.8F});
-  scene.add(Thing::kPerson, {0.4F, 0.8F, 3.6F}, {0.7F, 1.2F, 3.8F});
+  scene.add(Surface::kPerson, {-0.2F, 0.8F, 2.5F}, {0.2F, 1.2F, 2.8F});
+  scene.add(Surface::kPerson, {0.4F, 0.8F, 3.6F}, {0.7F, 1.2F, 3.8F});
   const View view = render(scene);
-  Instance vehicle = mask_of(view, Thing::kPerson);
+  Instance vehicle = mask_of(view, Surface::kPerson);
   vehicle.object_class = ObjectClass::kAgv;
   const LabeledCloud cloud = fuse(view, {vehicle});
   ASSERT_EQ(cloud.clusters.size(), 2U);
@@ -267,28 +268,28 @@ TEST(SemanticFusion, WhatAMaskSpilledOntoFarBehindIsNoPartOfTheVehicle) {
   EXPECT_GT(cloud.clusters[1].box_min.z(), 3.5F);
 }
 
-TEST(SemanticFusion, VisionModeTakesTheDilatedMaskAsItIs) {
+TEST(SemanticFusion, VisionModeUsesDilatedMaskUnchanged) {
   const View view = render(room_with_person());
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)}, FusionMode::kVision);
-  EXPECT_EQ(dynamic_share_of(cloud, view, Thing::kPerson), 1.0);
-  EXPECT_GT(dynamic_share_of(cloud, view, Thing::kWall), 0.005);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson)}, FusionMode::kVision);
+  EXPECT_EQ(dynamic_share_of(cloud, view, Surface::kPerson), 1.0);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kWall), 0.005);
   EXPECT_EQ(cloud.clusters.size(), 1U);
 }
 
-TEST(SemanticFusion, NoneModeIgnoresTheMask) {
+TEST(SemanticFusion, NoneModeIgnoresMask) {
   const View view = render(room_with_person());
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)}, FusionMode::kNone);
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson)}, FusionMode::kNone);
   EXPECT_EQ(dynamic_share(cloud), 0.0);
 }
 
-TEST(SemanticFusion, PixelsWithoutReturnUnderTheMaskAreDynamic) {
+TEST(SemanticFusion, MaskedPixelsWithoutReturnAreDynamic) {
   View view = render(room_with_person());
   for (int y = 200; y < 220; ++y) {
     for (int x = 310; x < 330; ++x) view.frame.depth(x, y) = 0.0F;
   }
   view.frame.depth(20, 20) = view.frame.depth(21, 20) = 0.0F;
   view.frame.depth(20, 21) = view.frame.depth(21, 21) = std::numeric_limits<float>::infinity();
-  const LabeledCloud cloud = fuse(view, {mask_of(view, Thing::kPerson)});
+  const LabeledCloud cloud = fuse(view, {mask_of(view, Surface::kPerson)});
   EXPECT_NE(cloud.dynamic_pixels(160, 105), 0);
   EXPECT_EQ(cloud.dynamic_pixels(10, 10), 0);
   const auto corner = static_cast<std::size_t>(10 * cloud.width + 10);
@@ -296,30 +297,30 @@ TEST(SemanticFusion, PixelsWithoutReturnUnderTheMaskAreDynamic) {
   EXPECT_TRUE(cloud.points[corner].hasNaN());
 }
 
-TEST(SemanticFusion, DepthWithoutAnyReturnIsAnInvalidCloud) {
+TEST(SemanticFusion, NoDynamicPointsWithoutReturns) {
   View view = render(room_with_person());
-  const Instance mask = mask_of(view, Thing::kPerson);
+  const Instance mask = mask_of(view, Surface::kPerson);
   view.frame.depth = Image<float>(640, 480, std::numeric_limits<float>::quiet_NaN());
   const LabeledCloud cloud = fuse(view, {mask});
   EXPECT_EQ(dynamic_share(cloud), 0.0);
   EXPECT_TRUE(cloud.clusters.empty());
 }
 
-TEST(SemanticFusion, SizesThatDisagreeAreNamed) {
+TEST(SemanticFusion, ErrorNamesDifferentSizes) {
   const View view = render(room());
   SemanticFusion fusion{FusionConfig{}};
   try {
     fusion.fuse(view.frame, {320, 240, {}});
-    FAIL() << "masks of another size were taken";
+    FAIL() << "accepted masks of another size";
   } catch (const DataError& error) {
     EXPECT_NE(std::strstr(error.what(), "320 x 240"), nullptr) << error.what();
     EXPECT_NE(std::strstr(error.what(), "640 x 480"), nullptr) << error.what();
   }
 }
 
-TEST(SemanticFusion, SameInputGivesTheSameBits) {
+TEST(SemanticFusion, IsDeterministic) {
   const View view = render(room_with_person());
-  const Instance mask = mask_of(view, Thing::kPerson, -8);
+  const Instance mask = mask_of(view, Surface::kPerson, -8);
   const LabeledCloud a = fuse(view, {mask});
   const LabeledCloud b = fuse(view, {mask});
   EXPECT_EQ(a.labels, b.labels);
