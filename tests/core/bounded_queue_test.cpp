@@ -10,13 +10,13 @@
 namespace mms {
 namespace {
 
-TEST(BoundedQueue, GivesItemsInOrder) {
+TEST(BoundedQueue, PopsItemsInOrder) {
   BoundedQueue<int> queue(3);
   for (const int i : {1, 2, 3}) EXPECT_TRUE(queue.push(i));
   for (const int i : {1, 2, 3}) EXPECT_EQ(queue.pop(), i);
 }
 
-TEST(BoundedQueue, HoldsNoMoreThanItsCapacity) {
+TEST(BoundedQueue, HoldsAtMostItsCapacity) {
   BoundedQueue<int> queue(2);
   EXPECT_TRUE(queue.try_push(1));
   EXPECT_TRUE(queue.try_push(2));
@@ -27,7 +27,7 @@ TEST(BoundedQueue, HoldsNoMoreThanItsCapacity) {
   EXPECT_EQ(queue.pop(), 4);
 }
 
-TEST(BoundedQueue, ClosedItGivesWhatIsLeftAndTakesNothing) {
+TEST(BoundedQueue, ClosedQueueOnlyPopsRemainingItems) {
   BoundedQueue<int> queue(4);
   queue.push(1);
   queue.push(2);
@@ -41,7 +41,7 @@ TEST(BoundedQueue, ClosedItGivesWhatIsLeftAndTakesNothing) {
   EXPECT_EQ(queue.pop(), std::nullopt);
 }
 
-TEST(BoundedQueue, CloseWakesWhoWaitsForAnItem) {
+TEST(BoundedQueue, CloseWakesBlockedConsumers) {
   BoundedQueue<int> queue(1);
   std::vector<std::thread> waiting;
   std::atomic<int> woken = 0;
@@ -51,20 +51,20 @@ TEST(BoundedQueue, CloseWakesWhoWaitsForAnItem) {
   EXPECT_EQ(woken, 3);
 }
 
-TEST(BoundedQueue, CloseWakesWhoWaitsForRoom) {
+TEST(BoundedQueue, CloseWakesBlockedProducers) {
   BoundedQueue<int> queue(1);
   queue.push(0);
   std::vector<std::thread> waiting;
-  std::atomic<int> refused = 0;
-  for (int i = 0; i < 3; ++i) waiting.emplace_back([&] { refused += !queue.push(1); });
+  std::atomic<int> rejected = 0;
+  for (int i = 0; i < 3; ++i) waiting.emplace_back([&] { rejected += !queue.push(1); });
   queue.close();
   for (std::thread& thread : waiting) thread.join();
-  EXPECT_EQ(refused, 3);
+  EXPECT_EQ(rejected, 3);
   EXPECT_EQ(queue.pop(), 0);
   EXPECT_EQ(queue.pop(), std::nullopt);
 }
 
-TEST(BoundedQueue, BetweenThreadsNothingIsLostOrSwapped) {
+TEST(BoundedQueue, KeepsOrderBetweenThreads) {
   constexpr int kItems = 20000;
   BoundedQueue<std::unique_ptr<int>> queue(3);  // items that can only be moved
   std::thread producer([&] {

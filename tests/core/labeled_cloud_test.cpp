@@ -5,7 +5,7 @@
 namespace mms {
 namespace {
 
-TEST(DynamicShare, IsOfTheValidPoints) {
+TEST(DynamicShare, CountsValidPointsOnly) {
   LabeledCloud cloud;
   for (int i = 0; i < 3; ++i) cloud.labels.push_back(PointLabel::kDynamic);
   for (int i = 0; i < 9; ++i) cloud.labels.push_back(PointLabel::kStatic);
@@ -20,7 +20,7 @@ TEST(DynamicShare, IsZeroWithoutValidPoints) {
   EXPECT_EQ(dynamic_share(cloud), 0.0);
 }
 
-TEST(DynamicShare, ReachesOne) {
+TEST(DynamicShare, IsOneWhenAllAreDynamic) {
   LabeledCloud cloud;
   cloud.labels = {PointLabel::kDynamic, PointLabel::kInvalid};
   EXPECT_EQ(dynamic_share(cloud), 1.0);

@@ -25,7 +25,7 @@ TEST(Timestamp, ParsesDecimalSeconds) {
   EXPECT_EQ(parsed("0007.5"), 7'500'000'000);
 }
 
-TEST(Timestamp, KeepsNanosecondsThatADoubleCannotHold) {
+TEST(Timestamp, KeepsNanosecondsBeyondDoublePrecision) {
   // The spacing of doubles near 1.3e9 is 238 ns.
   EXPECT_EQ(parsed("1305031102.175304001"), 1'305'031'102'175'304'001);
   EXPECT_EQ(parsed("1305031102.175304002"), 1'305'031'102'175'304'002);
@@ -37,7 +37,7 @@ TEST(Timestamp, DigitsBeyondNanosecondsDoNotOverflow) {
   EXPECT_EQ(parsed("1.00000000000000000000000000000000000001"), 1'000'000'000);
 }
 
-TEST(Timestamp, RejectsWhatIsNoStamp) {
+TEST(Timestamp, RejectsMalformedText) {
   for (const char* text :
        {"",    " ",  ".",  ".5",   "-1",   "-0.5", "-0",  "+1",  "1e9",  "1.5e3", "abc", "1.2.3",
         "1,5", " 1", "1 ", "1.5 ", "1. 5", "0x10", "nan", "inf", "1.-5", "1.+5",  "--1"}) {
@@ -62,7 +62,7 @@ TEST(Timestamp, WritesNineDecimals) {
   EXPECT_EQ(Timestamp(INT64_MIN).to_string(), "-9223372036.854775808");
 }
 
-TEST(Timestamp, ParseUndoesToString) {
+TEST(Timestamp, ParseInvertsToString) {
   std::mt19937_64 random(1);
   std::uniform_int_distribution<std::int64_t> any(0, 9'000'000'000'000'000'000);
   for (int i = 0; i < 1000; ++i) {
@@ -71,14 +71,14 @@ TEST(Timestamp, ParseUndoesToString) {
   }
 }
 
-TEST(Timestamp, FromSecondsRoundsToTheNearestNanosecond) {
+TEST(Timestamp, FromSecondsRoundsToNanoseconds) {
   EXPECT_EQ(Timestamp::from_seconds(0.1).nanoseconds(), 100'000'000);
   EXPECT_EQ(Timestamp::from_seconds(1.0 / 3.0).nanoseconds(), 333'333'333);
   EXPECT_EQ(Timestamp::from_seconds(2.0 / 3.0).nanoseconds(), 666'666'667);
   EXPECT_EQ(Timestamp::from_seconds(-2.0 / 3.0).nanoseconds(), -666'666'667);
 }
 
-TEST(Timestamp, ArithmeticIsOfIntegers) {
+TEST(Timestamp, ArithmeticIsExact) {
   const Timestamp early(1'305'031'102'175'304'001);
   const Timestamp late = early + Duration(33'000'000);
   EXPECT_EQ((late - early).count(), 33'000'000);
