@@ -12,7 +12,7 @@
 namespace mms {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 struct Total {
   int pairs = 0;
@@ -29,8 +29,8 @@ Total total(const Eigen::MatrixXd& cost, const std::vector<int>& column_of) {
   return sum;
 }
 
-/// Tries every order of the columns (and of places for nothing).
-Total best_of_all(const Eigen::MatrixXd& cost) {
+/// Tries every permutation of the columns, padded with rows without a column.
+Total exhaustive_search(const Eigen::MatrixXd& cost) {
   std::vector<int> order(static_cast<std::size_t>(cost.rows() + cost.cols()));
   std::iota(order.begin(), order.end(), 0);
   Total best;
@@ -38,8 +38,8 @@ Total best_of_all(const Eigen::MatrixXd& cost) {
     std::vector<int> column_of(static_cast<std::size_t>(cost.rows()), -1);
     for (std::size_t row = 0; row < column_of.size(); ++row) {
       const int column = order[row];
-      const bool there = column < cost.cols();
-      if (there && std::isfinite(cost(static_cast<Eigen::Index>(row), column)))
+      const bool is_column = column < cost.cols();
+      if (is_column && std::isfinite(cost(static_cast<Eigen::Index>(row), column)))
         column_of[row] = column;
     }
     const Total sum = total(cost, column_of);
@@ -48,34 +48,34 @@ Total best_of_all(const Eigen::MatrixXd& cost) {
   return best;
 }
 
-TEST(Assignment, TakesTheDearerPairWhereThatSavesMore) {
+TEST(Assignment, MinimizesTotalCost) {
   Eigen::MatrixXd cost(2, 2);
   cost << 1.0, 2.0, 1.5, 9.0;
   EXPECT_EQ(assign_least_cost(cost), (std::vector<int>{1, 0}));
 }
 
-TEST(Assignment, LeavesOutWhatIsRuledOut) {
+TEST(Assignment, OmitsInfiniteCosts) {
   Eigen::MatrixXd cost(3, 2);
-  cost << kNever, 0.5, kNever, kNever, kNever, 0.2;
+  cost << kInfinite, 0.5, kInfinite, kInfinite, kInfinite, 0.2;
   EXPECT_EQ(assign_least_cost(cost), (std::vector<int>{-1, -1, 1}));
 }
 
-TEST(Assignment, OfNothingIsNothing) {
+TEST(Assignment, EmptyMatrixGivesNoPairs) {
   EXPECT_TRUE(assign_least_cost(Eigen::MatrixXd(0, 3)).empty());
   EXPECT_EQ(assign_least_cost(Eigen::MatrixXd(2, 0)), (std::vector<int>{-1, -1}));
 }
 
-TEST(Assignment, IsAsGoodAsTryingAll) {
+TEST(Assignment, EqualsExhaustiveSearch) {
   RandomStream random(7);
   for (int trial = 0; trial < 150; ++trial) {
     const auto rows = static_cast<Eigen::Index>(1 + trial % 4);
     const auto columns = static_cast<Eigen::Index>(1 + (trial / 4) % 4);
     Eigen::MatrixXd cost(rows, columns);
     for (double& value : cost.reshaped()) {
-      value = random.uniform() < 0.3 ? kNever : random.uniform();
+      value = random.uniform() < 0.3 ? kInfinite : random.uniform();
     }
     const Total found = total(cost, assign_least_cost(cost));
-    const Total best = best_of_all(cost);
+    const Total best = exhaustive_search(cost);
     EXPECT_EQ(found.pairs, best.pairs) << cost;
     EXPECT_NEAR(found.cost, best.cost, 1e-12) << cost;
   }

@@ -24,7 +24,7 @@ CameraIntrinsics tum_fr1() {
 class EveryCamera : public ::testing::TestWithParam<CameraIntrinsics> {};
 INSTANTIATE_TEST_SUITE_P(Camera, EveryCamera, ::testing::Values(pinhole(), tum_fr1()));
 
-TEST_P(EveryCamera, ProjectUndoesRayOverTheWholeImage) {
+TEST_P(EveryCamera, ProjectInvertsRay) {
   const CameraModel camera(GetParam());
   for (int y = 0; y < 480; y += 7) {
     for (int x = 0; x < 640; x += 7) {
@@ -36,7 +36,7 @@ TEST_P(EveryCamera, ProjectUndoesRayOverTheWholeImage) {
   }
 }
 
-TEST_P(EveryCamera, JacobianIsTheDerivative) {
+TEST_P(EveryCamera, JacobianEqualsNumericDerivative) {
   const CameraModel camera(GetParam());
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -53,7 +53,7 @@ TEST_P(EveryCamera, JacobianIsTheDerivative) {
   }
 }
 
-TEST_P(EveryCamera, RayTableHoldsAllRaysRowByRow) {
+TEST_P(EveryCamera, RayTableIsRowMajor) {
   const CameraModel camera(downscaled(GetParam(), 8));
   const auto table = camera.ray_table();
   ASSERT_EQ(table.size(), 80U * 60U);
@@ -63,14 +63,14 @@ TEST_P(EveryCamera, RayTableHoldsAllRaysRowByRow) {
   }
 }
 
-TEST_P(EveryCamera, DownscaledSeesAPointAtTheSamePlace) {
+TEST_P(EveryCamera, DownscaledProjectionMatchesFull) {
   const CameraModel full(GetParam());
   for (const int stride : {2, 3, 4, 8}) {
     const CameraModel small(downscaled(GetParam(), stride));
     EXPECT_EQ(small.intrinsics().width, 640 / stride);
     EXPECT_EQ(small.intrinsics().height, 480 / stride);
     for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(3, 5), {200, 100}, {600, 470}}) {
-      // The block of pixels k*stride ... k*stride + stride - 1 has its centre at pixel k.
+      // The block of pixels k*stride ... k*stride + stride - 1 has its center at pixel k.
       const Eigen::Vector2d in_full = full.project(2.0 * full.ray(pixel));
       const Eigen::Vector2d in_small = small.project(2.0 * full.ray(pixel));
       const Eigen::Vector2d expected =
@@ -80,8 +80,8 @@ TEST_P(EveryCamera, DownscaledSeesAPointAtTheSamePlace) {
   }
 }
 
-/// OpenCV's distortion, written out as in its documentation.
-TEST(Camera, DistortsAsOpenCvDocuments) {
+/// OpenCV's distortion model as documented.
+TEST(Camera, DistortionEqualsOpenCv) {
   const CameraIntrinsics c = tum_fr1();
   const auto [k1, k2, p1, p2, k3] = c.distortion;
   for (const auto& [x, y] : {std::pair{0.3, -0.2}, {-0.55, 0.4}, {0.1, 0.45}}) {
@@ -94,7 +94,7 @@ TEST(Camera, DistortsAsOpenCvDocuments) {
   }
 }
 
-TEST(Camera, PointsBehindOrFarOffTheAxisAreOutOfRange) {
+TEST(Camera, PointsBehindOrOffAxisAreOutOfRange) {
   CameraIntrinsics barrel = pinhole();
   barrel.distortion[0] = -0.4;  // r (1 - 0.4 r^2) turns back at r = 0.913
   const CameraModel camera(barrel);
@@ -102,12 +102,12 @@ TEST(Camera, PointsBehindOrFarOffTheAxisAreOutOfRange) {
   EXPECT_FALSE(camera.in_lens_range({1.0, 0.0, 1.0}));
   EXPECT_FALSE(camera.in_lens_range({0.0, 0.0, -1.0}));
   EXPECT_FALSE(camera.in_lens_range({0.0, 0.0, 0.0}));
-  // A point that folds back into the image is the danger.
+  // Its projection folds back into the image.
   EXPECT_TRUE((camera.project({1.5, 0.0, 1.0}).array() > 0.0).all());
   EXPECT_FALSE(camera.in_lens_range({1.5, 0.0, 1.0}));
 }
 
-TEST(Camera, RefusesWhatIsNoCamera) {
+TEST(Camera, RejectsInvalidIntrinsics) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const auto with = [](auto change) {

@@ -9,21 +9,21 @@
 namespace mms {
 namespace {
 
-/// Clusters by flooding over all pairs that `linked` accepts.
+/// Connected components over all pairs that `linked` accepts.
 template <class Linked>
 Clusters flood(std::size_t count, const std::vector<std::uint8_t>& use, const ClusterSize& size,
                const Linked& linked) {
   Clusters clusters;
   clusters.label.assign(count, Clusters::kNone);
-  std::vector<bool> seen(count, false);
+  std::vector<bool> visited(count, false);
   for (std::size_t seed = 0; seed < count; ++seed) {
-    if (seen[seed] || use[seed] == 0) continue;
+    if (visited[seed] || use[seed] == 0) continue;
     std::vector<std::size_t> members{seed};
-    seen[seed] = true;
+    visited[seed] = true;
     for (std::size_t k = 0; k < members.size(); ++k) {
       for (std::size_t j = 0; j < count; ++j) {
-        if (seen[j] || use[j] == 0 || !linked(members[k], j)) continue;
-        seen[j] = true;
+        if (visited[j] || use[j] == 0 || !linked(members[k], j)) continue;
+        visited[j] = true;
         members.push_back(j);
       }
     }
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> random_keep(std::mt19937& random, std::vector<Eigen::V
   return keep;
 }
 
-TEST(Clustering, PointsAgreeWithBruteForce) {
+TEST(Clustering, PointsEqualBruteForce) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 20; ++trial) {
     auto points = random_points(random, 400, 1.0F);
@@ -74,7 +74,7 @@ TEST(Clustering, PointsAgreeWithBruteForce) {
   }
 }
 
-TEST(Clustering, GridAgreesWithBruteForce) {
+TEST(Clustering, GridEqualsBruteForce) {
   std::mt19937 random(2);
   constexpr int kWidth = 23;
   for (int trial = 0; trial < 20; ++trial) {
@@ -97,7 +97,7 @@ TEST(Clustering, GridAgreesWithBruteForce) {
   }
 }
 
-TEST(Clustering, NoPointsNoClusters) {
+TEST(Clustering, NoClustersWithoutPoints) {
   EXPECT_EQ(cluster_points({}, {}, 0.1F).count, 0);
   EXPECT_EQ(cluster_grid({}, 4, {}, {}).count, 0);
 }

@@ -22,7 +22,7 @@ std::vector<Eigen::Vector3f> slanted_grid(float slope) {
   return points;
 }
 
-TEST(Normals, GridPatchesOfASlantedPlane) {
+TEST(Normals, GridPatchesOfSlantedPlane) {
   const auto points = slanted_grid(0.5F);
   const auto patches = grid_patches(points, kWidth, 2, 0.5F);
   const SurfacePatch& patch = patches[10 * kWidth + 10];
@@ -32,7 +32,7 @@ TEST(Normals, GridPatchesOfASlantedPlane) {
   EXPECT_TRUE(patches[0].normal.isZero(0.0F));
 }
 
-TEST(Normals, GridPatchesOfAGrazedPlane) {
+TEST(Normals, GridPatchesAtGrazingAngle) {
   const auto points = slanted_grid(9.0F);
   ASSERT_GT(points[10 * kWidth + 18].z() - points[10 * kWidth + 16].z(), 2.0F);
   const auto patches = grid_patches(points, kWidth, 2, 0.5F);
@@ -50,7 +50,7 @@ TEST(Normals, GridPatchesStopAtDepthStepsAndHoles) {
   EXPECT_TRUE(patches[5 * kWidth + 7].normal.isZero(0.0F));
 }
 
-TEST(Normals, NeighbourhoodsOfAWallAndOfAWire) {
+TEST(Normals, WallHasNormalsAndWireNone) {
   auto points = slanted_grid(0.5F);
   const auto wall = neighbourhood_normals(points, 1, 0.1F);
   const Eigen::Vector3f expected = Eigen::Vector3f(0.5F, 0.0F, -1.0F).normalized();

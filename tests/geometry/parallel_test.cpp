@@ -14,8 +14,8 @@
 namespace mms {
 namespace {
 
-/// Numbers whose float sum depends on the order they are added in.
-std::vector<float> unpleasant_numbers(int count) {
+/// Numbers whose float sum depends on the order of addition.
+std::vector<float> order_dependent_numbers(int count) {
   std::mt19937 random(21);
   std::uniform_real_distribution<float> exponent(-6.0F, 6.0F);
   std::vector<float> numbers;
@@ -33,8 +33,8 @@ float sum_of(const std::vector<float>& numbers) {
   });
 }
 
-TEST(ParallelSum, IsTheSameBitsForAnyNumberOfThreads) {
-  const auto numbers = unpleasant_numbers(20001);
+TEST(ParallelSum, SameBitsForAnyThreadCount) {
+  const auto numbers = order_dependent_numbers(20001);
   const auto bits = [&](int threads) {
     return testing::on_threads(threads,
                                [&] { return std::bit_cast<std::uint32_t>(sum_of(numbers)); });
@@ -46,7 +46,7 @@ TEST(ParallelSum, IsTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-TEST(ParallelSum, AddsEverythingOnce) {
+TEST(ParallelSum, AddsEveryIndexOnce) {
   for (const std::size_t count : {0U, 1U, 63U, 64U, 65U, 1000U}) {
     const auto sum =
         parallel_sum(count, 64, std::size_t{0}, [](std::size_t begin, std::size_t end) {
@@ -58,7 +58,7 @@ TEST(ParallelSum, AddsEverythingOnce) {
   }
 }
 
-TEST(ParallelChunks, CoverEveryIndexOnceInChunksOfTheSize) {
+TEST(ParallelChunks, CoverEveryIndexOnce) {
   std::vector<std::atomic<int>> visits(1001);
   std::atomic<bool> aligned = true;
   testing::on_threads(4, [&] {

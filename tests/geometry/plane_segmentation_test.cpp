@@ -26,7 +26,7 @@ void add_rectangle(std::vector<PlaneSample>& samples, const Eigen::Vector3f& cor
   }
 }
 
-TEST(PlaneSegmentation, FindsFloorAndWallButNoTorso) {
+TEST(PlaneSegmentation, FindsFloorAndWallNotTorso) {
   std::mt19937 random(5);
   std::vector<PlaneSample> samples;
   add_rectangle(samples, {-1, 1, 2}, {2, 0, 0}, {0, 0, 2}, 0.01F, random);
@@ -43,7 +43,7 @@ TEST(PlaneSegmentation, FindsFloorAndWallButNoTorso) {
   EXPECT_NEAR(std::abs(wall.offset), 4.0F, 0.05F);
 }
 
-TEST(PlaneSegmentation, StairsAreNotOneSlantedPlane) {
+TEST(PlaneSegmentation, DoesNotMergeStairs) {
   std::mt19937 random(6);
   std::vector<PlaneSample> samples;
   for (int k = 0; k < 6; ++k) {
@@ -56,7 +56,7 @@ TEST(PlaneSegmentation, StairsAreNotOneSlantedPlane) {
   }
 }
 
-TEST(PlaneSegmentation, NothingFromNothing) {
+TEST(PlaneSegmentation, NoPlanesWithoutValidSamples) {
   EXPECT_TRUE(find_planes({}, PlaneSearch{}).empty());
   const PlaneSample unknown{Eigen::Vector3f::UnitZ(), Eigen::Vector3f::Zero(), 1.0F, 0.1F};
   EXPECT_TRUE(find_planes({unknown, unknown, unknown}, PlaneSearch{}).empty());

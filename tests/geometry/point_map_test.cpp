@@ -23,7 +23,7 @@ Points random_points(int count, float half_side, unsigned seed) {
   return points;
 }
 
-/// What `within` has to return, by looking at every point.
+/// Expected result of `within`, by brute force.
 std::vector<Neighbor> all_within(const Points& points, const Eigen::Vector3f& query, float radius) {
   std::vector<Neighbor> found;
   for (const Eigen::Vector3f& p : points) {
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PointMapSearch,
                          ::testing::Combine(::testing::Values(0.07, 0.25, 1.0, 10.0),
                                             ::testing::Values(0.02F, 0.2F, 0.5F, 1.3F)));
 
-TEST_P(PointMapSearch, FindsWhatBruteForceFinds) {
+TEST_P(PointMapSearch, EqualsBruteForce) {
   const auto [voxel_size, radius] = GetParam();
   const Points points = random_points(1500, 1.5F, 11);
   PointMap map(voxel_size, kUnlimited);
@@ -96,7 +96,7 @@ TEST(PointMap, EmptyMapFindsNothing) {
   EXPECT_TRUE(found.empty());
 }
 
-TEST(PointMap, TiesAreBrokenByCoordinatesWhateverTheOrder) {
+TEST(PointMap, BreaksTiesByCoordinates) {
   const Points ring = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   Points reversed(ring.rbegin(), ring.rend());
   PointMap a(0.5, kUnlimited);
@@ -111,7 +111,7 @@ TEST(PointMap, TiesAreBrokenByCoordinatesWhateverTheOrder) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(in_a[i].point, in_b[i].point);
 }
 
-TEST(PointMap, HoldsAtMostTheLimitPerVoxel) {
+TEST(PointMap, LimitsPointsPerVoxel) {
   PointMap map(1.0, {.max_points_per_voxel = 4});
   const Points points = random_points(1000, 1.0F, 3);  // 8 voxels
   map.insert(points);
@@ -121,7 +121,7 @@ TEST(PointMap, HoldsAtMostTheLimitPerVoxel) {
   EXPECT_EQ(map.points().size(), 32U);
 }
 
-TEST(PointMap, KeepsPointsOfAVoxelApart) {
+TEST(PointMap, KeepsMinimumSpacingInVoxel) {
   PointMap map(1.0, {.max_points_per_voxel = 1000, .min_spacing = 0.2F});
   map.insert(random_points(3000, 0.999F, 4));
   EXPECT_GT(map.size(), 8U * 20U);
@@ -135,7 +135,7 @@ TEST(PointMap, KeepsPointsOfAVoxelApart) {
   }
 }
 
-TEST(PointMap, IgnoresPointsThatAreNotFinite) {
+TEST(PointMap, IgnoresNonFinitePoints) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
   PointMap map(0.1, kUnlimited);
@@ -145,7 +145,7 @@ TEST(PointMap, IgnoresPointsThatAreNotFinite) {
   EXPECT_EQ(map.size(), 1U);
 }
 
-TEST(PointMap, MemoryIsBoundedAndKeepsThePresent) {
+TEST(PointMap, BoundKeepsRecentVoxels) {
   PointMap map(1.0, {.max_points_per_voxel = 20, .max_voxels = 100});
   for (int x = 0; x < 2000; ++x) {
     map.insert({{static_cast<float>(x) + 0.5F, 0.5F, 0.5F}});
@@ -158,7 +158,7 @@ TEST(PointMap, MemoryIsBoundedAndKeepsThePresent) {
   EXPECT_TRUE(found.empty());
 }
 
-TEST(PointMap, RemovesWhatIsFar) {
+TEST(PointMap, RemovesDistantPoints) {
   const double voxel = 0.2;
   PointMap map(voxel, kUnlimited);
   map.insert(random_points(4000, 3.0F, 6));

@@ -48,7 +48,7 @@ TEST(PointSums, WeightCountsAsRepetition) {
   EXPECT_TRUE(weighted.covariance().isApprox(repeated.covariance(), 1e-15));
 }
 
-TEST(ScatterOf, IsExactFarFromTheOrigin) {
+TEST(ScatterOf, IsExactFarFromOrigin) {
   const Eigen::Vector3d center(1e6, -2e6, 3e6);
   const auto scatter = scatter_of(cross(center));
   EXPECT_EQ(scatter.mean, center);
@@ -59,15 +59,15 @@ TEST(ScatterOf, IsExactFarFromTheOrigin) {
 TEST(ScatterOf, ReadsMembers) {
   struct Item {
     int index;
-    Eigen::Vector2f place;
+    Eigen::Vector2f position;
   };
   const std::vector<Item> items = {{0, {1.0F, 0.0F}}, {1, {3.0F, 0.0F}}};
-  const auto scatter = scatter_of(items, &Item::place);
+  const auto scatter = scatter_of(items, &Item::position);
   EXPECT_EQ(scatter.mean, Eigen::Vector2f(2.0F, 0.0F));
   EXPECT_EQ(scatter.matrix(0, 0), 2.0F);
 }
 
-TEST(PrincipalAxes, AreThoseOfTheCross) {
+TEST(PrincipalAxes, AreAxesOfCross) {
   for (const EigenMethod method : kMethods) {
     const auto axes = principal_axes(sums_of(cross(Eigen::Vector3d::Zero())).covariance(), method);
     EXPECT_TRUE(axes.variances.isApprox(Eigen::Vector3d(1.0, 4.0, 9.0) / 3.0, 1e-9));
@@ -77,7 +77,7 @@ TEST(PrincipalAxes, AreThoseOfTheCross) {
   }
 }
 
-TEST(PrincipalAxes, SmallestAxisIsTheNormalOfAPlane) {
+TEST(PrincipalAxes, SmallestAxisIsPlaneNormal) {
   PointSums<float, 3> sums;
   for (float x = -2.0F; x <= 2.0F; ++x) {
     for (float y = -1.0F; y <= 1.0F; ++y) sums.add({x, y, 0.5F * x});
@@ -90,7 +90,7 @@ TEST(PrincipalAxes, SmallestAxisIsTheNormalOfAPlane) {
   }
 }
 
-TEST(PrincipalAxes, RotateWithThePoints) {
+TEST(PrincipalAxes, RotateWithPoints) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 20; ++trial) {
@@ -110,13 +110,13 @@ TEST(PrincipalAxes, RotateWithThePoints) {
       const auto expected = principal_axes(before.matrix, method);
       const auto axes = principal_axes(after.matrix, method);
       EXPECT_TRUE(axes.variances.isApprox(expected.variances, 1e-9));
-      const Eigen::Matrix3d turned = axes.axes.transpose() * R * expected.axes;
-      EXPECT_TRUE(turned.cwiseAbs().isApprox(Eigen::Matrix3d::Identity(), 1e-6)) << turned;
+      const Eigen::Matrix3d alignment = axes.axes.transpose() * R * expected.axes;
+      EXPECT_TRUE(alignment.cwiseAbs().isApprox(Eigen::Matrix3d::Identity(), 1e-6)) << alignment;
     }
   }
 }
 
-TEST(Oriented, PointsAlongTheDirection) {
+TEST(Oriented, PointsAlongDirection) {
   const Eigen::Vector3f axis(0.0F, 0.6F, 0.8F);
   const Eigen::Vector3f opposite = -axis;
   EXPECT_EQ(oriented(axis, {5.0F, 1.0F, 0.0F}), axis);

@@ -38,20 +38,20 @@ Eigen::Matrix4d generator(const Vector6d& x) {
   return m;
 }
 
-TEST(Se3, HatIsTheCrossProduct) {
+TEST(Se3, HatIsCrossProduct) {
   const Eigen::Vector3d a(1.0, -2.0, 3.0);
   const Eigen::Vector3d b(0.3, 0.7, -0.2);
   EXPECT_TRUE((se3::hat(a) * b).isApprox(a.cross(b), 1e-15));
 }
 
-TEST(Se3, ExpIsTheMatrixExponential) {
+TEST(Se3, ExpEqualsMatrixExponential) {
   for (const Vector6d& x : tangents(200)) {
     const Eigen::Matrix4d expected = generator(x).exp();
     EXPECT_LT((se3::exp(x).matrix() - expected).cwiseAbs().maxCoeff(), 1e-12) << x.transpose();
   }
 }
 
-TEST(Se3, LogUndoesExp) {
+TEST(Se3, LogInvertsExp) {
   for (const Vector6d& x : tangents(500)) {
     // The logarithm loses digits as the rotation comes near half a turn.
     const double tolerance = x.tail<3>().norm() > 3.0 ? 1e-9 : 1e-12;
@@ -59,7 +59,7 @@ TEST(Se3, LogUndoesExp) {
   }
 }
 
-TEST(Se3, ExpUndoesLogAtHalfATurn) {
+TEST(Se3, ExpInvertsLogAtHalfTurn) {
   for (const Vector6d& x : tangents(50)) {
     Vector6d half = x;
     half.tail<3>() = M_PI * Eigen::Vector3d(x.head<3>()).normalized();
@@ -69,14 +69,14 @@ TEST(Se3, ExpUndoesLogAtHalfATurn) {
   }
 }
 
-TEST(Se3, TurnsPastHalfTakeTheShorterWay) {
+TEST(Se3, LogTakesShorterRotation) {
   Vector6d x = Vector6d::Zero();
   x(5) = M_PI + 0.5;
   EXPECT_NEAR(se3::log(se3::exp(x))(5), 0.5 - M_PI, 1e-12);
   EXPECT_NEAR(se3::angle(se3::exp(x)), M_PI - 0.5, 1e-12);
 }
 
-TEST(Se3, GroupLaws) {
+TEST(Se3, SatisfiesGroupLaws) {
   const auto all = tangents(300);
   for (std::size_t i = 0; i + 2 < all.size(); ++i) {
     const Eigen::Isometry3d a = se3::exp(all[i]);
@@ -88,7 +88,7 @@ TEST(Se3, GroupLaws) {
   }
 }
 
-TEST(Se3, AdjointMovesAPerturbationAcross) {
+TEST(Se3, AdjointMovesPerturbationToLeft) {
   const auto all = tangents(300);
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     const Eigen::Isometry3d T = se3::exp(all[i]);
@@ -97,7 +97,7 @@ TEST(Se3, AdjointMovesAPerturbationAcross) {
   }
 }
 
-TEST(Se3, AdjointIsAHomomorphism) {
+TEST(Se3, AdjointIsHomomorphism) {
   const auto all = tangents(100);
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     const Eigen::Isometry3d a = se3::exp(all[i]);
@@ -106,7 +106,7 @@ TEST(Se3, AdjointIsAHomomorphism) {
   }
 }
 
-TEST(Se3, InterpolatesAlongTheGeodesic) {
+TEST(Se3, InterpolatesAlongGeodesic) {
   for (const Vector6d& x : tangents(100)) {
     const Eigen::Isometry3d T = se3::exp(x);
     EXPECT_LT(difference(se3::interpolate(T, 0.0), Eigen::Isometry3d::Identity()), 1e-15);
@@ -117,7 +117,7 @@ TEST(Se3, InterpolatesAlongTheGeodesic) {
   }
 }
 
-TEST(Se3, NormalizedKeepsThePoseAndRestoresTheRotation) {
+TEST(Se3, NormalizedRestoresRotation) {
   for (const Vector6d& x : tangents(50)) {
     const Eigen::Isometry3d T = se3::exp(x);
     Eigen::Isometry3d drifted = T;

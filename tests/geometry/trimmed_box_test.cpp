@@ -5,7 +5,7 @@
 namespace mms {
 namespace {
 
-TEST(TrimmedBox, LeavesOutStrayPoints) {
+TEST(TrimmedBox, ExcludesOutliers) {
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i <= 100; ++i) points.emplace_back(Eigen::Vector3f::Constant(float(i)));
   points.emplace_back(1e6F, -1e6F, 0.0F);
@@ -16,7 +16,7 @@ TEST(TrimmedBox, LeavesOutStrayPoints) {
   EXPECT_EQ(whole.max().x(), 1e6F);
 }
 
-TEST(TrimmedBox, NoPointsEmptyBox) {
+TEST(TrimmedBox, EmptyWithoutPoints) {
   EXPECT_TRUE(trimmed_box({}, 0.1).isEmpty());
 }
 

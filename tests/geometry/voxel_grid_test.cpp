@@ -10,7 +10,7 @@
 namespace mms {
 namespace {
 
-TEST(VoxelGrid, MeansAgreeWithAnOrderedMap) {
+TEST(VoxelGrid, MeansEqualReference) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
   std::vector<Eigen::Vector3f> points;
@@ -37,7 +37,7 @@ TEST(VoxelGrid, MeansAgreeWithAnOrderedMap) {
   }
 }
 
-TEST(VoxelGrid, OrderIsThatOfTheFirstPointsAndBadPointsHaveNoVoxel) {
+TEST(VoxelGrid, KeepsOrderOfFirstPointsAndSkipsInvalid) {
   const std::vector<Eigen::Vector3f> points = {
       {5.0F, 0.0F, 0.0F}, {std::nanf(""), 0.0F, 0.0F}, {-5.0F, 0.0F, 0.0F}, {5.2F, 0.0F, 0.0F}};
   const VoxelDownsampled thin = voxel_downsample(points, 1.0F);

@@ -11,25 +11,25 @@
 namespace mms {
 namespace {
 
-TEST(VoxelKey, FloorsOnBothSidesOfTheOrigin) {
+TEST(VoxelKey, RoundsDownOnBothSidesOfOrigin) {
   const VoxelHashMap<int> map(0.5, 10);
   EXPECT_EQ(map.key({0.0F, 0.49F, 0.5F}), (VoxelKey{0, 0, 1}));
   EXPECT_EQ(map.key({-0.01F, -0.5F, -0.51F}), (VoxelKey{-1, -1, -2}));
   EXPECT_TRUE(map.voxel_centre({-1, 0, 2}).isApprox(Eigen::Vector3f(-0.25F, 0.25F, 1.25F)));
 }
 
-TEST(VoxelKey, HashSpreadsNeighbours) {
+TEST(VoxelKey, HashSpreadsNeighbors) {
   std::set<std::size_t> low_bits;
   for (int x = -8; x < 8; ++x) {
     for (int y = -8; y < 8; ++y) {
       for (int z = -8; z < 8; ++z) low_bits.insert(VoxelKeyHash{}({x, y, z}) & 0xFFFU);
     }
   }
-  // 4096 keys thrown at random into 4096 slots fill 63 % of them.
+  // 4096 random keys fill 63 % of 4096 slots.
   EXPECT_GT(low_bits.size(), 2400U);
 }
 
-TEST(VoxelHashMap, BehavesLikeAMap) {
+TEST(VoxelHashMap, EqualsStdMap) {
   VoxelHashMap<int> map(1.0, 100000);
   std::map<VoxelKey, int> expected;
   std::mt19937 random(5);
@@ -52,7 +52,7 @@ TEST(VoxelHashMap, BehavesLikeAMap) {
   EXPECT_EQ(map.find({100, 0, 0}), nullptr);
 }
 
-TEST(VoxelHashMap, KeepsTheMostRecentlyWritten) {
+TEST(VoxelHashMap, BoundKeepsMostRecentlyWritten) {
   constexpr int kBound = 50;
   VoxelHashMap<int> map(1.0, kBound);
   for (int i = 0; i < 200; ++i) map.touch({i, 0, 0}) = i;
@@ -66,14 +66,14 @@ TEST(VoxelHashMap, KeepsTheMostRecentlyWritten) {
   for (int i = 1; i < 200 - kBound; ++i) EXPECT_EQ(map.find({i, 0, 0}), nullptr) << i;
 }
 
-TEST(VoxelHashMap, WithinTheBoundNothingGoes) {
+TEST(VoxelHashMap, RemovesNothingWithinBound) {
   VoxelHashMap<int> map(1.0, 50);
   for (int i = 0; i < 50; ++i) map.touch({i, 0, 0}) = i;
   map.enforce_bound();
   EXPECT_EQ(map.size(), 50U);
 }
 
-TEST(VoxelHashMap, SmallBoundsHold) {
+TEST(VoxelHashMap, EnforcesSmallBounds) {
   for (const std::size_t bound : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
     VoxelHashMap<int> map(1.0, bound);
     for (int i = 0; i < 5; ++i) map.touch({i, 0, 0}) = i;
@@ -83,7 +83,7 @@ TEST(VoxelHashMap, SmallBoundsHold) {
   }
 }
 
-TEST(VoxelHashMap, RemovesByDistanceOfTheCentres) {
+TEST(VoxelHashMap, RemovesByDistanceOfCenters) {
   VoxelHashMap<int> map(1.0, 1000);
   for (int x = -10; x < 10; ++x) map.touch({x, 0, 0}) = x;
   map.remove_farther_than({0.5F, 0.5F, 0.5F}, 3.0F);
@@ -94,7 +94,7 @@ TEST(VoxelHashMap, RemovesByDistanceOfTheCentres) {
   EXPECT_EQ(map.find({0, 0, 0}), nullptr);
 }
 
-TEST(VoxelHashMap, SameHistorySameOrder) {
+TEST(VoxelHashMap, SameInsertionsGiveSameOrder) {
   const auto build = [] {
     VoxelHashMap<int> map(1.0, 300);
     std::mt19937 random(9);

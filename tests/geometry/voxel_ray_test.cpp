@@ -43,7 +43,7 @@ float distance(const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Vox
   return least;
 }
 
-TEST(VoxelRay, IsAChainOfFacesFromEndToEnd) {
+TEST(VoxelRay, IsFaceConnectedFromEndToEnd) {
   RandomStream random(1);
   for (int i = 0; i < 2000; ++i) {
     const Eigen::Vector3f from = random_point(random, 30.0F);
@@ -56,7 +56,7 @@ TEST(VoxelRay, IsAChainOfFacesFromEndToEnd) {
   }
 }
 
-TEST(VoxelRay, HasEveryVoxelThatSamplingFinds) {
+TEST(VoxelRay, ContainsAllSampledVoxels) {
   RandomStream random(2);
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3f from = random_point(random, 10.0F);
@@ -65,7 +65,7 @@ TEST(VoxelRay, HasEveryVoxelThatSamplingFinds) {
     const std::set<VoxelKey> found(keys.begin(), keys.end());
     for (int k = 0; k <= 5000; ++k) {
       const Eigen::Vector3f point = from + static_cast<float>(k) / 5000.0F * (to - from);
-      // On a border rounding decides.
+      // On a border, rounding decides.
       const Eigen::Array3f from_border = (point.array() - point.array().round()).abs();
       if (from_border.minCoeff() < 1e-4F) continue;
       EXPECT_TRUE(found.contains(voxel_key(point, 1.0F)));
@@ -73,7 +73,7 @@ TEST(VoxelRay, HasEveryVoxelThatSamplingFinds) {
   }
 }
 
-TEST(VoxelRay, HasNoVoxelThatItDoesNotTouch) {
+TEST(VoxelRay, ContainsOnlyTouchedVoxels) {
   RandomStream random(3);
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3f from = random_point(random, 5.0F);
@@ -84,7 +84,7 @@ TEST(VoxelRay, HasNoVoxelThatItDoesNotTouch) {
   }
 }
 
-TEST(VoxelRay, AlongAnAxisIsAStraightRow) {
+TEST(VoxelRay, AxisAlignedRayIsStraight) {
   const auto keys = voxels_between({0.5F, 0.5F, 0.5F}, {-3.5F, 0.5F, 0.5F});
   ASSERT_EQ(keys.size(), 5U);
   for (int i = 0; i < 5; ++i) {
@@ -92,7 +92,7 @@ TEST(VoxelRay, AlongAnAxisIsAStraightRow) {
   }
 }
 
-TEST(VoxelRay, OnBordersAndInCornersItArrives) {
+TEST(VoxelRay, ReachesEndOnBordersAndCorners) {
   for (const float x : {-2.0F, 0.0F, 2.0F}) {
     for (const float y : {-2.0F, 0.0F, 2.0F}) {
       for (const float z : {-2.0F, 0.0F, 2.0F}) {
@@ -105,7 +105,7 @@ TEST(VoxelRay, OnBordersAndInCornersItArrives) {
   }
 }
 
-TEST(VoxelRay, WithinOneVoxelThereIsOne) {
+TEST(VoxelRay, StaysInOneVoxel) {
   EXPECT_EQ(voxels_between({0.2F, 0.3F, 0.4F}, {0.2F, 0.3F, 0.4F}).size(), 1U);
   EXPECT_EQ(voxels_between({0.2F, 0.3F, 0.4F}, {0.9F, 0.8F, 0.7F}).size(), 1U);
 }
