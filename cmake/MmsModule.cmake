@@ -1,21 +1,22 @@
-# Compiler settings shared by every target, and one library target a module.
+# Common compiler settings, and one library target per module.
 include(${CMAKE_CURRENT_LIST_DIR}/MmsBuildTime.cmake)
 
 add_library(mms_build_settings INTERFACE)
 target_compile_features(mms_build_settings INTERFACE cxx_std_20)
 target_compile_options(mms_build_settings INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wconversion;-Wshadow;-Werror>)
-# gcc 12 warns of Eigen's and std::string's own code when it inlines them.
+# gcc 12 warns about inlined code of Eigen and std::string.
 set(mms_false_warnings -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow)
 target_compile_options(mms_build_settings INTERFACE
-  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:${mms_false_warnings}>>)
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:${mms_false_warnings}>>
+  $<BUILD_INTERFACE:$<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<CONFIG:Release>>>:-Wno-array-bounds>>)
 if(MMS_ARCH STREQUAL "" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(mms_arch "x86-64-v3")
 else()
   set(mms_arch "${MMS_ARCH}")
 endif()
 if(mms_arch)
-  # Part of the interface: Eigen's alignment follows it, so a user of the library needs the same.
+  # Part of the interface, because it determines Eigen's alignment.
   target_compile_options(mms_build_settings INTERFACE -march=${mms_arch})
 endif()
 if(MMS_SANITIZE)
@@ -26,7 +27,7 @@ endif()
 
 set_property(GLOBAL PROPERTY MMS_MODULES "")
 
-# What all modules share of precompiled headers.
+# Precompiled headers of all modules.
 add_library(mms_precompiled OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
 target_link_libraries(mms_precompiled PRIVATE mms_build_settings Eigen3::Eigen)
 mms_precompile(mms_precompiled)
