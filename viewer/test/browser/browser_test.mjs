@@ -1,5 +1,5 @@
-// The built page in a real browser, shown by the real program. MMS_PROGRAM says where mms is; pictures are kept in
-// VIEWER_PICTURES where that is set.
+// The built page in a real browser, served by the real program MMS_PROGRAM. Screenshots are written to VIEWER_PICTURES
+// if that is set.
 import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -9,10 +9,10 @@ import { openBrowser } from './chromium.mjs';
 import { countPixels, eventually } from './pixels.mjs';
 import { freePort, makeRun, Server } from './program.mjs';
 
-/** Wide enough for all panels, and no larger: pictures are drawn by the processor here. */
+/** Just wide enough for all panels: the CPU renders the page. */
 const kDesktop = process.env.VIEWER_PICTURES ? { width: 1440, height: 900 } : { width: 1000, height: 660 };
 const kPhone = { width: 390, height: 844 };
-/** The share of light pixels that only a map can give. */
+/** Share of light pixels that only a map reaches. */
 const kMap = 0.08;
 
 let folder, run, server, browser, page, faults;
@@ -49,7 +49,7 @@ async function scrub(share) {
   await page.mouse.click(box.x + 8 + share * (box.width - 16), box.y + box.height / 2);
 }
 
-/** Waits for a frame and for its picture, which trails it until it is decoded. */
+/** Waits for a frame and for its picture, which follows after decoding. */
 function arrive(what, accept) {
   const pictured = async () => Number((await page.locator('#image').getAttribute('data-frame')) ?? -1);
   const shown = async () => ({ number: await frame(), picture: await pictured() });
@@ -67,7 +67,7 @@ async function keepPicture(name) {
   await page.screenshot({ path: join(process.env.VIEWER_PICTURES, `${name}.jpg`), quality: 85, type: 'jpeg' });
 }
 
-/** The frame in which most objects are seen. */
+/** The frame with the most objects. */
 function busiestFrame() {
   const stamps = readFileSync(join(run, 'trajectory.tum'), 'utf8').split('\n').filter((line) => /^\d/.test(line)).map((line) => line.split(' ')[0]);
   const seen = new Map(stamps.map((stamp) => [stamp, 0]));
@@ -79,7 +79,7 @@ function busiestFrame() {
   return { index: counts.lastIndexOf(Math.max(...counts)), last: stamps.length - 1 };
 }
 
-test('the page loads and is connected', async () => {
+test('the page loads and connects', async () => {
   await eventually('connecting', pill, (text) => text === 'Connected');
   assert.match(await page.title(), /MMS-SLAM/);
   await eventually('the first frame', frame, (number) => number >= 0);
@@ -100,13 +100,13 @@ test('the slider moves the pose, the image and the charts', async () => {
   assert.ok((await page.locator('.chart canvas').count()) >= 3, 'charts are drawn');
 });
 
-test('points and boxes are drawn, and every layer goes and comes by its switch', async () => {
+test('draws points and boxes, and switches every layer', async () => {
   const full = await eventually('the map', pixels, ({ lit, all }) => lit > kMap * all);
   for (const layer of ['scan', 'trails', 'labels', 'trajectory', 'truth', 'camera', 'grid']) await show(layer, false);
   await show('map', false);
   const boxes = await eventually('only boxes of people and vehicles', pixels, ({ lit, red, green, all }) => red > 80 && green > 80 && lit < kMap * all);
   await show('boxes', false);
-  await eventually('nothing at all', pixels, ({ red, green }) => red < 0.1 * boxes.red && green < 0.1 * boxes.green);
+  await eventually('no boxes', pixels, ({ red, green }) => red < 0.1 * boxes.red && green < 0.1 * boxes.green);
   await show('map', true);
   await eventually('the map again', pixels, ({ lit }) => lit > 0.5 * full.lit);
   for (const layer of ['scan', 'trails', 'labels', 'trajectory', 'truth', 'camera', 'grid', 'boxes']) await show(layer, true);
@@ -117,7 +117,7 @@ test('points and boxes are drawn, and every layer goes and comes by its switch',
   await page.keyboard.press('k');
 });
 
-test('the scene is seen from behind, from the side and from above', async () => {
+test('the camera has views from behind, the side and above', async () => {
   const sums = new Set([(await pixels()).sum]);
   for (const key of ['2', '3']) {
     await page.keyboard.press(key);
@@ -130,7 +130,7 @@ test('the scene is seen from behind, from the side and from above', async () => 
   await keepPicture('viewer_desktop');
 });
 
-test('it plays, steps, and plays once more at the end', async () => {
+test('plays, steps, and plays again at the end', async () => {
   await page.keyboard.press('Home');
   await eventually('the first frame', frame, (number) => number === 0);
   await page.keyboard.press('ArrowRight');
@@ -142,7 +142,7 @@ test('it plays, steps, and plays once more at the end', async () => {
   await page.getByTitle(/^Once more/).waitFor();
 });
 
-test('the picture, the map and the trajectory can be saved', async () => {
+test('saves the picture, the map and the trajectory', async () => {
   const [picture] = await Promise.all([page.waitForEvent('download'), page.locator('#screenshot').click()]);
   assert.match(picture.suggestedFilename(), /\.png$/);
   assert.equal(readFileSync(await picture.path()).subarray(1, 4).toString(), 'PNG');
@@ -154,25 +154,25 @@ test('the picture, the map and the trajectory can be saved', async () => {
   }
 });
 
-test('it says that the server is gone, and goes on where it was when it is back', async () => {
+test('reports a lost server and resumes after reconnecting', async () => {
   await scrub(0.5);
-  const before = await eventually('the middle', frame, (number) => number > 5 && number < busiestFrame().last);
+  const before = await eventually('a frame in between', frame, (number) => number > 5 && number < busiestFrame().last);
   await pause();
   await server.stop();
   await eventually('losing the server', pill, (text) => text === 'Offline');
   assert.match(await page.textContent('#notice'), /Connection lost/);
   await server.start();
   await eventually('the server again', pill, (text) => text === 'Connected');
-  await eventually('the frame it was at', frame, (number) => number === before);
+  await eventually('the former frame', frame, (number) => number === before);
   assert.match(await page.locator('.play').getAttribute('title'), /^Play/, 'it stays paused');
   await eventually('the map again', pixels, ({ lit, all }) => lit > kMap * all);
 });
 
-test('nothing was complained of, and nothing asked for elsewhere', () => {
+test('the page has no errors and no foreign requests', () => {
   assert.deepEqual(faults, []);
 });
 
-test('it fits a phone', async () => {
+test('the page fits a phone', async () => {
   await browser.close();
   ({ browser, page, faults } = await openBrowser(join(folder, 'phone'), server.address, kPhone));
   await eventually('the first frame', frame, (number) => number >= 0);

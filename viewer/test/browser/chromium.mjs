@@ -1,4 +1,4 @@
-// Debian's chromium without a display or a graphics card, with a profile of its own.
+// Debian's chromium without display or graphics card, with its own profile.
 import { chromium } from 'playwright-core';
 
 const kFlags = [
@@ -13,7 +13,7 @@ const kFlags = [
   '--disable-sync',
 ];
 
-/** `faults` collects what the page complains of, and every request that leaves the server of `address`. */
+/** `faults` collects errors of the page and every request to another server than `address`. */
 export async function openBrowser(profile, address, viewport) {
   const phone = viewport.width < 600;
   const browser = await chromium.launchPersistentContext(profile, {
@@ -29,7 +29,7 @@ export async function openBrowser(profile, address, viewport) {
   const faults = [];
   page.on('pageerror', (error) => faults.push(error.message));
   page.on('console', (message) => {
-    // While the server is away the browser itself reports every attempt to reach it.
+    // While the server is down, the browser itself reports every attempt to connect.
     if (message.type() === 'error' && !/ERR_CONNECTION|WebSocket connection/.test(message.text())) faults.push(message.text());
   });
   page.on('request', (request) => {

@@ -1,6 +1,6 @@
-// What is really drawn: pixels of pictures of the page, counted in the browser itself.
+// Pixel counts of screenshots of the page, computed in the browser.
 
-/** Red of the people's boxes, green of the vehicles', and anything much lighter than the background. */
+/** Counts red pixels of the people's boxes, green ones of the vehicles', and those lighter than the background. */
 export async function countPixels(page, locator) {
   const picture = (await locator.screenshot()).toString('base64');
   return page.evaluate(async (base64) => {
@@ -23,7 +23,7 @@ export async function countPixels(page, locator) {
   }, picture);
 }
 
-/** Waits until `measure` gives what `accept` accepts; pictures on a processor take their time. */
+/** Waits until `accept` is true for the value of `measure`; rendering on a CPU is slow. */
 export async function eventually(what, measure, accept, timeout = 40_000) {
   const end = Date.now() + timeout;
   let value = await measure();

@@ -1,4 +1,4 @@
-// The real mms: a small run of a simulated warehouse, and the server that shows it.
+// The real mms: a small run of a simulated warehouse, and the server for its results.
 import { execFileSync, spawn } from 'node:child_process';
 import { createServer } from 'node:net';
 import { join } from 'node:path';
@@ -15,7 +15,7 @@ export function makeRun(folder) {
   return results;
 }
 
-/** A port that nobody listens on now. */
+/** A free port. */
 export function freePort() {
   return new Promise((resolve, reject) => {
     const server = createServer();
@@ -27,7 +27,7 @@ export function freePort() {
   });
 }
 
-/** mms view; `stop` waits until it is gone. */
+/** mms view; `stop` waits for its end. */
 export class Server {
   constructor(run, port) {
     this.address = `http://127.0.0.1:${port}/`;
@@ -43,7 +43,7 @@ export class Server {
       if (answer?.ok) return;
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
-    throw new Error(`nobody answers at ${this.address}`);
+    throw new Error(`no answer from ${this.address}`);
   }
 
   async stop() {

@@ -59,7 +59,7 @@ describe('Connection', () => {
     vi.unstubAllGlobals();
   });
 
-  it('hands on messages and goes on after one it cannot read', () => {
+  it('passes messages on and continues after an invalid one', () => {
     last().accept();
     last().onmessage?.({ data: new ArrayBuffer(2) });
     last().onmessage?.({ data: message({ type: 'error', message: 'disk full' }) });
@@ -67,14 +67,14 @@ describe('Connection', () => {
     expect(messages).toEqual([{ type: 'error', message: 'disk full' }]);
   });
 
-  it('sends only while somebody listens', () => {
+  it('sends only while connected', () => {
     expect(connection.send({ type: 'play' })).toBe(false);
     last().accept();
     expect(connection.send({ type: 'seek', frame: 4 })).toBe(true);
     expect(last().sent).toEqual(['{"type":"seek","frame":4}']);
   });
 
-  it('comes back by itself, later each time, and soon again once messages came', () => {
+  it('reconnects with growing delay, reset by messages', () => {
     const wait = (): number => {
       const before = sockets.length;
       let passed = 0;
@@ -95,7 +95,7 @@ describe('Connection', () => {
     expect(states.slice(0, 3)).toEqual(['connecting', 'waiting', 'connecting']);
   });
 
-  it('hurries only where it waits', () => {
+  it('hurries only while waiting', () => {
     connection.hurry();
     expect(sockets).toHaveLength(1);
     last().drop();

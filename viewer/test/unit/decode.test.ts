@@ -25,7 +25,7 @@ describe('decodeMessage', () => {
     expect(hello.image?.fy).toBe(601);
   });
 
-  it('takes a hello of a sensor without image, and says why there are no pictures', () => {
+  it('accepts a hello without image and keeps the reason', () => {
     const header = { type: 'hello', protocol: 1, image: null, has_pictures: false, pictures_note: 'The recording is gone' };
     const hello = decodeMessage(message(header)) as Hello;
     expect(hello.image).toBeNull();
@@ -33,11 +33,11 @@ describe('decodeMessage', () => {
     expect(hello.up).toEqual([0, -1, 0]);
   });
 
-  it('refuses another version of the protocol', () => {
+  it('rejects another protocol version', () => {
     expect(() => decodeMessage(message({ type: 'hello', protocol: 2 }))).toThrow('version 2');
   });
 
-  it('reads a frame with all that it can have', () => {
+  it('reads a complete frame', () => {
     const frame = decodeMessage(
       message(
         {
@@ -67,17 +67,17 @@ describe('decodeMessage', () => {
     expect(frame.objects[0]).toMatchObject({ id: 3, class: 'person', moving: true, seen: false, size: [0.5, 0.5, 1.7] });
   });
 
-  it('reads a frame with nothing but its number', () => {
+  it('reads a frame with only its number', () => {
     const frame = decodeMessage(message({ type: 'frame', frame: 0 })) as FrameMessage;
     expect(frame).toMatchObject({ pose: null, truth: null, scan: null, image: null, mask: null, objects: [], stampNs: null });
   });
 
-  it('takes no pose that is not seven numbers', () => {
+  it('ignores a pose without seven numbers', () => {
     const frame = decodeMessage(message({ type: 'frame', frame: 0 }, [['pose', 3, Float32Array.of(1, 2, 3)]]));
     expect((frame as FrameMessage).pose).toBeNull();
   });
 
-  it('reads chunks of the map, and their removal', () => {
+  it('reads map chunks and their removal', () => {
     const points = Float32Array.of(1, 2, 3);
     const header = { type: 'map', chunk: '0,1,-2', level: 2, voxel: 0.1, remove: false };
     expect(decodeMessage(message(header, [['points', 3, points]]))).toMatchObject({ chunk: '0,1,-2', points, voxel: 0.1 });
@@ -86,7 +86,7 @@ describe('decodeMessage', () => {
     expect(removal.points.length).toBe(0);
   });
 
-  it('knows the units of series that come without', () => {
+  it('adds missing units of series', () => {
     const names = ['fusion', 'dynamic_share', 'objects', 'drift_cm'];
     const series = decodeMessage(message({ type: 'series', names }, [['values', 4, Float32Array.of(1, 2, 3, 4)]]));
     expect((series as SeriesMessage).units).toEqual(['ms', 'ratio', 'count', 'cm']);
@@ -94,7 +94,7 @@ describe('decodeMessage', () => {
     expect(unit('cm', 'anything')).toBe('cm');
   });
 
-  it('leaves out what it does not know', () => {
+  it('ignores unknown messages', () => {
     expect(decodeMessage(message({ type: 'weather' }))).toBeNull();
   });
 });

@@ -3,7 +3,7 @@ import { openEnvelope, ProtocolError } from '../../src/protocol/envelope';
 import { message } from './message';
 
 describe('openEnvelope', () => {
-  it('finds every buffer behind the padding of the one before', () => {
+  it('reads buffers with padding', () => {
     const { header, buffers } = openEnvelope(
       message({ type: 'x' }, [
         ['bytes', 1, Uint8Array.of(1, 2, 3)],
@@ -19,22 +19,22 @@ describe('openEnvelope', () => {
     expect(buffers.get('shorts')).toEqual(Int16Array.of(-7));
   });
 
-  it('takes a message without buffers', () => {
+  it('accepts a message without buffers', () => {
     expect(openEnvelope(message({ type: 'state' })).buffers.size).toBe(0);
   });
 
-  const cut = message({ type: 'x' }, [['floats', 3, Float32Array.of(1, 2, 3)]]);
+  const truncated = message({ type: 'x' }, [['floats', 3, Float32Array.of(1, 2, 3)]]);
   it.each([
     ['nothing', new ArrayBuffer(0), 'a message of 0 bytes'],
-    ['a header that is cut', Uint32Array.of(100).buffer, 'a header of 100 bytes in a message of 4'],
-    ['a header that is no JSON', new Uint8Array([4, 0, 0, 0, 123, 32, 32, 32]).buffer, 'not JSON'],
-    ['a header that is no object', new Uint8Array([4, 0, 0, 0, 49, 32, 32, 32]).buffer, 'not a JSON object'],
-    ['a buffer that is cut', cut.slice(0, cut.byteLength - 4), 'buffer "floats" ends at byte'],
+    ['a truncated header', Uint32Array.of(100).buffer, 'a header of 100 bytes in a message of 4'],
+    ['a header without JSON', new Uint8Array([4, 0, 0, 0, 123, 32, 32, 32]).buffer, 'not JSON'],
+    ['a header without an object', new Uint8Array([4, 0, 0, 0, 49, 32, 32, 32]).buffer, 'not a JSON object'],
+    ['a truncated buffer', truncated.slice(0, truncated.byteLength - 4), 'buffer "floats" ends at byte'],
     ['an unknown type', encode({ buffers: [{ name: 'a', dtype: 'f64', count: 0 }] }), 'unknown type "f64"'],
     ['a negative size', encode({ buffers: [{ name: 'a', dtype: 'u8', count: -1 }] }), 'size is -1'],
     ['no size', encode({ buffers: [{ name: 'a', dtype: 'u8' }] }), 'size is undefined'],
-    ['buffers that are no list', encode({ buffers: 3 }), 'not a list'],
-  ])('refuses %s', (_, data, words) => {
+    ['buffers without a list', encode({ buffers: 3 }), 'not a list'],
+  ])('rejects %s', (_, data, words) => {
     expect(() => openEnvelope(data)).toThrow(ProtocolError);
     expect(() => openEnvelope(data)).toThrow(words);
   });

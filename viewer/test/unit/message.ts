@@ -8,7 +8,7 @@ const kNames = new Map<unknown, string>([
   [Uint32Array, 'u32'],
 ]);
 
-/** A message as docs/viewer_protocol.md describes it: name, components and values of its buffers. */
+/** A message in the format of docs/viewer_protocol.md, with name, components and values of each buffer. */
 export function message(header: object, buffers: [string, number, Buffer][] = []): ArrayBuffer {
   const described = buffers.map(([name, components, values]) => ({
     name,

@@ -10,13 +10,13 @@ describe('drawnCounts', () => {
   const chunk = (distance: number, count = 10_000) => ({ count, voxel: 0.02, distance });
   const sum = (counts: number[]): number => counts.reduce((total, count) => total + count, 0);
 
-  it('draws all of what is near, and less of what is too far to tell its points apart', () => {
+  it('draws near chunks completely and distant ones sparsely', () => {
     const [near, far] = drawnCounts([chunk(2), chunk(100)], 800, 1e6);
     expect(near).toBe(10_000);
     expect(far).toBeLessThan(1000);
   });
 
-  it('keeps to its budget and spends most of it, the near chunks first', () => {
+  it('spends the budget on near chunks first', () => {
     const chunks = Array.from({ length: 50 }, (_, i) => chunk(1 + i));
     const counts = drawnCounts(chunks, 800, 60_000);
     expect(sum(counts)).toBeLessThanOrEqual(60_000);
@@ -25,7 +25,7 @@ describe('drawnCounts', () => {
     expect(counts[0]).toBe(10_000);
   });
 
-  it('shows something of every chunk, and never more than there is', () => {
+  it('draws some points of every chunk, never more than it has', () => {
     const counts = drawnCounts([chunk(1e4), chunk(1e4, 10), chunk(0.5)], 800, 10);
     expect(counts[0]).toBe(64);
     expect(counts[1]).toBe(10);
@@ -33,7 +33,7 @@ describe('drawnCounts', () => {
 });
 
 describe('shuffled', () => {
-  it('keeps every point with its colour, and mixes them', () => {
+  it('keeps points with their colors in random order', () => {
     const count = 1000;
     const points = Float32Array.from({ length: 3 * count }, (_, i) => Math.floor(i / 3));
     const colors = Uint8Array.from({ length: 3 * count }, (_, i) => Math.floor(i / 3) % 251);
@@ -47,7 +47,7 @@ describe('shuffled', () => {
 });
 
 describe('PointBudget', () => {
-  it('shrinks at once where pictures are slow, and grows back step by step', () => {
+  it('shrinks immediately and grows step by step', () => {
     const budget = new PointBudget(40, 60_000, 1_000_000, 800_000);
     budget.learn(800_000, 400);
     expect(budget.points).toBe(80_000);
@@ -61,12 +61,12 @@ describe('PointBudget', () => {
 });
 
 describe('floorHeight', () => {
-  it('is where most points lie below the sensor', () => {
+  it('is the level of most points below the sensor', () => {
     const heights = [...Array(500).fill(-0.97), ...Array(900).fill(0.5), ...Array(100).fill(-0.4)] as number[];
     expect(floorHeight(heights)).toBeCloseTo(-0.95, 5);
   });
 
-  it('is unknown where next to nothing lies there', () => {
+  it('is unknown with too few points', () => {
     expect(floorHeight([0.1, 0.2, -0.9])).toBeNull();
   });
 });
@@ -77,14 +77,14 @@ describe('upright', () => {
     [[0.1, -0.9, 0.3]],
     [[0, 0, 1]],
     [[0, 0, -1]],
-  ] as [[number, number, number]][])('turns %s up and keeps the handedness', (up) => {
+  ] as [[number, number, number]][])('rotates %s upward and keeps the handedness', (up) => {
     const turn = upright(new Vector3(...up));
     const y = new Vector3(...up).normalize().applyQuaternion(turn);
     expect(y.distanceTo(new Vector3(0, 1, 0))).toBeLessThan(1e-6);
     expect(turn.length()).toBeCloseTo(1, 6);
   });
 
-  it('lets a level camera look away from us', () => {
+  it('points a level camera away from the viewer', () => {
     const ahead = new Vector3(0, 0, 1).applyQuaternion(upright(new Vector3(0, -1, 0)));
     expect(ahead.distanceTo(new Vector3(0, 0, -1))).toBeLessThan(1e-6);
   });

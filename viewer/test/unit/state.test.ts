@@ -17,7 +17,7 @@ const kHello = { type: 'hello', protocol: 1, name: 'loop', run: 'a', classes: ['
 const pose = (x: number): Float32Array => Float32Array.of(x, 0, 0, 0, 0, 0, 1);
 
 describe('Run', () => {
-  it('knows the whole trajectory of a finished run', () => {
+  it('has the whole trajectory of a finished run', () => {
     const run = new Run();
     tell(run, kHello);
     tell(run, { type: 'trajectory', first_frame: 0 }, [
@@ -32,7 +32,7 @@ describe('Run', () => {
     expect(run.frames).toBe(4);
   });
 
-  it('goes on with the frames of a live run, and leaves room for those it missed', () => {
+  it('appends frames of a live run and leaves gaps for missed ones', () => {
     const run = new Run();
     tell(run, { ...kHello, frames: null, live: true });
     tell(run, { type: 'trajectory', first_frame: 0 }, [
@@ -50,7 +50,7 @@ describe('Run', () => {
     expect(run.series.of('ms')[0].values.row(1)[0]).toBeNaN();
   });
 
-  it('knows when a live run is over', () => {
+  it('detects the end of a live run', () => {
     const run = new Run();
     tell(run, { ...kHello, live: true, frames: 100 });
     tell(run, { type: 'frame', frame: 0 }, [['pose', 7, pose(0)]]);
@@ -62,7 +62,7 @@ describe('Run', () => {
     expect(run.frames).toBe(100);
   });
 
-  it('splits the series into columns and holds more than it first has room for', () => {
+  it('splits series into columns and grows', () => {
     const run = new Run();
     tell(run, kHello);
     const values = Float32Array.from({ length: 2000 }, (_, i) => (i % 2 === 0 ? i / 2 : -i));
@@ -72,7 +72,7 @@ describe('Run', () => {
     expect(run.series.of('count')[0].values.row(999)[0]).toBe(-1999);
   });
 
-  it('forgets everything with a new hello, and says whether it is the same run', () => {
+  it('resets with a new hello and reports whether the run is the same', () => {
     const run = new Run();
     const again: boolean[] = [];
     run.on('hello', (event) => again.push(event.again));
@@ -98,7 +98,7 @@ describe('Tracks', () => {
     return run;
   };
 
-  it('are told as a whole and go on with frames, in whatever order', () => {
+  it('combine the initial tracks with frames in any order', () => {
     const run = rows();
     const object = { id: 7, class: 'agv', center: [1, 0, 0], seen: true };
     tell(run, { type: 'frame', frame: 1, objects: [object] });
@@ -109,13 +109,13 @@ describe('Tracks', () => {
     expect(track.centers).toEqual([0, 0, 0, 1.5, 0, 0, 2, 0, 0]);
   });
 
-  it('leave out where an object was not seen', () => {
+  it('omit frames without observation', () => {
     const run = rows();
     tell(run, { type: 'frame', frame: 1, objects: [{ id: 7, class: 'agv', center: [1, 0, 0], seen: false }] });
     expect([...run.tracks.all][0].frames).toEqual([0, 2]);
   });
 
-  it('have trails up to the frame shown, interrupted by gaps, fading', () => {
+  it('have fading trails with gaps up to the shown frame', () => {
     const track = { id: 1, class: 'person', frames: [0, 90, 91, 95, 99], centers: [] };
     const seen: [number, number, number][] = [];
     forEachTrailSegment(track, 95, 100, (from, to, age) => seen.push([from / 3, to / 3, age]));
@@ -140,7 +140,7 @@ describe('Place', () => {
     return sent;
   };
 
-  it('goes on playing where it was, as fast as it was', () => {
+  it('resumes at the former frame and speed', () => {
     expect(lostAt({ playing: true })).toEqual([{ type: 'seek', frame: 2 }]);
     expect(lostAt({ playing: true, speed: 4 })).toEqual([{ type: 'speed', value: 4 }, { type: 'seek', frame: 2 }]);
   });
@@ -149,13 +149,13 @@ describe('Place', () => {
     expect(lostAt({ playing: false })).toEqual([{ type: 'pause' }, { type: 'seek', frame: 2 }]);
   });
 
-  it('shows the newest of a live run, or the frame at which that was paused', () => {
+  it('shows the newest or the paused frame of a live run', () => {
     const live = { ...kHello, frames: null, live: true };
     expect(lostAt({ playing: true }, live)).toEqual([]);
     expect(lostAt({ playing: false }, live)).toEqual([{ type: 'pause' }, { type: 'seek', frame: 2 }]);
   });
 
-  it('begins another run at its beginning', () => {
+  it('starts another run at its first frame', () => {
     const run = new Run();
     const sent: Command[] = [];
     new Place(run, (command) => sent.push(command));
@@ -172,7 +172,7 @@ describe('Settings', () => {
     return { kept, getItem: () => kept.text, setItem: (_: string, value: string) => void (kept.text = value) };
   };
 
-  it('keep what the user chose', () => {
+  it('keep the user's choice', () => {
     const one = storage(null);
     const settings = new Settings(one);
     expect(settings.shows('map')).toBe(true);
@@ -184,13 +184,13 @@ describe('Settings', () => {
     expect(next.camera).toBe('top');
   });
 
-  it.each(['nonsense', '{"hidden": 3, "camera": "side"}', 'null'])('begin anew where %s was kept', (text) => {
+  it.each(['nonsense', '{"hidden": 3, "camera": "side"}', 'null'])('use defaults when %s was stored', (text) => {
     const settings = new Settings(storage(text));
     expect(settings.shows('map')).toBe(true);
     expect(settings.camera).toBe('follow');
   });
 
-  it('work where nothing can be kept', () => {
+  it('work without storage', () => {
     const settings = new Settings(null);
     settings.toggle('grid');
     expect(settings.shows('grid')).toBe(false);

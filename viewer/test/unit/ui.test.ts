@@ -5,7 +5,7 @@ import { clock, quantity, words } from '../../src/ui/format';
 import { tint } from '../../src/ui/mask_overlay';
 
 describe('format', () => {
-  it('tells times and quantities', () => {
+  it('formats times and quantities', () => {
     expect(clock(83.44)).toBe('1:23.4');
     expect(clock(59.97)).toBe('1:00.0');
     expect(quantity(9.94, 'ms')).toBe('9.9 ms');
@@ -15,7 +15,7 @@ describe('format', () => {
     expect(quantity(NaN, 'count')).toBe('–');
   });
 
-  it('speaks of objects in words', () => {
+  it('names objects in words', () => {
     expect(classWord(1, 'person')).toBe('person');
     expect(classWord(3, 'person')).toBe('people');
     expect(classWord(1, 'agv')).toBe('AGV');
@@ -27,14 +27,14 @@ describe('format', () => {
 describe('plotData', () => {
   const line = (values: number[]) => ({ name: '', color: '#000000', values: Float32Array.from(values) });
 
-  it('stacks lines upon each other, the last one at the bottom', () => {
+  it('stacks lines, the last one at the bottom', () => {
     const [frames, top, bottom] = plotData([line([1, 2]), line([10, NaN])], true);
     expect(frames).toEqual([0, 1]);
     expect(top).toEqual([11, 2]);
     expect(bottom).toEqual([10, null]);
   });
 
-  it('plots a long run in columns that show their largest value', () => {
+  it('plots a long run in columns with their maximum', () => {
     const values = Array.from({ length: 9000 }, (_, i) => (i === 4321 ? 500 : 1));
     const [frames, column] = plotData([line(values)], false);
     expect(frames.length).toBeLessThanOrEqual(1500);
@@ -44,7 +44,7 @@ describe('plotData', () => {
 });
 
 describe('tint', () => {
-  it('colours classes, more along their edges, and leaves what is static clear', () => {
+  it('colors classes, more at edges, and leaves static pixels clear', () => {
     const width = 5;
     const labels = [0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 1, 1, 1, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 2];
     const pixels = new Uint8ClampedArray(labels.flatMap((label) => [label, label, label, 255]));
