@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Keeps README and docs true: runs their commands and checks links, words, lines and files.
+"""Checks README and docs: runs their commands and checks links, words, lines and files.
 
 usage: commands_test.py PROGRAM SOURCE_DIR
 
 Every ```sh block is run by bash in a temporary folder of its page, with PROGRAM first in the PATH.
 A block after a comment `<!-- not run: REASON -->` is not run; its options are still compared with
-the program's help, its presets, scripts and tests with the repository. Exits with 1 and one line a fault.
+the program's help, its presets, scripts and tests with the repository. Exits with 1 and one line per fault.
 """
 import json
 import os
@@ -24,7 +24,7 @@ GENERATED = ("cli.md", "configuration.md")
 SOURCE_FOLDERS = ("mms", "apps", "interfaces", "benchmarks", "examples", "tests", "config",
                   "weights", "docs", "viewer", "packaging", "cmake")
 
-# Words that the project does not use, and what it says in their place.
+# Words that the project does not use, and their replacements.
 OLD_WORDS = (
     (r"looks", "view, observation, or a verb such as appears"),
     (r"(?:an?|the|one|two|last|first|each|every|per|of) look", "view, observation"),
@@ -57,12 +57,12 @@ OLD_WORDS = (
      "the present name"),
 )
 OLD_METRICS = re.compile(r"\|\s*(found|extra|switches|turns)\s*\|")
-# Right uses of such words in ordinary English.
+# Correct uses of such words.
 ALLOWED = re.compile(r"(?i)\b(?:two ways|both ways|SAC switches)\b")
 
 
 class Page:
-    """A page in pieces: code blocks, and lines of text."""
+    """A page, split into code blocks and lines of text."""
 
     def __init__(self, path):
         self.path = path
@@ -157,14 +157,14 @@ def links(page):
 
 
 def check_links(root, pages, faults):
-    """Relative links resolve, and every page can be reached from README."""
+    """Relative links resolve, and README links to every page, directly or not."""
     targets = {path: set() for path in pages}
     for path, page in pages.items():
         for number, link in links(page):
             file, _, anchor = link.partition("#")
             target = (path.parent / file).resolve() if file else path
             if not target.exists():
-                faults.append(f"{path.relative_to(root)}:{number}: link {link} leads nowhere")
+                faults.append(f"{path.relative_to(root)}:{number}: link {link} has no target")
             elif target in pages:
                 targets[path].add(target)
                 if anchor and anchor not in anchors(pages[target]):
@@ -180,7 +180,7 @@ def check_links(root, pages, faults):
 
 
 def check_files(root, page, name, faults):
-    """Files of the repository that the text names are there, with or without extension."""
+    """Files of the repository that the text names exist, with or without extension."""
     for number, line in page.text:
         for span in re.findall(r"`([\w.-]+/[\w./-]*\w)`", line):
             if span.split("/")[0] not in SOURCE_FOLDERS:
@@ -190,7 +190,7 @@ def check_files(root, page, name, faults):
 
 
 def check_build(root, page, name, faults):
-    """Presets, scripts and test programs in shell blocks are there."""
+    """Presets, scripts and test programs in shell blocks exist."""
     presets = json.loads((root / "CMakePresets.json").read_text(encoding="utf-8"))
     names = {preset["name"] for preset in presets["configurePresets"]}
     for number, language, text, _ in page.blocks:
@@ -209,7 +209,7 @@ def check_build(root, page, name, faults):
 
 
 class Help:
-    """What the program says about its commands."""
+    """Help of the program and its commands."""
 
     def __init__(self, program):
         self.program = program
@@ -229,7 +229,7 @@ class Help:
             self.visit((*command, name))
 
     def check(self, where, call, faults):
-        """`call`: what follows "mms" on a command line."""
+        """`call`: the arguments after "mms" on a command line."""
         words = call.split()
         if not words or not re.fullmatch(r"[a-z][\w-]*", words[0]):
             return
@@ -268,7 +268,7 @@ def check_calls(name, page, program_help, faults):
 
 
 class Settings:
-    """The settings of the program, and whether a text names them rightly."""
+    """The settings of the program, and checks of texts that name them."""
 
     def __init__(self, program):
         self.program = program

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Prints a SHA-256 digest of the results of short runs: trajectory, static map, tracked objects,
-# per-frame states and occupancy grid, one line a run. A refactoring keeps every line.
+# per-frame states and occupancy grid, one line per run. A refactoring keeps every line.
 # usage: tests/golden/digests.sh PROGRAM [DATA]
 #   PROGRAM  the mms program
-#   DATA     folder of recordings (rgbd/ and lidar/ below it); left out: simulated scenes alone
-# GOLDEN_ONLY=REGEX takes the runs whose name matches.
+#   DATA     folder of recordings (rgbd/ and lidar/ below it); without it, only simulated scenes
+# GOLDEN_ONLY=REGEX selects the runs with a matching name.
 set -euo pipefail
 mms="$(realpath "${1:?path of the mms program}")"
 data="${2:-}"

@@ -1,4 +1,4 @@
-# Installs the build, and checks that what is installed knows nothing of where it was built.
+# Installs the build, and checks that the installed files do not contain the build's path.
 #
 #   cmake -DBUILD_DIR=... -DSOURCE_DIR=... -DWORK_DIR=... -P install_test.cmake
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # usage: page_test.sh unit|dist|browser WORK_DIR
 # Tests of the viewer's page, in a copy of viewer/ in WORK_DIR with the packages of package-lock.json.
-# Exits with 77, and says why, where Node, chromium or the packages are not to be had.
+# Exits with 77 and the reason where Node, chromium or the packages are not available.
 set -euo pipefail
 readonly page="$(cd "$(dirname "${BASH_SOURCE[0]}")/../../viewer" && pwd)"
 readonly work="$2"
@@ -11,7 +11,7 @@ skip() {
   exit 77
 }
 
-# The packages, fetched once for all tests and again when they change.
+# Fetches the packages once for all tests, and again when they change.
 install_packages() {
   mkdir -p "$work"
   cp "$page/package.json" "$page/package-lock.json" "$page/.npmrc" "$work/"
@@ -45,9 +45,9 @@ case "$1" in
   dist)
     rm -rf dist
     npm run --silent build
-    diff -r dist "$page/dist" || { echo "viewer/dist is not what viewer/src gives: run npm ci && npm run build there"; exit 1; }
+    diff -r dist "$page/dist" || { echo "viewer/dist differs from the build of viewer/src: run npm ci && npm run build there"; exit 1; }
     [ "$(du -sb dist | cut -f1)" -le 2097152 ] || { echo "viewer/dist is larger than 2 MB"; exit 1; }
-    ! grep -rnE '<script>|<style|style="| on[a-z]+="' dist/index.html || { echo "the page's policy allows nothing inline"; exit 1; }
+    ! grep -rnE '<script>|<style|style="| on[a-z]+="' dist/index.html || { echo "the page's policy forbids inline code"; exit 1; }
     ;;
   browser)
     node --test test/browser/browser_test.mjs

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Joins two network namespaces by a link with delay and loss, for kernels without `tc netem`: a tun
-device in each, and between them this process, which passes the packets on late, or not at all.
+"""Joins two network namespaces by a link with delay and loss, for kernels without `tc netem`: each
+has a tun device, and this process forwards their packets with delay, or drops them.
 
 usage: lossy_link.py NAMESPACE_A ADDRESS_A NAMESPACE_B ADDRESS_B CONTROL_FILE
-CONTROL_FILE has the delay one way [ms] and the share of packets lost [%], and is read again whenever it
-changes; a loss of 100 cuts the link."""
+CONTROL_FILE has the one-way delay [ms] and the packet loss [%], and is read again after changes. A
+loss of 100 interrupts the link."""
 import ctypes
 import fcntl
 import heapq
@@ -23,7 +23,7 @@ MTU = 1500
 
 
 def open_tun(namespace, address, peer):
-    """A tun device inside the namespace; its file stays with this process, which goes back."""
+    """Opens a tun device in the namespace for this process, which then returns to its own."""
     libc = ctypes.CDLL(None, use_errno=True)
     own = os.open('/proc/self/ns/net', os.O_RDONLY)
     other = os.open('/var/run/netns/' + namespace, os.O_RDONLY)
@@ -43,8 +43,8 @@ def open_tun(namespace, address, peer):
 def main():
     name_a, address_a, name_b, address_b, control = sys.argv[1:6]
     tuns = (open_tun(name_a, address_a, address_b), open_tun(name_b, address_b, address_a))
-    chance = random.Random(1)
-    waiting = []  # (when, count, to, packet)
+    generator = random.Random(1)
+    waiting = []  # (time, count, to, packet)
     count = 0
     changed, delay, loss = 0, 0.0, 0.0
     print('ready', flush=True)
@@ -64,7 +64,7 @@ def main():
                     packet = os.read(tun, 2 * MTU)
                 except BlockingIOError:
                     break
-                if chance.random() >= loss:
+                if generator.random() >= loss:
                     count += 1
                     heapq.heappush(waiting, (now + delay, count, to, packet))
         while waiting and waiting[0][0] <= time.monotonic():
@@ -72,7 +72,7 @@ def main():
             try:
                 os.write(to, packet)
             except (BlockingIOError, OSError):
-                pass  # a full device loses packets, as links do
+                pass  # a full device drops packets, as links do
 
 
 main()

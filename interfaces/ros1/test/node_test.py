@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Plays a bag to mms_slam_node under a ROS master and compares what it publishes with `mms run` on the
+"""Plays a bag to mms_slam_node under a ROS master and compares its messages with `mms run` on the
 same bag. usage: node_test.py BUILD_FOLDER SOURCE_FOLDER"""
 import os
 import subprocess
@@ -13,7 +13,7 @@ FRAMES = 60
 SCENE = 'sim:warehouse_loop?width=320&frames=%d' % FRAMES
 LIDAR_SCENE = 'sim:warehouse_loop?width=320&frames=15&sensor=lidar16'
 LIDAR_NODE = '/mms_lidar'
-AHEAD = 2  # frames that may be on their way: the node drops none, and waits for each image
+AHEAD = 2  # frames in flight: the node drops none, and waits for each image
 
 
 def check(condition, what):
@@ -31,7 +31,7 @@ def diagnosis(recorder):
 
 
 def make_reference(mms, folder, scene, name):
-    """Makes the bag `name`.bag. Returns the positions that mms run gives."""
+    """Makes the bag `name`.bag. Returns the positions of `mms run` on it."""
     def run(*words):
         subprocess.check_call([mms] + list(words), cwd=folder, stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL)
@@ -68,10 +68,10 @@ def play(session, recorder, player, node):
 def compare_trajectories(recorder, reference, node=NODE):
     poses = {m.header.stamp.to_nsec(): position(m) for m in recorder.messages[node + '/odometry']}
     check(set(poses) == set(reference), 'every frame of mms run has a pose, and no other')
-    worst = max(distance(poses[stamp], reference[stamp]) for stamp in poses)
+    max_error = max(distance(poses[stamp], reference[stamp]) for stamp in poses)
     travelled = max(distance(p, (0, 0, 0)) for p in reference.values())
     check(travelled > 0.1, 'the sensor moved: %.2f m' % travelled)
-    check(worst < 0.001, 'poses are those of mms run: %.6f mm apart at most' % (1000 * worst))
+    check(max_error < 0.001, 'poses equal those of mms run: error %.6f mm' % (1000 * max_error))
 
 
 def transforms(recorder):
@@ -87,13 +87,13 @@ def transforms(recorder):
 
 
 def compare_topics(session, recorder):
-    # Each topic has a connection of its own: what is sent last may arrive first.
+    # Each topic has its own connection: the message sent last may arrive first.
     for topic in ('path', 'map', 'static_cloud', 'dynamic_cloud', 'object_markers', 'mask',
                   'objects'):
-        session.wait('something on ' + topic, lambda: recorder.count(NODE + '/' + topic) > 0)
-        print('ok: something came on ' + topic)
+        session.wait('a message on ' + topic, lambda: recorder.count(NODE + '/' + topic) > 0)
+        print('ok: a message arrived on ' + topic)
     poses = {m.header.stamp.to_nsec(): position(m) for m in recorder.messages[NODE + '/odometry']}
-    session.wait('a transform a pose', lambda: set(poses) <= set(transforms(recorder)))
+    session.wait('a transform for every pose', lambda: set(poses) <= set(transforms(recorder)))
     sent = transforms(recorder)
     check(all(distance(poses[stamp], sent[stamp]) < 1e-9 for stamp in poses),
           '/tf and odometry agree')
@@ -121,7 +121,7 @@ def compare_maps(folder):
     check(answer.success, 'save_map: ' + answer.message)
     same = [open(os.path.join(folder, where, 'static_map.ply'), 'rb').read()
             for where in ('saved', 'camera')]
-    check(same[0] == same[1], 'the map saved is that of mms run, to the bit')
+    check(same[0] == same[1], 'the saved map equals that of mms run to the bit')
 
 
 def compare_lidar(session, recorder, build, folder, reference):
@@ -158,7 +158,7 @@ def main():
         session.wait('a diagnosis', lambda: diagnosis(recorder) is not None)
         missing = diagnosis(recorder)
         check(missing.level == 1 and 'depth images: none arrive' in missing.message and
-              'camera_info: none arrived' in missing.message, 'says what is missing: ' +
+              'camera_info: none arrived' in missing.message, 'reports missing inputs: ' +
               missing.message)
 
         play(session, recorder, player, NODE)

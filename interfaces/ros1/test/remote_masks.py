@@ -1,7 +1,9 @@
 #!/usr/bin/python3
-"""Segmentation on another host: plays a simulated recording at its pace to the SLAM node in one network
-namespace, with the segmentation node in another, and prints what a delayed, lossy and cut link costs.
-Needs root for the namespaces. usage: [SCENE=crowd] remote_masks.py BUILD_FOLDER [FRAMES] [tcp|udp|bbr ...]"""
+"""Segmentation on another host: plays a simulated recording in real time to the SLAM node in one
+network namespace, with the segmentation node in another, and prints the effect of a delayed, lossy
+and interrupted link. Needs root for the namespaces.
+
+usage: [SCENE=crowd] remote_masks.py BUILD_FOLDER [FRAMES] [tcp|udp|bbr ...]"""
 import json
 import os
 import shutil
@@ -29,7 +31,7 @@ def in_namespace(name):
 
 
 class Link:
-    """Two namespaces joined by veth with netem, or where the kernel has none by lossy_link.py."""
+    """Two namespaces joined by veth with netem, or by lossy_link.py on kernels without netem."""
 
     def __init__(self, folder):
         self.control = os.path.join(folder, 'link')
@@ -81,7 +83,7 @@ def diagnosis(recorder):
 
 
 def play_inside(bag, output, link_control, cut):
-    """Runs inside the robot's namespace: plays the bag, and writes poses and counts."""
+    """Plays the bag in the robot's namespace, and writes poses and counts."""
     import rospy
     from diagnostic_msgs.msg import DiagnosticArray
     from nav_msgs.msg import Odometry
@@ -141,7 +143,7 @@ def run_once(build, folder, bag, frames, name, transport, delay_ms, loss, cut=Fa
                                            '~image:=%s/segmentation/image' % NODE,
                                            '~masks:=%s/segmentation/masks' % NODE], server,
                           ROS_HOSTNAME=SERVER_IP)
-            time.sleep(4)  # nodes meet on a link without faults, as robots do in their dock
+            time.sleep(4)  # nodes connect on a link without faults, as in a docking station
             link.set(delay_ms, loss)
             play = session.start('player', [sys.executable, __file__, '--inside', bag, output,
                                             link.control, str(int(cut))], robot,
@@ -200,7 +202,7 @@ def main():
             reference = reference or ate
             row(name, counts, ate, reference)
             logs = counts['log']
-        print('\nwhat the SLAM node says of the cut link:')
+        print('\nlog of the SLAM node on the interrupted link:')
         for line in logs:
             print(line)
     finally:

@@ -1,4 +1,4 @@
-"""A ROS master of one's own, the nodes of MMS-SLAM, and a bag played to them, for the tests."""
+"""A private ROS master, the nodes of MMS-SLAM, and a bag player, for the tests."""
 import importlib
 import importlib.util
 import os
@@ -20,19 +20,19 @@ COLOR, DEPTH, POINTS = ('/camera/color/image_raw', '/camera/aligned_depth_to_col
 
 
 def skip_without_ros():
-    """Ends the test with a message where ROS is not installed."""
+    """Skips the test with a message where ROS is not installed."""
     missing = [name for name in ('rosmaster',) if shutil.which(name) is None]
     for name in ('rospy', 'rosbag', 'sensor_msgs', 'nav_msgs', 'tf2_msgs', 'visualization_msgs',
                  'diagnostic_msgs', 'std_srvs'):
         if importlib.util.find_spec(name) is None:
             missing.append('python3-' + name.replace('_', '-'))
     if missing:
-        print('skipped: ROS 1 is not installed whole, missing are ' + ', '.join(missing))
+        print('skipped: ROS 1 is not installed completely, missing: ' + ', '.join(missing))
         sys.exit(SKIPPED)
 
 
 def import_mms_msgs(source, folder):
-    """Generates the Python classes of mms_msgs as catkin would, and imports them."""
+    """Generates the Python classes of mms_msgs, as catkin does, and imports them."""
     generator = '/usr/lib/genpy/genmsg_py.py'
     package = os.path.join(source, 'interfaces/ros1/mms_msgs/msg')
     output = os.path.join(folder, 'mms_msgs', 'msg')
@@ -58,7 +58,7 @@ def free_port():
 
 
 class Session:
-    """Processes that end with it; `prefix` goes before commands, as "ip netns exec NAME" does."""
+    """Processes that end with the session; `prefix` precedes commands, e.g. "ip netns exec NAME"."""
 
     def __init__(self, folder, host='localhost', port=None):
         self.folder = folder
@@ -112,7 +112,7 @@ class Session:
 
 
 class Recorder:
-    """Keeps the messages of topics; `latest` of a topic is None before the first one."""
+    """Records the messages of topics; `latest` of a topic is None before the first one."""
 
     def __init__(self):
         self.messages = {}
@@ -154,13 +154,13 @@ class Player:
                            for topic, message_class in classes.items()}
 
     def connected(self, node=NODE):
-        """Whether `node` has subscribed to every topic: other subscribers do not count."""
+        """Whether `node` has subscribed to every topic; other subscribers are ignored."""
         return all(node in (connection[1] for connection in publisher.impl.get_stats_info())
                    for publisher in self.publishers.values())
 
     def play(self, before_frame, count=10**9):
-        """Publishes message by message; calls before_frame(index, stamp) before each frame's first.
-        Transforms come after the first frame, as they may where nodes start in any order."""
+        """Publishes all messages; calls before_frame(index, stamp) before the first message of each frame.
+        Transforms follow after the first frame, as with nodes that start in any order."""
         import rosbag
         frames = 0
         transforms = []
