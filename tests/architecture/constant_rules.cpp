@@ -99,7 +99,7 @@ bool has_unit(const std::string& comment) {
 }
 
 bool has_source(const std::string& comment) {
-  static const std::regex kSource(R"(\bSource: +\w)");
+  static const std::regex kSource(R"(\bSource: +[^ ])");
   return std::regex_search(comment, kSource);
 }
 
