@@ -16,10 +16,12 @@ namespace {
 
 using Clock = Pace::Clock;
 
+/// Frames between two stages. More would not raise the throughput, only the memory.
 constexpr std::size_t kQueueCapacity = 3;
-/// In real time a frame that waits is a frame that grows old.
+/// In real time a waiting frame adds latency.
 constexpr std::size_t kRealtimeCapacity = 1;
 
+/// Below the interval of a 60 Hz camera, above the scheduler's time slice.
 constexpr std::chrono::milliseconds kMaxQueueWait{10};
 
 double milliseconds(Clock::duration duration) {
@@ -39,7 +41,7 @@ struct Segmented {
 
 struct Perceived {
   Input input;
-  Perception perception;
+  PerceivedFrame frame;
 };
 
 struct Localized {
@@ -47,7 +49,7 @@ struct Localized {
   FrameResult result;
 };
 
-/// Whether a frame that comes to the segmentation has been there for a while.
+/// Whether the segmentation of the frame before delayed this one.
 bool had_to_wait(const Input& input) {
   return input.due && Clock::now() - *input.due > kMaxQueueWait;
 }
@@ -81,7 +83,7 @@ class FirstError {
   std::exception_ptr error_;
 };
 
-/// The steps of one run, each for a thread of its own, and the queues between them.
+/// The steps of one run, each for its own thread, and the queues between them.
 class StageThreads {
  public:
   StageThreads(SlamSystem& system, const AsyncOptions& options)
@@ -121,15 +123,15 @@ class StageThreads {
 
   void perceive_all() {
     while (std::optional<Segmented> item = segmented_.pop()) {
-      Perception perception = system_.perceive(item->input.frame, item->masks);
-      if (!perceived_.push({std::move(item->input), std::move(perception)})) break;
+      PerceivedFrame frame = system_.perceive(item->input.frame, item->masks);
+      if (!perceived_.push({std::move(item->input), std::move(frame)})) break;
     }
     perceived_.close();
   }
 
   void localize_all() {
     while (std::optional<Perceived> item = perceived_.pop()) {
-      FrameResult result = system_.localize(std::move(item->perception));
+      FrameResult result = system_.localize(std::move(item->frame));
       if (!localized_.push({std::move(item->input), std::move(result)})) break;
     }
     localized_.close();
@@ -193,6 +195,7 @@ void AsyncPipeline::run_serial(SlamSystem& system, const Source& source, const S
 
 void AsyncPipeline::run_threaded(SlamSystem& system, const Source& source, const Sink& sink) {
   StageThreads stages(system, options_);
+  system.release_threads();
   std::thread reader([&] { stages.guarded([&] { stages.read_all(source, dropped_); }); });
   std::thread segmenter([&] { stages.guarded([&] { stages.segment_all(without_masks_); }); });
   std::thread perceiver([&] { stages.guarded([&] { stages.perceive_all(); }); });
@@ -202,6 +205,7 @@ void AsyncPipeline::run_threaded(SlamSystem& system, const Source& source, const
   segmenter.join();
   perceiver.join();
   localizer.join();
+  system.release_threads();
   stages.rethrow();
 }
 

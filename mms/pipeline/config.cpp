@@ -3,17 +3,17 @@
 namespace mms {
 
 void SystemConfig::visit(ConfigVisitor& v) {
-  v.group({"depth_noise", "", "the depth camera's noise, used by every module"}, depth_noise);
-  v.number({"lidar_noise", "m", "one sigma of LiDAR range, used by every module"}, lidar_noise,
+  v.group({"depth_noise", "", "the depth camera's noise, used by every module"}, noise.depth);
+  v.number({"lidar_noise", "m", "one sigma of LiDAR range, used by every module"}, noise.range,
            {1e-4, 0.5});
   v.group({"segmentation", "", "people and vehicles in the picture (III-A)"}, segmentation);
   v.group({"fusion", "", "masks and geometry into static and dynamic points (III-B)"}, fusion);
   v.group({"features", "", "edge and planar features (III-C.1)"}, features);
   v.group({"odometry", "", "data association and pose (III-C.2, III-C.3)"}, odometry);
-  v.group({"motion_segmentation", "", "what moves without a mask", "movement"},
+  v.group({"motion_segmentation", "", "moving objects without a mask", "movement"},
           motion_segmentation);
   v.group({"keyframes", "", "which frames update the static map (III-C.4)"}, keyframes);
-  v.group({"static_map", "", "dense coloured map of what does not move (III-D)"}, static_map);
+  v.group({"static_map", "", "dense coloured map of static surfaces (III-D)"}, static_map);
   v.group({"occupancy", "", "free and occupied space, for robots"}, occupancy);
   v.group({"dynamic_map", "", "tracked objects (III-D)"}, dynamic_map);
 }

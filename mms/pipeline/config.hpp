@@ -2,7 +2,7 @@
 
 #include "mms/core/config.hpp"
 #include "mms/fusion/config/fusion_config.hpp"
-#include "mms/geometry/depth_noise.hpp"
+#include "mms/geometry/sensor_noise.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation_config.hpp"
@@ -17,8 +17,7 @@ namespace mms {
 /// All settings of a SlamSystem, a group a module; `mms config dump` prints them with their
 /// meaning.
 struct SystemConfig {
-  DepthNoise depth_noise;
-  double lidar_noise = 0.02;        ///< one sigma of range [m]
+  SensorNoise noise;                ///< depth_noise and lidar_noise
   SegmentationConfig segmentation;  ///< of the segmenter that the program makes
   FusionConfig fusion;
   FeatureConfig features;

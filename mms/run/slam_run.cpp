@@ -24,7 +24,7 @@ void check_range(const RunOptions& options, const FrameSource& source) {
                                          source.size()));
 }
 
-/// @param warnings  gets what to tell the user of the settings
+/// @param warnings  receives warnings about the settings
 SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
                            std::vector<std::string>& warnings) {
   SystemConfig config;
@@ -48,7 +48,7 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
   return source;
 }
 
-/// The frames asked for, and no more; none once the observer ended the run.
+/// The requested frames; none after the observer ended the run.
 AsyncPipeline::Source limited(FrameSource& source, const RunOptions& options,
                               const RunObserver& observer) {
   source.skip(options.start);
@@ -63,7 +63,7 @@ AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
   const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   AsyncOptions async{.threads = options.threads > 0 ? options.threads : cores,
                      .realtime = options.realtime};
-  // Only the geometry follows an object without a mask.
+  // Without a mask, objects are tracked by geometry only.
   if (config.fusion.mode != FusionMode::kMultimodal) async.max_mask_age = 0.0;
   return async;
 }
@@ -84,12 +84,13 @@ void SlamRun::play(const std::filesystem::path& folder, RunObserver& observer) {
   try {
     process(folder, observer);
   } catch (...) {
-    journal_.reset();  // it keeps the frames there are, or goes before its folder does
+    journal_.reset();  // it keeps existing frames; closed before its folder is removed
     throw;
   }
 }
 
-/// The network plans its work at its first picture, which would cost the first frames in real time.
+/// The network prepares its kernels with the first image, which would delay the first frames in
+/// real time.
 void SlamRun::warm_up() {
   const auto calibration = source_->calibration();
   if (options_.segmenter != "network" || !calibration || !calibration->camera) return;
@@ -113,17 +114,17 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   end_map();
   observer.on_end();
   interrupted_ = observer.stop_requested();
-  if (interrupted_) observer.on_warning("interrupted, writing what is done so far");
+  if (interrupted_) observer.on_warning("interrupted, writing the results so far");
   log_->finish(source_->skipped(), pipeline, system_);
   if (log_->frames().empty()) {
     throw DataError(options_.data,
                     fmt::format("none of its {} frames could be processed", source_->size()),
-                    "the warnings above say why; mms info DATA explains what was found");
+                    "see the warnings above; mms info DATA describes the recording");
   }
   compare_with_truth(observer);
 }
 
-/// Called right after the system localised the frame, before the next one.
+/// Called after the pose of the frame was estimated, before the next frame.
 void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   std::optional<MapChanges> map;
   if (processed.result.keyframe) map = system_.static_map().changes();
@@ -136,13 +137,13 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
 }
 
 void SlamRun::end_map() {
-  std::optional<MapChanges> map = system_.end();
+  std::optional<MapChanges> map = system_.finalize();
   if (!map) return;
   if (view_) view_->show_map(*map);
   journal_->end(std::move(*map));
 }
 
-/// Truth that cannot be read costs the comparison, not the run.
+/// Unreadable ground truth prevents the comparison, not the run.
 void SlamRun::compare_with_truth(RunObserver& observer) {
   const auto attempt = [&](const std::string& what, const auto& compare) {
     try {

@@ -8,7 +8,7 @@
 namespace mms {
 namespace {
 
-TEST(FeatureExclusion, TakesOutWhatLiesOnThePixels) {
+TEST(FeatureExclusion, RemovesFeaturesOnExcludedPixels) {
   const CameraIntrinsics intrinsics = testing::box_camera();
   const CameraModel camera(intrinsics);
   const auto at = [&](double x, double y) {
@@ -25,29 +25,38 @@ TEST(FeatureExclusion, TakesOutWhatLiesOnThePixels) {
   Image<std::uint8_t> pixels(intrinsics.width, intrinsics.height);
   pixels(40, 40) = pixels(41, 40) = 1;
 
-  exclude(pixels, intrinsics, features);
+  LabeledCloud cloud;
+  cloud.width = intrinsics.width;
+  cloud.height = intrinsics.height;
+  cloud.camera = intrinsics;
+  exclude(pixels, cloud, features);
 
   ASSERT_EQ(features.edges.size(), 1U);
   EXPECT_EQ(features.edges[0].point, at(10, 10));
-  ASSERT_EQ(features.planes.size(), 2U) << "what is behind the camera is not on its image";
+  ASSERT_EQ(features.planes.size(), 2U) << "a point behind the camera has no pixel";
   EXPECT_EQ(features.planes[0].point, at(10, 40));
   EXPECT_EQ(features.intensity[0].depth(40, 40), 0.0F);
-  EXPECT_EQ(features.intensity[0].depth(42, 41), 0.0F) << "its gradient has a part in it";
+  EXPECT_EQ(features.intensity[0].depth(42, 41), 0.0F) << "its gradient includes an excluded pixel";
   EXPECT_EQ(features.intensity[0].depth(43, 40), 2.0F);
   EXPECT_EQ(features.intensity[1].depth(20, 20), 0.0F);
   EXPECT_EQ(features.intensity[1].depth(22, 20), 2.0F);
 }
 
-TEST(FeatureExclusion, TakesOutTheFeaturesOfAScansDynamicPoints) {
+TEST(FeatureExclusion, RemovesFeaturesOfExcludedScanPoints) {
   FeatureCloud features;
   features.edges = {{{1, 0, 0}, 0.0F, 0.0F, 2}, {{2, 0, 0}, 0.0F, 0.0F, 0}, {{3, 0, 0}, 0.0F}};
   features.planes = {{{4, 0, 0}, {}, 0.0F, 0.0F, 1}, {{5, 0, 0}, {}, 0.0F, 0.0F, 0}};
 
-  exclude_dynamic({PointLabel::kStatic, PointLabel::kDynamic, PointLabel::kDynamic}, features);
+  Image<std::uint8_t> points(3, 1);
+  points(1, 0) = points(2, 0) = 1;
+  LabeledCloud scan;
+  scan.width = 3;
+  scan.height = 1;
+  exclude(points, scan, features);
 
   ASSERT_EQ(features.edges.size(), 2U);
   EXPECT_EQ(features.edges[0].point.x(), 2.0F);
-  EXPECT_EQ(features.edges[1].point.x(), 3.0F) << "of no point";
+  EXPECT_EQ(features.edges[1].point.x(), 3.0F) << "a feature without a point index stays";
   ASSERT_EQ(features.planes.size(), 1U);
   EXPECT_EQ(features.planes[0].point.x(), 5.0F);
 }

@@ -12,24 +12,24 @@
 
 namespace mms {
 
-/// What earlier views say of a state.
+/// What recent views observed at the position of a point.
 enum class SpaceState : std::uint8_t {
-  kNone,      ///< there is no static point
-  kSurface,   ///< it was there before
-  kUnknown,   ///< hidden or out of view
-  kNoReturn,  ///< looked at, but nothing was measured there or behind
-  kFree,      ///< it was looked through
+  kNone,      ///< not a static point
+  kSurface,   ///< a surface
+  kUnknown,   ///< occluded or out of view
+  kNoReturn,  ///< in view, but without a return at or behind it
+  kFree,      ///< free space
 };
 
-/// The free space that the last moments' views saw; `Space` is that of one view.
+/// Free space of the recent views; `Space` is that of one view.
 template <class Space>
 class FreeSpaceHistory {
  public:
   explicit FreeSpaceHistory(const MotionSegmentationConfig& config) : config_(config) {}
 
-  /// Whether a view of this time is one to remember; old ones are forgotten.
+  /// Whether a view at this time is to be added; views older than `memory` are removed.
   bool wants(Timestamp stamp) {
-    while (!views_.empty() && is_forgotten(views_.front(), stamp)) views_.pop_front();
+    while (!views_.empty() && is_too_old(views_.front(), stamp)) views_.pop_front();
     return views_.empty() || to_seconds(stamp - views_.back().stamp) >= config_.interval;
   }
 
@@ -40,7 +40,7 @@ class FreeSpaceHistory {
 
   bool empty() const { return views_.empty(); }
 
-  /// The views as a frame at `T_world_sensor` asks them.
+  /// The views in the sensor frame of a new frame.
   class Query {
    public:
     /// @param point  in the frame's sensor frame [m]
@@ -64,7 +64,7 @@ class FreeSpaceHistory {
   Query query(Timestamp now, const Transform<World, Sensor>& T_world_sensor) const {
     Query query;
     for (const View& view : views_) {
-      if (is_forgotten(view, now)) continue;
+      if (is_too_old(view, now)) continue;
       query.views_.emplace_back(
           &view.space, view.T_sensor_world * T_world_sensor.isometry().template cast<float>());
     }
@@ -78,7 +78,7 @@ class FreeSpaceHistory {
     Eigen::Isometry3f T_sensor_world;
   };
 
-  bool is_forgotten(const View& view, Timestamp now) const {
+  bool is_too_old(const View& view, Timestamp now) const {
     return to_seconds(now - view.stamp) > config_.memory;
   }
 

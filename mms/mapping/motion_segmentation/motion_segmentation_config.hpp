@@ -13,17 +13,18 @@ struct MotionSegmentationConfig {
   double max_share = 0.6;  ///< of the static points
 
   void visit(ConfigVisitor& v) {
-    v.boolean({"enabled", "", "take what stands where space was free for dynamic, mask or not"},
-              enabled);
-    v.number({"memory", "s", "how long free space is remembered"}, memory, {0.0, 60.0});
-    v.number({"interval", "s", "time between the views that are remembered"}, interval,
-             {0.05, 60.0});
-    v.number({"margin", "m", "how far behind a point a view has to have seen, above noise"}, margin,
+    v.boolean(
+        {"enabled", "", "label points in observed free space as dynamic, with or without a mask"},
+        enabled);
+    v.number({"memory", "s", "age of the oldest view that is used"}, memory, {0.0, 60.0});
+    v.number({"interval", "s", "time between the views that are used"}, interval, {0.05, 60.0});
+    v.number({"margin", "m", "distance behind a point that a view must have measured, above noise"},
+             margin, {0.01, 10.0});
+    v.number({"radius", "m", "of the disc that an object must cover in a depth image"}, radius,
              {0.01, 10.0});
-    v.number({"radius", "m", "of the largest disc that fits into what a depth image shows of it"},
-             radius, {0.01, 10.0});
-    v.number({"max_share", "", "of the static points; more is an error of the pose"}, max_share,
-             {0.0, 1.0});
+    v.number({"max_share", "",
+              "of the static points; with more, the pose is wrong and none is relabeled"},
+             max_share, {0.0, 1.0});
   }
 };
 

@@ -18,11 +18,11 @@ void make_dynamic(std::size_t point, int cluster, LabeledCloud& cloud) {
   cloud.labels[point] = PointLabel::kDynamic;
   cloud.cluster[point] = static_cast<std::int16_t>(cluster);
   const Eigen::Vector3f& position = cloud.points[point];
-  DynamicCluster& whole = cloud.clusters[static_cast<std::size_t>(cluster)];
-  ++whole.points;
-  whole.centroid += (position - whole.centroid) / static_cast<float>(whole.points);
-  whole.box_min = whole.box_min.cwiseMin(position);
-  whole.box_max = whole.box_max.cwiseMax(position);
+  DynamicCluster& to = cloud.clusters[static_cast<std::size_t>(cluster)];
+  ++to.points;
+  to.centroid += (position - to.centroid) / static_cast<float>(to.points);
+  to.box_min = to.box_min.cwiseMin(position);
+  to.box_max = to.box_max.cwiseMax(position);
 }
 
 }  // namespace mms

@@ -6,10 +6,10 @@
 
 namespace mms {
 
-/// Index of a new cluster without points, of something that no mask named.
+/// Adds a cluster of unknown class without points. @returns its index
 int add_unknown_cluster(LabeledCloud& cloud);
 
-/// Makes a static point dynamic, as a part of a cluster.
+/// Makes a static point dynamic and adds it to a cluster: its count, centroid and box.
 void make_dynamic(std::size_t point, int cluster, LabeledCloud& cloud);
 
 }  // namespace mms

@@ -10,8 +10,8 @@ namespace {
 
 FusionConfig fusion_config(const SystemConfig& config) {
   FusionConfig fusion = config.fusion;
-  fusion.noise = config.depth_noise;
-  fusion.lidar_noise = config.lidar_noise;
+  fusion.noise = config.noise.depth;
+  fusion.lidar_noise = config.noise.range;
   return fusion;
 }
 
@@ -31,17 +31,17 @@ std::unique_ptr<FrameSource> SensorViews::open() const {
       {.masks = record_.masks, .load_masks = record_.segmenter == "masks", .map_truth = false});
 }
 
-/// The frame of that place and stamp. Recordings are read forwards only.
-std::optional<Frame> SensorViews::read(const FrameRecord& wanted) {
-  if (wanted.index < position_) {
+/// The frame with that index and stamp. Recordings are read forward only.
+std::optional<Frame> SensorViews::read(const FrameRecord& requested) {
+  if (requested.index < position_) {
     source_ = open();
     position_ = 0;
   }
-  source_->skip(static_cast<std::size_t>(wanted.index - position_));
-  position_ = wanted.index + 1;
+  source_->skip(static_cast<std::size_t>(requested.index - position_));
+  position_ = requested.index + 1;
   std::optional<Frame> frame = source_->next();
-  if (!frame || frame->stamp != wanted.stamp) {
-    source_ = open();  // it may have passed over damaged ones, and be anywhere
+  if (!frame || frame->stamp != requested.stamp) {
+    source_ = open();  // its position is unknown after damaged frames
     position_ = 0;
     return std::nullopt;
   }

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "mms/core/thread_confinement.hpp"
+#include "mms/localization/odometry.hpp"
+#include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
+#include "mms/mapping/static_map/keyframe_selector.hpp"
+#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/frame_result.hpp"
+#include "mms/pipeline/perception.hpp"
+
+namespace mms {
+
+/// The stage that estimates the pose. Owns the local maps, the motion model, the free space of
+/// recent views and the choice of keyframes.
+class Localization {
+ public:
+  explicit Localization(const SystemConfig& config);
+
+  /// III-C.2, III-C.3 and the choice of keyframes of III-C.4; before that the points of moving
+  /// objects without a mask are labeled dynamic. One thread at a time, frames in order.
+  /// @returns the result without objects
+  FrameResult localize(PerceivedFrame frame);
+
+  void release_thread() { thread_.release(); }  ///< lets another thread call
+
+ private:
+  void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
+
+  Odometry odometry_;
+  MotionSegmentation motion_segmentation_;
+  KeyframeSelector keyframes_;
+  ThreadConfinement thread_;
+};
+
+}  // namespace mms

@@ -1,0 +1,64 @@
+#include "mms/pipeline/mapping.hpp"
+
+#include <cassert>
+#include <vector>
+
+#include "mms/mapping/tracking/unseen_objects.hpp"
+#include "mms/pipeline/stage_timer.hpp"
+
+namespace mms {
+namespace {
+
+StaticMapConfig static_map_config(const SystemConfig& config) {
+  StaticMapConfig map = config.static_map;
+  map.surface.noise = config.noise.depth;
+  return map;
+}
+
+}  // namespace
+
+Mapping::Mapping(const SystemConfig& config)
+    : static_map_(static_map_config(config)),
+      occupancy_map_(config.occupancy, static_map_config(config).surface),
+      dynamic_map_(config.dynamic_map) {}
+
+FrameResult Mapping::map(FrameResult result) {
+  assert(thread_.is_owner());
+  result.objects = timed(result.stage_ms, Stage::kMapping, [&] {
+    const Transform<World, Sensor>& T_world_sensor = result.odometry.T_world_sensor;
+    dynamic_map_.update(result.cloud, result.odometry);  // III-D
+    std::vector<TrackedObject> objects = dynamic_map_.objects();
+    mask_unseen_objects(objects, T_world_sensor, result.cloud);
+    if (result.keyframe) {
+      static_map_.integrate(result.cloud, T_world_sensor);
+      occupancy_map_.integrate(result.cloud, T_world_sensor);
+    } else if (result.odometry.status != Status::kLost) {
+      static_map_.add(result.cloud, T_world_sensor);
+    }
+    return objects;
+  });
+  return result;
+}
+
+std::optional<MapChanges> Mapping::finalize() {
+  assert(thread_.is_owner());
+  if (!static_map_.finalize()) return std::nullopt;
+  return static_map_.changes();
+}
+
+const StaticMap& Mapping::static_map() const {
+  assert(thread_.is_owner());
+  return static_map_;
+}
+
+const OccupancyMap& Mapping::occupancy_map() const {
+  assert(thread_.is_owner());
+  return occupancy_map_;
+}
+
+const DynamicMap& Mapping::dynamic_map() const {
+  assert(thread_.is_owner());
+  return dynamic_map_;
+}
+
+}  // namespace mms

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "mms/core/thread_confinement.hpp"
+#include "mms/geometry/voxels/map_changes.hpp"
+#include "mms/mapping/occupancy/occupancy_map.hpp"
+#include "mms/mapping/static_map/static_map.hpp"
+#include "mms/mapping/tracking/dynamic_map.hpp"
+#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/frame_result.hpp"
+
+namespace mms {
+
+/// The stage after the pose (III-C.4, III-D). Owns the static map, the occupancy map and the
+/// tracked objects.
+class Mapping {
+ public:
+  explicit Mapping(const SystemConfig& config);
+
+  /// Tracks the frame's dynamic objects and integrates its points into the maps. One thread at a
+  /// time, frames in order; the maps may be read in that thread.
+  /// @returns the result with objects
+  FrameResult map(FrameResult localized);
+
+  /// Completes the static map after the last frame.
+  /// @returns the changes by the frames since the last keyframe; none without such frames
+  std::optional<MapChanges> finalize();
+
+  const StaticMap& static_map() const;
+  const OccupancyMap& occupancy_map() const;
+  const DynamicMap& dynamic_map() const;
+
+  void release_thread() { thread_.release(); }  ///< lets another thread call
+
+ private:
+  StaticMap static_map_;
+  OccupancyMap occupancy_map_;
+  DynamicMap dynamic_map_;
+  ThreadConfinement thread_;
+};
+
+}  // namespace mms
