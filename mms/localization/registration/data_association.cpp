@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "mms/geometry/parallel.hpp"
-#include "mms/localization/features/local_surface.hpp"
+#include "mms/geometry/principal_axes.hpp"
 
 namespace mms {
 namespace {
@@ -47,20 +47,11 @@ std::optional<Line> line_of_two(const std::vector<Neighbor>& n, float min_separa
 
 std::optional<Line> principal_line(const std::vector<Neighbor>& n) {
   if (n.size() < kMinLinePoints) return std::nullopt;
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-  for (const Neighbor& neighbor : n) mean += neighbor.point;
-  mean /= static_cast<float>(n.size());
-  Eigen::Matrix3f scatter = Eigen::Matrix3f::Zero();
-  for (const Neighbor& neighbor : n) {
-    const Eigen::Vector3f d = neighbor.point - mean;
-    scatter += d * d.transpose();
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen;
-  eigen.computeDirect(scatter);
-  const Eigen::Vector3f& values = eigen.eigenvalues();
-  if (values(1) > kMaxLineAspect * kMaxLineAspect * values(2)) return std::nullopt;
-  return Line{mean, eigen.eigenvectors().col(2),
-              std::sqrt(values(1) / static_cast<float>(n.size()))};
+  const auto scatter = scatter_of(n, &Neighbor::point);
+  const auto axes = principal_axes(scatter.matrix, EigenMethod::kClosedForm);
+  const Eigen::Vector3f& squares = axes.variances;
+  if (squares(1) > kMaxLineAspect * kMaxLineAspect * squares(2)) return std::nullopt;
+  return Line{scatter.mean, axes.largest(), std::sqrt(squares(1) / static_cast<float>(n.size()))};
 }
 
 std::optional<Plane> plane_of_three(const std::vector<Neighbor>& n, float min_separation) {
