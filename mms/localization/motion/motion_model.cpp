@@ -28,14 +28,14 @@ constexpr double kMinInterval = 1e-3;
 
 void MotionConfig::visit(ConfigVisitor& v) {
   v.number({"acceleration", "m/s^2",
-            "standard deviation; holds the pose where a frame says little. 0: expect nothing"},
+            "standard deviation; constrains the pose where data do not. 0: no prior"},
            acceleration, {0.0, 1000.0});
-  v.number({"turn_acceleration", "rad/s^2", "standard deviation; 0: expect nothing"},
-           turn_acceleration, {0.0, 10000.0});
-  v.number({"max_speed", "m/s", "a faster estimate is not believed"}, max_speed, {0.1, 1000.0});
-  v.number({"max_turn_rate", "deg/s", "a faster estimate is not believed"}, max_turn_rate,
+  v.number({"turn_acceleration", "rad/s^2", "standard deviation; 0: no prior"}, turn_acceleration,
+           {0.0, 10000.0});
+  v.number({"max_speed", "m/s", "a faster estimate is rejected"}, max_speed, {0.1, 1000.0});
+  v.number({"max_turn_rate", "deg/s", "a faster estimate is rejected"}, max_turn_rate,
            {1.0, 36000.0});
-  v.number({"max_acceleration", "m/s^2", "a faster change of the velocity is not believed"},
+  v.number({"max_acceleration", "m/s^2", "a faster change of the velocity is rejected"},
            max_acceleration, {0.1, 10000.0});
 }
 
