@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "benchmarks/scene.hpp"
+#include "benchmarks/benchmark_scene.hpp"
 #include "mms/evaluation/trajectory/trajectory_error.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/segmentation/segmenters/mask_segmenter.hpp"
@@ -13,14 +13,14 @@
 namespace mms {
 namespace {
 
-/// The frames one after the other, again and again.
+/// The frames in sequence, repeated.
 const Frame& frame_of(std::size_t iteration) {
   const auto& frames = scene_recording().frames;
   return frames[iteration % frames.size()];
 }
 
 void segmentation_masks(benchmark::State& state) {
-  scene_recording();  // rendered before the clock runs
+  scene_recording();  // rendered before the measurement starts
   MaskSegmenter segmenter;
   std::size_t i = 0;
   for (auto unused : state) benchmark::DoNotOptimize(segmenter.segment(frame_of(i++)));
@@ -45,7 +45,7 @@ BENCHMARK_CAPTURE(fusion, none, FusionMode::kNone)->Unit(benchmark::kMillisecond
 BENCHMARK_CAPTURE(fusion, vision, FusionMode::kVision)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(fusion, multimodal, FusionMode::kMultimodal)->Unit(benchmark::kMillisecond);
 
-/// Clouds of the whole recording, labelled once.
+/// Labeled clouds of the whole recording, computed once.
 const std::vector<LabeledCloud>& labeled_clouds() {
   static const std::vector<LabeledCloud> clouds = [] {
     SemanticFusion fusion(FusionConfig{});
@@ -79,7 +79,7 @@ double ate_cm(const Trajectory& estimate) {
   return 100.0 * evaluate_trajectory(scene_recording().truth, estimate).ate_rmse_m;
 }
 
-/// The whole recording an iteration; the time reported is that of a frame.
+/// One iteration is the whole recording; the reported time is per frame.
 void odometry(benchmark::State& state, Association association, bool photometric) {
   const FeatureExtractor extractor{FeatureConfig{}};
   std::vector<FeatureCloud> all;

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 
 namespace mms {
 
 /// Standard deviation of a depth camera's depth [m]: sigma(z) = base + quadratic * (z - 0.4 m)^2.
-/// The defaults are Nguyen et al.'s (3DIMPVT 2012) for structured light (Kinect, Xtion);
-/// time-of-flight cameras have nearly no quadratic part.
+/// Defaults for structured light (Kinect, Xtion) from Nguyen et al. (3DIMPVT 2012); for
+/// time-of-flight cameras the quadratic part is almost zero.
 struct DepthNoise {
   double base = 0.0012;       ///< [m]
   double quadratic = 0.0019;  ///< [1/m]

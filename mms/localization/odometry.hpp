@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/core/odometry_estimate.hpp"
 #include "mms/localization/features/feature_cloud.hpp"
 #include "mms/localization/motion/motion_model.hpp"

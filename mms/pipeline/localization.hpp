@@ -4,9 +4,9 @@
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
-#include "mms/pipeline/config.hpp"
 #include "mms/pipeline/frame_result.hpp"
 #include "mms/pipeline/perception.hpp"
+#include "mms/pipeline/system_config.hpp"
 
 namespace mms {
 

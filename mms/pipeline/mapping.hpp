@@ -7,8 +7,8 @@
 #include "mms/mapping/occupancy/occupancy_map.hpp"
 #include "mms/mapping/static_map/static_map.hpp"
 #include "mms/mapping/tracking/dynamic_map.hpp"
-#include "mms/pipeline/config.hpp"
 #include "mms/pipeline/frame_result.hpp"
+#include "mms/pipeline/system_config.hpp"
 
 namespace mms {
 

@@ -8,8 +8,8 @@
 #include "mms/core/thread_confinement.hpp"
 #include "mms/fusion/semantic_fusion.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
-#include "mms/pipeline/config.hpp"
 #include "mms/pipeline/frame_result.hpp"
+#include "mms/pipeline/system_config.hpp"
 #include "mms/segmentation/segmenters/segmenter.hpp"
 
 namespace mms {

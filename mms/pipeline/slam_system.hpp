@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "mms/core/frame.hpp"
-#include "mms/pipeline/config.hpp"
 #include "mms/pipeline/frame_result.hpp"
 #include "mms/pipeline/localization.hpp"
 #include "mms/pipeline/mapping.hpp"
 #include "mms/pipeline/perception.hpp"
+#include "mms/pipeline/system_config.hpp"
 #include "mms/segmentation/segmenters/segmenter.hpp"
 
 namespace mms {

@@ -3,13 +3,14 @@
 #include <string>
 
 #include "mms/core/calibration.hpp"
-#include "mms/ros/messages.hpp"
+#include "mms/ros/ros_messages.hpp"
 
 namespace mms {
 
-/// The camera of a CameraInfo: K with the lens of D (plumb_bob, or rational_polynomial whose last
-/// three coefficients are zero), or P without a lens where the images are rectified ones.
-/// @throws DataError at `where` for another lens, for one that is not calibrated, and for binning.
+/// Camera of a CameraInfo: K with the distortion D (plumb_bob, or rational_polynomial with zeros as
+/// last three coefficients), or P without distortion for rectified images.
+/// @throws DataError at `where` for other distortion models, for missing calibration, and for
+/// binning.
 CameraIntrinsics intrinsics_of(const msg::CameraInfo& message, bool rectified,
                                const std::string& where);
 

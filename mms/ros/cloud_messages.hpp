@@ -3,21 +3,21 @@
 #include <string>
 
 #include "mms/core/frame.hpp"
-#include "mms/ros/messages.hpp"
+#include "mms/ros/ros_messages.hpp"
 
 namespace mms {
 
-/// The points of a cloud message of any layout, number type and byte order. Points that are NaN
-/// stay. The intensity is that of the field intensity, reflectivity, reflectance or i. Times of the
-/// points are taken from the field t, time, timestamp, time_offset or offset_time: seconds as a
-/// floating point number, or nanoseconds (microseconds where a scan took less than 2 ms of those);
-/// counted from the message's stamp, or from 1970 as the stamp is.
-/// @param stamp  of the frame, which times count from
-/// @throws DataError at `where` for a cloud without x, y and z, one that is smaller than its header
-///         says, and fields that lie outside a point or are of an unknown type.
+/// Points of a cloud message with any layout, number type and byte order. Keeps NaN points. The
+/// intensity is the field intensity, reflectivity, reflectance or i. Times of points come from the
+/// field t, time, timestamp, time_offset or offset_time: seconds as floating-point numbers, or
+/// nanoseconds (microseconds if a scan would take less than 2 ms); relative to the message's stamp,
+/// or since 1970 as the stamp.
+/// @param stamp  of the frame, reference of the times
+/// @throws DataError at `where` for a cloud without x, y and z, with too few bytes, or with fields
+/// outside a point or of unknown type.
 LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::string& where);
 
-/// A message with x y z, and intensity and time [s] where there are such; all float32.
+/// A message with x y z, and intensity and time [s] if available; all float32.
 msg::PointCloud2 cloud_message(const msg::Header& header, const LidarScan& scan);
 
 }  // namespace mms

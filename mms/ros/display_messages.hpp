@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "mms/ros/messages.hpp"
+#include "mms/ros/ros_messages.hpp"
 
 namespace mms::msg {
 
-// Messages by which results are shown and exchanged; as in messages.hpp.
+// Messages that show and exchange results; as in messages.hpp.
 
 /// nav_msgs/Path
 struct Path {
@@ -107,7 +107,7 @@ struct DiagnosticArray {
 struct Instance {
   std::uint8_t object_class = 0;
   float score = 1.0F;
-  std::string mask;  ///< io/rle.hpp's compressed form
+  std::string mask;  ///< compressed form of io/rle.hpp
 
   template <class Self, class Archive>
   static void fields(Self& self, Archive& archive) {

@@ -3,18 +3,18 @@
 #include <string>
 #include <string_view>
 
-#include "mms/ros/messages.hpp"
+#include "mms/ros/ros_messages.hpp"
 
 namespace mms::msg {
 
-/// What ROS calls a type of messages, and tells it by.
+/// Identity of a ROS message type.
 struct MessageType {
   std::string name;        ///< "sensor_msgs/Image"
-  std::string md5;         ///< of its definition, as ROS computes it
-  std::string definition;  ///< its fields and those of the types it is made of
+  std::string md5;         ///< of its definition, as computed by ROS
+  std::string definition;  ///< its fields and those of nested types
 };
 
-/// Name of a message's type in ROS.
+/// ROS name of a message's type.
 template <class Message>
 inline constexpr std::string_view kName = Message::kTypeName;
 template <>
@@ -34,7 +34,8 @@ inline constexpr std::string_view kName<Transforms> = "tf2_msgs/TFMessage";
 template <>
 inline constexpr std::string_view kName<Odometry> = "nav_msgs/Odometry";
 
-/// The type of that name, one of those above. @throws std::out_of_range for any other.
+/// The type of that name.
+/// @throws std::out_of_range for unknown ones.
 const MessageType& message_type(std::string_view name);
 
 }  // namespace mms::msg

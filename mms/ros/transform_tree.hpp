@@ -6,29 +6,28 @@
 #include <string>
 #include <vector>
 
-#include "mms/ros/messages.hpp"
+#include "mms/ros/ros_messages.hpp"
 
 namespace mms {
 
 Eigen::Isometry3d isometry_of(const msg::Pose& pose);
 msg::Pose pose_message(const Eigen::Isometry3d& pose);
 
-/// What /tf and /tf_static say: every frame's pose in its parent frame, over time.
+/// Content of /tf and /tf_static: every frame's pose in its parent frame over time.
 class TransformTree {
  public:
-  /// Transforms that are not finite are left out.
+  /// Ignores transforms that are not finite.
   void add(const msg::Transforms& message);
 
-  /// Takes coordinates in `source` to coordinates in `target`, by the transforms whose stamps are
-  /// nearest to `stamp`; nothing where the two frames are not connected.
+  /// Transform from `source` to `target`, from the transforms nearest in time to `stamp`; nullopt
+  /// if the frames are not connected.
   std::optional<Eigen::Isometry3d> lookup(const std::string& target, const std::string& source,
                                           Timestamp stamp) const;
 
-  /// The frame that `frame` hangs from in the end: itself where it has no parent.
+  /// The root of the tree of `frame`: itself if it has no parent.
   std::string root_of(const std::string& frame) const;
 
-  /// Stamps of the transform on the way from `frame` to its root that came most often; empty where
-  /// all are static.
+  /// Stamps of the most frequent transform between `frame` and its root; empty if all are static.
   std::vector<Timestamp> stamps_above(const std::string& frame) const;
 
  private:

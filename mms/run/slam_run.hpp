@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "mms/dataset/source/frame_source.hpp"
-#include "mms/pipeline/config.hpp"
 #include "mms/pipeline/slam_system.hpp"
+#include "mms/pipeline/system_config.hpp"
 #include "mms/run/record/run_journal.hpp"
 #include "mms/run/record/run_log.hpp"
 #include "mms/run/record/run_options.hpp"
@@ -14,18 +14,19 @@
 
 namespace mms {
 
-/// One run of the system over a recording, from the words of the command line to its results.
+/// One run of the system over a recording, from arguments to results.
 class SlamRun {
  public:
-  /// Opens the recording and makes the system. @throws Error when that cannot be done.
+  /// Opens the recording and creates the system.
+  /// @throws Error on failure.
   explicit SlamRun(const RunOptions& options);
 
-  /// Plays the recording, keeping a journal in `folder` meanwhile, and compares the results with
-  /// the truth that is there. When the observer ends it early what is done so far counts.
-  /// @throws DataError when no frame could be processed.
+  /// Processes the recording with a journal in `folder`, and compares the results with available
+  /// ground truth. If the observer ends it early, the frames so far count.
+  /// @throws DataError if no frame could be processed.
   void play(const std::filesystem::path& folder, RunObserver& observer);
 
-  /// Writes all files of the run; the journal ends.
+  /// Writes all files of the run and closes the journal.
   void write(const std::filesystem::path& folder);
 
   /// The viewer of the run; null without `RunOptions::view`.
@@ -50,7 +51,7 @@ class SlamRun {
   std::vector<std::string> warnings_;  // of the settings
   SystemConfig config_;
   SlamSystem system_;
-  std::size_t frames_ = 0;  // to be played at most
+  std::size_t frames_ = 0;  // to be processed at most
   std::unique_ptr<RunLog> log_;
   std::unique_ptr<RunJournal> journal_;
   std::unique_ptr<LiveView> view_;  // null without --view

@@ -97,7 +97,7 @@ class FileCheck {
     const bool from_root =
         header.find("..") == std::string::npos && !place_of(header).module.empty();
     if (quoted && !from_root) {
-      fail(number, "includes \"" + header + "\", allowed is \"mms/MODULE/...\" from the root");
+      fail(number, "includes \"" + header + "\", allowed: \"mms/MODULE/...\" from the root");
     } else if (!quoted && header.find("mms/") != std::string::npos) {
       fail(number, "includes <" + header + ">, project headers are included in quotes");
     } else if (quoted) {
@@ -112,7 +112,7 @@ class FileCheck {
       check_folder(header, target.folder, number);
     } else if (!targets.contains(target.module)) {
       fail(number, "includes \"" + header + "\": arrow " + place_.module + " -> " + target.module +
-                       " is forbidden, allowed are: " + listed(targets));
+                       " is forbidden, allowed: " + listed(targets));
     }
   }
 
@@ -139,6 +139,20 @@ void check_sizes(const fs::path& root, const std::map<fs::path, std::size_t>& si
     faults.push_back(fs::relative(folder, root).generic_string() + ": " + std::to_string(files) +
                      " sources, at most " + std::to_string(kMaxFilesInFolder) +
                      " are allowed: split it by idea");
+  }
+}
+
+/// Two headers of one name would be two ideas, or one in two places.
+void check_names(const fs::path& root, const std::vector<fs::path>& files,
+                 std::vector<std::string>& faults) {
+  std::map<fs::path, fs::path> first;
+  for (const fs::path& file : files) {
+    if (file.extension() != ".hpp") continue;
+    const auto [known, is_new] = first.try_emplace(file.filename(), file);
+    if (is_new) continue;
+    faults.push_back(fs::relative(file, root).generic_string() + ": the name of " +
+                     fs::relative(known->second, root).generic_string() +
+                     ": choose another or merge them");
   }
 }
 
@@ -208,8 +222,10 @@ const IncludeRules& include_rules() {
 std::vector<std::string> include_faults(const fs::path& root, const IncludeRules& rules) {
   std::vector<std::string> faults;
   std::map<fs::path, std::size_t> sizes;
+  std::vector<fs::path> all;
   for (const char* top : kTops) {
     for (const fs::path& file : sources_below(root / top)) {
+      all.push_back(file);
       ++sizes[file.parent_path()];
       std::ifstream text(file);
       for (std::string& fault : FileCheck(root, file, rules).run(text)) {
@@ -218,6 +234,7 @@ std::vector<std::string> include_faults(const fs::path& root, const IncludeRules
     }
   }
   check_sizes(root, sizes, faults);
+  check_names(root, all, faults);
   return faults;
 }
 

@@ -24,7 +24,7 @@ const IncludeRules& include_rules();
 
 /// Checks every .hpp and .cpp below the folders of `root` that hold sources: includes as the rules
 /// allow, project headers in quotes with their path from the root, `#pragma once` in every header,
-/// no folder with more than `kMaxFilesInFolder` sources.
+/// no folder with more than `kMaxFilesInFolder` sources, no two headers of one name.
 /// @returns one line a fault, "file:line: what is wrong and what is allowed"; files in sorted
 /// order.
 std::vector<std::string> include_faults(const std::filesystem::path& root,

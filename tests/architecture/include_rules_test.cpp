@@ -58,7 +58,7 @@ TEST(Architecture, AnIncludeFromFusionToMappingIsCaught) {
   EXPECT_EQ(faults[0],
             "mms/fusion/fusion.cpp:4: includes \"mms/mapping/static_map/static_map.hpp\": arrow "
             "fusion -> "
-            "mapping is forbidden, allowed are: core, geometry");
+            "mapping is forbidden, allowed: core, geometry");
 }
 
 TEST(Architecture, CoreKnowsNobody) {
@@ -66,7 +66,7 @@ TEST(Architecture, CoreKnowsNobody) {
   tree.write("mms/core/frame.cpp", "#include \"mms/geometry/se3.hpp\"\n");
   const auto faults = faults_of(tree);
   ASSERT_EQ(faults.size(), 1U);
-  expect_in("arrow core -> geometry is forbidden, allowed are: none", faults[0]);
+  expect_in("arrow core -> geometry is forbidden, allowed: none", faults[0]);
 }
 
 TEST(Architecture, DetoursAroundTheRootAreCaught) {
@@ -78,7 +78,7 @@ TEST(Architecture, DetoursAroundTheRootAreCaught) {
   tree.write("mms/fusion/e.cpp", "#include <vector>\n// #include \"mms/mapping/x.hpp\"\n");
   const auto faults = faults_of(tree);
   ASSERT_EQ(faults.size(), 4U);
-  expect_in("a.cpp:1: includes \"../mapping/static_map.hpp\", allowed is \"mms/", faults[0]);
+  expect_in("a.cpp:1: includes \"../mapping/static_map.hpp\", allowed: \"mms/", faults[0]);
   expect_in("b.cpp:1: includes <mms/mapping/static_map/static_map.hpp>, project headers",
             faults[1]);
   expect_in("c.cpp:1: includes \"mms/fusion/../mapping", faults[2]);
@@ -137,6 +137,15 @@ TEST(Architecture, AFolderWithTooManySourcesIsCaught) {
   const auto faults = faults_of(tree);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0], "mms/core: 31 sources, at most 30 are allowed: split it by idea");
+}
+
+TEST(Architecture, ReportsHeadersOfOneName) {
+  const TempFolder tree;
+  tree.write("mms/core/scene.hpp", "#pragma once\n");
+  tree.write("mms/io/text/scene.hpp", "#pragma once\n");
+  const auto faults = faults_of(tree);
+  ASSERT_EQ(faults.size(), 1U);
+  expect_in("mms/io/text/scene.hpp: the name of mms/core/scene.hpp", faults[0]);
 }
 
 }  // namespace

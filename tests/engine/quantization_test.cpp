@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "mms/core/error.hpp"
-#include "mms/segmentation/engine/calibration/calibration.hpp"
 #include "mms/segmentation/engine/calibration/magnitude_histogram.hpp"
+#include "mms/segmentation/engine/calibration/range_calibration.hpp"
 #include "mms/segmentation/engine/graph/network_graph.hpp"
 #include "mms/segmentation/weights/int8_weights.hpp"
 #include "tests/engine/engine_test_support.hpp"
@@ -21,7 +21,7 @@ using testing::message_of;
 using testing::random_image;
 using testing::random_model;
 
-TEST(MagnitudeHistogram, KeepsEvenlySpreadValuesWhole) {
+TEST(MagnitudeHistogram, KeepsFullRangeOfUniformValues) {
   MagnitudeHistogram histogram;
   std::vector<float> values;
   for (int i = -1000; i <= 1000; ++i) values.push_back(static_cast<float>(i) * 0.003F);
@@ -29,7 +29,7 @@ TEST(MagnitudeHistogram, KeepsEvenlySpreadValuesWhole) {
   EXPECT_NEAR(histogram.best_range(127), 3.0F, 0.05F);
 }
 
-/// Sum of the squared errors when values are stored in whole steps up to a range.
+/// Sum of the squared errors of values quantized in `levels` steps up to a range.
 double stored_error(const std::vector<float>& values, float range, int levels) {
   const float step = range / static_cast<float>(levels);
   double sum = 0.0;
@@ -40,7 +40,7 @@ double stored_error(const std::vector<float>& values, float range, int levels) {
   return sum;
 }
 
-TEST(MagnitudeHistogram, CutsOffWhereTheErrorIsLeast) {
+TEST(MagnitudeHistogram, MinimizesQuantizationError) {
   for (const float outlier : {5.0F, 12.0F, 60.0F}) {
     std::vector<float> values = testing::random_numbers(100000, 1.0F, 1);
     values.push_back(outlier);
@@ -53,11 +53,11 @@ TEST(MagnitudeHistogram, CutsOffWhereTheErrorIsLeast) {
   }
 }
 
-TEST(MagnitudeHistogram, HasARangeWithoutValues) {
+TEST(MagnitudeHistogram, HasRangeWithoutValues) {
   EXPECT_GT(MagnitudeHistogram().best_range(127), 0.0F);
 }
 
-TEST(Quantization, SurvivesTheMetadata) {
+TEST(Quantization, RoundTripsThroughMetadata) {
   Quantization quantization;
   quantization.ranges = {{"backbone.conv1", 3.25F}, {"mask_head.conv 2", 1e-3F}};
   quantization.float_layers = {"a.b", "c.d"};
@@ -71,7 +71,7 @@ TEST(Quantization, SurvivesTheMetadata) {
   EXPECT_EQ(weights.metadata.at("other"), "stays");
 }
 
-TEST(Quantization, RefusesARangeThatIsNone) {
+TEST(Quantization, RejectsInvalidRanges) {
   for (const char* bad : {"", "x", "-1", "0", "nan", "inf", "1x"}) {
     Weights weights;
     weights.metadata["quantization.range.image"] = bad;
@@ -83,20 +83,20 @@ TEST(Quantization, RefusesARangeThatIsNone) {
   }
 }
 
-TEST(Quantization, OfAnotherNetworkIsRefused) {
+TEST(Quantization, RejectsOtherNetwork) {
   const SegmentationModel model = random_model({}, 1);
   Calibration calibration(model, "net");
   calibration.add(random_image(96, 96, 1));
-  const auto fault = [&](const Quantization& quantization) {
+  const auto error = [&](const Quantization& quantization) {
     return message_of<DataError>(
         [&] { NetworkEngine(model, "net.file", quantization).run(random_image(96, 96, 1)); });
   };
   Quantization more = calibration.quantization({});
   more.ranges["no such value"] = 1.0F;
-  expect_in("net.file: has an int8 range of 'no such value'", fault(more));
+  expect_in("net.file: has an int8 range for 'no such value'", error(more));
   Quantization less = calibration.quantization({});
   less.ranges.erase("neck.fpn_convs.0.conv");
-  expect_in("net.file: has no range of the value 'neck.fpn_convs.0.conv'", fault(less));
+  expect_in("net.file: has no range for the value 'neck.fpn_convs.0.conv'", error(less));
 }
 
 class QuantizedNetwork : public ::testing::TestWithParam<NetworkVariant> {};
@@ -113,7 +113,7 @@ TEST_P(QuantizedNetwork, StaysCloseToFloat) {
   EXPECT_LT(error, 0.15);
 }
 
-TEST_P(QuantizedNetwork, IsFloatWhereAllLayersAre) {
+TEST_P(QuantizedNetwork, IsExactWithAllFloatLayers) {
   const NetworkConfig config = NetworkConfig::preset(NetworkSize::kNano, GetParam());
   const SegmentationModel model = random_model(config, 1);
   Calibration calibration(model, "net");
@@ -129,14 +129,14 @@ TEST_P(QuantizedNetwork, IsFloatWhereAllLayersAre) {
   EXPECT_EQ(output_error(model, "net", calibration.quantization(all), images), 0.0);
 }
 
-/// The weights of a layer as an int8 convolution takes them.
+/// The weights of a layer in int8.
 std::vector<float> bytes_of(const ConvLayer& layer) {
   Weights weights;
   weights.tensors["w"] = {{layer.out, layer.inputs_per_output()}, layer.weight};
   return to_bytes(std::move(weights), {"w"}).tensors.at("w").values;
 }
 
-TEST_P(QuantizedNetwork, TakesTheSameBytesFromWeightsInBytes) {
+TEST_P(QuantizedNetwork, SameInt8WeightsFromStoredInt8) {
   const NetworkConfig config = NetworkConfig::preset(NetworkSize::kNano, GetParam());
   const SegmentationModel model = random_model(config, 1);
   const std::string exact_layer = "neck.fpn_convs.0.conv";
@@ -154,14 +154,14 @@ TEST_P(QuantizedNetwork, TakesTheSameBytesFromWeightsInBytes) {
     if (layer.name == exact_layer) {
       EXPECT_EQ(layer.weight, other.weight);
     } else if (!layer.name.ends_with(".large")) {  // the sum of two tensors, rounded once more
-      const std::vector<float> wanted = bytes_of(layer);
+      const std::vector<float> expected = bytes_of(layer);
       const std::vector<float> found = bytes_of(other);
-      std::size_t different = 0;  // at the middle between two numbers
-      for (std::size_t k = 0; k < wanted.size(); ++k) {
-        different += wanted[k] == found[k] ? 0 : 1;
-        ASSERT_NEAR(wanted[k], found[k], 1.0F) << layer.name;
+      std::size_t different = 0;  // at the center between two numbers
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        different += expected[k] == found[k] ? 0 : 1;
+        ASSERT_NEAR(expected[k], found[k], 1.0F) << layer.name;
       }
-      EXPECT_LT(different, 1 + wanted.size() / 1000) << layer.name;
+      EXPECT_LT(different, 1 + expected.size() / 1000) << layer.name;
     }
   }
 }

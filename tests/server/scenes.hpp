@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "mms/server/scene/scene.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 
 namespace mms::testing {
 
@@ -37,7 +37,7 @@ inline SceneInfo scene_info(bool live) {
   return info;
 }
 
-/// Points on a plane at z = 0.55, one a voxel of 0.1 m.
+/// Points on a plane at z = 0.55, one per voxel of 0.1 m.
 inline ColoredPoints floor_points(int side) {
   ColoredPoints cloud;
   for (int y = 0; y < side; ++y) {
@@ -55,7 +55,7 @@ inline std::shared_ptr<const MapChanges> floor_map(int side) {
   return std::make_shared<const MapChanges>(changes_of(cloud.points, cloud.colors, 0.1));
 }
 
-/// A finished run of so many frames with a floor as its map, without pictures.
+/// A finished run of `frames` frames with a floor as its map, without pictures.
 inline std::shared_ptr<Scene> finished_scene(std::size_t frames,
                                              const std::filesystem::path& folder = "/nowhere") {
   SceneInfo info = scene_info(false);
@@ -67,7 +67,7 @@ inline std::shared_ptr<Scene> finished_scene(std::size_t frames,
   return scene;
 }
 
-/// What a sensor saw: a cloud of 4 x 2 pixels, the last one dynamic.
+/// View of a sensor: a cloud of 4 x 2 pixels, the last one dynamic.
 inline std::shared_ptr<const SensorView> view_of(std::size_t frame) {
   auto view = std::make_shared<SensorView>();
   view->frame = frame;

@@ -7,15 +7,15 @@
 
 #include "apps/mms/console/warnings.hpp"
 #include "mms/io/config/config_yaml.hpp"
-#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/system_config.hpp"
 
 namespace mms {
 namespace {
 
 void add_dump(CLI::App& config) {
   const auto file = std::make_shared<std::string>();
-  CLI::App* command = config.add_subcommand("dump", "Print every setting with its meaning");
-  command->add_option("FILE", *file, "settings to print in place of the defaults");
+  CLI::App* command = config.add_subcommand("dump", "Print all settings with descriptions");
+  command->add_option("FILE", *file, "settings to print instead of the defaults");
   command->callback([file] {
     SystemConfig settings;
     if (!file->empty()) print_warnings(load_config(*file, settings));
@@ -25,8 +25,8 @@ void add_dump(CLI::App& config) {
 
 void add_check(CLI::App& config) {
   const auto file = std::make_shared<std::string>();
-  CLI::App* command = config.add_subcommand("check", "Check a file of settings");
-  command->add_option("FILE", *file, "the file to check")->required();
+  CLI::App* command = config.add_subcommand("check", "Check a settings file");
+  command->add_option("FILE", *file, "file to check")->required();
   command->callback([file] {
     SystemConfig settings;
     print_warnings(load_config(*file, settings));

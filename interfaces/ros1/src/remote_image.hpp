@@ -1,11 +1,11 @@
 #pragma once
 
 #include "mms/core/image.hpp"
-#include "mms/ros/messages.hpp"
+#include "mms/ros/ros_messages.hpp"
 
 namespace mms {
 
-/// The JPEG of an image for another host, made smaller to at most `width`.
+/// Encodes an image for another host as JPEG, downsampled to at most `width`.
 msg::CompressedImage remote_image(const msg::Header& header, const Image<Rgb>& image, int width,
                                   int quality);
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/core/segmentation.hpp"
 #include "mms/geometry/depth_noise.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: the only header that shows the JSON library.
+// Internal to io: the only header that includes the JSON library.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,15 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 
 namespace mms {
 
-/// Parses a whole file. @throws FileError when it cannot be read, DataError when it is not JSON.
+/// Parses a whole file.
+/// @throws FileError if it cannot be read; DataError if it is not JSON.
 nlohmann::json parse_json(const std::filesystem::path& path);
 
-/// A JSON value that knows where it stands, read strictly. Faults are DataErrors
-/// "file: annotations[3].bbox what". Views the value: it has to outlive the entry.
+/// A JSON value with its path, read strictly. Faults are DataErrors "file: annotations[3].bbox
+/// what". References the value, which has to outlive the entry.
 class JsonEntry {
  public:
   /// @param value  has to outlive the entry
@@ -25,26 +26,28 @@ class JsonEntry {
   JsonEntry(const nlohmann::json& value, std::string file, std::string path = "")
       : value_(&value), file_(std::move(file)), path_(std::move(path)) {}
 
-  /// The value of a key. @throws DataError when this is no object or has no such key.
+  /// The value of a key.
+  /// @throws DataError if this is not an object or misses the key.
   JsonEntry at(const std::string& key) const;
   /// Whether this is an object with that key.
   bool has(const std::string& key) const;
 
-  /// The elements of a list. @throws DataError when it is none.
+  /// The elements of a list.
+  /// @throws DataError if it is not a list.
   std::vector<JsonEntry> elements() const;
 
   bool is_list() const { return value_->is_array(); }     ///< whether `elements` works
   bool is_text() const { return value_->is_string(); }    ///< whether `text` works
   bool is_object() const { return value_->is_object(); }  ///< whether `at` works
 
-  /// @throws DataError when it is neither true nor false.
+  /// @throws DataError if it is neither true nor false.
   bool boolean() const;
 
-  /// @throws DataError when it is of another type or out of the range.
+  /// @throws DataError if it has another type or is out of range.
   double number(Range range = {}) const;
-  /// @throws DataError when it is no whole number or out of the range.
+  /// @throws DataError if it is no whole number or out of the range.
   std::int64_t integer(Range range = {}) const;
-  /// @throws DataError when it is no string.
+  /// @throws DataError if it is no string.
   std::string text() const;
 
   /// Throws the DataError "file: path what (hint)".

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/geometry/depth_noise.hpp"
 #include "mms/localization/features/feature_cloud.hpp"

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/core/time.hpp"
 #include "mms/geometry/se3.hpp"
 #include "mms/localization/motion/pose_prediction.hpp"

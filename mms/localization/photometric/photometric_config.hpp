@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 
 namespace mms {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/geometry/normal_equations.hpp"
 #include "mms/localization/registration/data_association.hpp"
 

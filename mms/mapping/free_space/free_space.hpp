@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/core/image.hpp"
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/geometry/camera.hpp"
@@ -18,19 +18,19 @@ struct CarvingConfig {
   double scan_ratio = 1.5;
 
   void visit(ConfigVisitor& v) {
-    v.boolean({"enabled", "", "remove from the map what later keyframes see through"}, enabled);
+    v.boolean({"enabled", "", "remove voxels that later keyframes see through"}, enabled);
     v.number({"margin", "m", "least distance of the measured surface behind, above noise"}, margin,
              {0.0, 10.0});
     v.number({"ratio", "", "views through a voxel per hit that remove it"}, ratio, {0.1, 1000.0});
     v.number({"scan_margin", "m", "margin of LiDAR scans, noise included"}, scan_margin,
              {0.01, 10.0});
-    v.number({"scan_ratio", "", "ratio of LiDAR scans, which hit a voxel more seldom"}, scan_ratio,
+    v.number({"scan_ratio", "", "ratio of LiDAR scans, which hit a voxel less often"}, scan_ratio,
              {0.1, 1000.0});
   }
 };
 
-/// The space one organised cloud sees to be empty: in front of its measured points, static or
-/// dynamic alike. A pixel counts only where it and its eight neighbours have a depth, and with the
+/// The space that one organised cloud observes as free: in front of its measured points, static or
+/// dynamic. A pixel counts only where it and its eight neighbours have a depth, and with the
 /// nearest of them, so that holes and the boundaries of objects carve nothing.
 class FreeSpace {
  public:
@@ -42,7 +42,7 @@ class FreeSpace {
   /// True where the measured surface is at `point` (sensor frame [m]).
   bool touches(const Eigen::Vector3f& point) const;
 
-  /// True where `point` (sensor frame [m]) is in view and nothing sure was measured there.
+  /// True where `point` (sensor frame [m]) is in view without a reliable depth there.
   bool has_no_return(const Eigen::Vector3f& point) const { return depth_at(point) == 0.0F; }
 
   /// False where no point of the ball (sensor frame [m]) can be seen through; cheap.
@@ -51,7 +51,7 @@ class FreeSpace {
  private:
   Eigen::Vector2f pixel_of(const Eigen::Vector3f& point) const;
   float depth_at(const Eigen::Vector3f& point) const;
-  /// One sigma is enough: the nearest of nine pixels lies some 1.5 sigma before the surface.
+  /// One sigma is enough: the nearest of nine pixels lies about 1.5 sigma before the surface.
   float needed_depth(float z) const { return z + margin_ + noise_.sigma(z); }
 
   CameraModel camera_;
@@ -61,7 +61,7 @@ class FreeSpace {
   float margin_;
   DepthNoise noise_;
   Image<float> nearest_;   // of 3 x 3 pixels [m], 0 where any has none
-  Image<float> farthest_;  // of `nearest_` in kTile x kTile pixels
+  Image<float> farthest_;  // of `nearest_` in kTileSize x kTileSize pixels
 };
 
 }  // namespace mms

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 
 namespace mms {
 
@@ -39,7 +39,7 @@ struct OccupancyConfig {
   double memory = 100.0;         ///< [MB]
   double hit = 0.7;              ///< probability
   double miss = 0.4;             ///< probability
-  double min_probability = 0.1;  ///< clamping, so that what changed can be learned
+  double min_probability = 0.1;  ///< clamping, so that changes are learned
   double max_probability = 0.9;
   FloorConfig floor{};
   GridConfig grid{};
@@ -48,18 +48,18 @@ struct OccupancyConfig {
     v.boolean({"enabled", "", "map free, occupied and unknown space for robots"}, enabled);
     v.number({"voxel_size", "m", "side of a voxel, doubled whenever the memory is used up"},
              voxel_size, {0.01, 10.0});
-    v.number({"max_range", "m", "farthest point that is an obstacle; space is freed up to there"},
+    v.number({"max_range", "m", "range up to which points are obstacles and space is freed"},
              max_range, {0.1, 1000.0});
     v.number({"memory", "MB", "budget of the map"}, memory, {1.0, 1e6});
     v.number({"hit", "", "probability that a voxel with a static point in it is occupied"}, hit,
              {0.55, 0.99});
     v.number({"miss", "", "probability that a voxel seen through is occupied"}, miss, {0.01, 0.45});
-    v.number({"min_probability", "", "occupancy is never held to be less likely"}, min_probability,
+    v.number({"min_probability", "", "lower limit of a voxel's probability"}, min_probability,
              {0.01, 0.45});
-    v.number({"max_probability", "", "occupancy is never held to be more likely"}, max_probability,
+    v.number({"max_probability", "", "upper limit of a voxel's probability"}, max_probability,
              {0.55, 0.99});
-    v.group({"floor", "", "how the floor is found"}, floor);
-    v.group({"grid", "", "what of a column decides in the 2D grid"}, grid);
+    v.group({"floor", "", "detection of the floor"}, floor);
+    v.group({"grid", "", "heights that decide on a cell of the 2D grid"}, grid);
   }
 };
 

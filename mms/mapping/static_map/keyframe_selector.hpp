@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/core/odometry_estimate.hpp"
 
 namespace mms {
@@ -13,15 +13,15 @@ struct KeyframeConfig {
   double max_interval = 0.2;  ///< [s]
 
   void visit(ConfigVisitor& v) {
-    v.number({"translation", "m", "movement that makes a keyframe"}, translation, {0.0, 100.0});
-    v.number({"rotation", "deg", "turn that makes a keyframe"}, rotation, {0.0, 180.0});
+    v.number({"translation", "m", "translation that makes a keyframe"}, translation, {0.0, 100.0});
+    v.number({"rotation", "deg", "rotation that makes a keyframe"}, rotation, {0.0, 180.0});
     v.number({"max_interval", "s", "longest time without a keyframe"}, max_interval, {0.0, 3600.0});
   }
 };
 
 /// Chooses the frames that update the maps (III-C.4): those that moved or turned far enough since
-/// the last one. Beyond the paper, also after `max_interval`, since a camera that stands still has
-/// to see what people uncover. A lost frame is never a keyframe, its pose is only a prediction.
+/// the last one. Beyond the paper, also after `max_interval`, so that a camera at rest maps the
+/// places that people uncover. A lost frame is never a keyframe: its pose is only a prediction.
 class KeyframeSelector {
  public:
   explicit KeyframeSelector(const KeyframeConfig& config = {}) : config_(config) {}

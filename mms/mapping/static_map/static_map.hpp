@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/core/transform.hpp"
 #include "mms/geometry/voxels/map_changes.hpp"
@@ -29,62 +29,62 @@ struct StaticMapConfig {
     v.integer({"min_observations", "",
                "views, from keyframe to keyframe, that must measure a voxel before it is shown"},
               min_observations, {1.0, 1000.0});
-    v.group({"surface", "", "points that are fit for the map"}, surface);
-    v.group({"carving", "", "removal of what is seen to be gone"}, carving);
+    v.group({"surface", "", "selection of the points that enter the map"}, surface);
+    v.group({"carving", "", "removal of voxels in observed free space"}, carving);
   }
 };
 
-/// What one keyframe did to the static map.
+/// Changes of the static map by one keyframe.
 struct MapUpdate {
-  std::size_t points = 0;  ///< that went in
+  std::size_t points = 0;  ///< added
   std::size_t carved = 0;  ///< voxels removed because they are seen through
   bool coarsened = false;  ///< the voxel size grew to keep to the memory budget
 };
 
 /// The dense coloured static map (III-D): static points, down-sampled by a voxel grid to running
 /// means of position, colour and normal. A keyframe and the frames since the one before it are one
-/// view: whatever they measured of a voxel is one observation.
+/// view: all their measurements of a voxel are one observation.
 ///
-/// Beyond the paper: frames between keyframes add to the map, since depth images have holes that
-/// come and go. Points that a mask missed leave ghosts of people in the map; a voxel is dropped
-/// once keyframes that measure something behind it outnumber those that measured it
-/// (`FreeSpace` of images, `ScanSight` of LiDAR scans). And the memory is bounded: when the budget
-/// is used up, voxels are merged to twice their size, so that the map stays whole.
+/// Beyond the paper: frames between keyframes add to the map, since the holes of depth images vary.
+/// Points that a mask missed leave ghosts of people in the map; a voxel is removed once keyframes
+/// that measure a surface behind it outnumber those that measured it (`FreeSpace` of images,
+/// `ScanSight` of LiDAR scans). The memory is bounded: when the budget is used up, voxels are
+/// merged to twice their size, so that the map stays complete.
 class StaticMap {
  public:
   explicit StaticMap(const StaticMapConfig& config = {});
 
-  /// Adds a keyframe's static points and removes what it sees through. A pose that is not finite
-  /// changes nothing.
+  /// Adds a keyframe's static points and removes the voxels that it sees through. A pose that is
+  /// not finite changes nothing.
   /// @throws DataError when an organised cloud's `camera` makes no camera.
   MapUpdate integrate(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
 
-  /// Adds the static points of a frame between two keyframes, to the coming one's view. A pose that
+  /// Adds the static points of a frame between two keyframes, to the next one's view. A pose that
   /// is not finite changes nothing.
-  /// @return  points that went in
+  /// @return  points added
   std::size_t add(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
 
-  /// Ends the view of the frames since the last keyframe, when no other comes, so that `changes`
-  /// tells what they added. @return  false where there are none
+  /// Ends the view of the frames since the last keyframe at the end of a run, so that `changes`
+  /// contains them. @return  false where there are none
   bool finalize();
 
   /// The voxels that `is_voxel_shown` for `min_observations` views (or for all, while there are
   /// fewer), in the order in which they came into the map.
   MapCloud cloud() const;
 
-  /// What the last view did, so that `apply` of all views' changes, in order, makes a map that
-  /// shows the same voxels; their means and counts are those of when the count last doubled.
+  /// Changes by the last view: `apply` of all views' changes, in order, makes a map that shows the
+  /// same voxels; their means and counts are those of when the count last doubled.
   MapChanges changes() const;
 
-  /// Repeats what a view did to another map of the same settings. Such a map is for `cloud`
-  /// alone: it knows no weights, so keyframes cannot be integrated into it.
-  /// @throws DataError when a voxel has no place in a block.
+  /// Applies the changes by a view of another map with the same settings. Such a map serves `cloud`
+  /// alone: it has no weights, so keyframes cannot be integrated into it.
+  /// @throws DataError when a voxel's number exceeds its block.
   void apply(const MapChanges& changes);
 
   std::size_t size() const { return grid_.size(); }  ///< voxels, those with few observations too
   std::size_t memory_bytes() const { return grid_.memory_bytes(); }
   double voxel_size() const { return grid_.voxel_size(); }  ///< current one [m]
-  std::size_t views() const { return views_; }              ///< that were ended
+  std::size_t views() const { return views_; }              ///< completed
 
  private:
   void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor);

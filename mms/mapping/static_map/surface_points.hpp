@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/geometry/depth_noise.hpp"
 
@@ -21,15 +21,16 @@ struct SurfaceConfig {
              {0.1, 1000.0});
     v.number({"max_range", "m", "farthest point of a LiDAR scan that is mapped"}, max_range,
              {0.1, 1e5});
-    v.number({"max_jump", "m", "bend between neighbouring pixels that is no surface, above noise"},
-             max_jump, {0.0, 10.0});
+    v.number(
+        {"max_jump", "m", "jump of depth between neighbouring pixels of one surface, above noise"},
+        max_jump, {0.0, 10.0});
     v.number({"boundary", "",
               "width left out around dynamic pixels, as a share of the image's width", "rim"},
              boundary, {0.0, 0.5});
   }
 };
 
-/// A static point fit for the map, in the sensor frame.
+/// A static point for the map, in the sensor frame.
 struct SurfacePoint {
   Eigen::Vector3f point;                             ///< [m]
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the sensor; zero if unknown
@@ -43,10 +44,10 @@ inline float noise_weight(float sigma, const DepthNoise& noise) {
   return ratio * ratio;
 }
 
-/// The static points of `cloud` that lie within range and, where the cloud is organised, not on a
-/// depth discontinuity, where a pixel averages two surfaces and hangs in the air between them, nor
-/// on the boundary about what is dynamic, where masks end short of feet and colours run over.
-/// @param step  of an organised cloud only every `step`-th row and column is given
+/// The static points of `cloud` within range. Of an organised cloud without those at a depth
+/// discontinuity, where a pixel averages two surfaces (flying pixels), and those beside dynamic
+/// pixels, where masks miss parts of feet and colours blur.
+/// @param step  only every `step`-th row and column of an organised cloud is used
 std::vector<SurfacePoint> surface_points(const LabeledCloud& cloud, const SurfaceConfig& config,
                                          int step = 1);
 

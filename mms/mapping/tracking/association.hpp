@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/mapping/tracking/track.hpp"
 
 namespace mms {
@@ -16,25 +16,25 @@ struct AssociationConfig {
   double returning_color_difference = 0.5;
 
   void visit(ConfigVisitor& v) {
-    v.number({"gate_radius", "m", "farthest an object may be from where its track expects it"},
+    v.number({"gate_radius", "m", "largest distance of an object from the predicted one"},
              gate_radius, {0.01, 100.0});
-    v.number({"max_gate", "m", "the same for one that was long unseen"}, max_gate, {0.01, 100.0});
+    v.number({"max_gate", "m", "the same after a long time unseen"}, max_gate, {0.01, 100.0});
     v.number({"class_penalty", "", "cost of another class, in gate radii"}, class_penalty,
              {0.0, 10.0});
     v.number({"color_penalty", "", "cost of no colour in common, in gate radii"}, color_penalty,
              {0.0, 10.0});
     v.number({"max_color_difference", "",
-              "largest one of an object, from the same (0) to none in common (1)"},
+              "largest one of an object, from equal (0) to none in common (1)"},
              max_color_difference, {0.0, 1.0});
-    v.number({"returning_color_difference", "", "the same of one that is out of gate_radius"},
+    v.number({"returning_color_difference", "", "the same for an object beyond gate_radius"},
              returning_color_difference, {0.0, 1.0});
   }
 };
 
 /// Index of the track each object continues, -1 for none: the one-to-one assignment of least cost
-/// (distance to where the track expects it, class, colour). A pair has to be within the gate, which
-/// grows with the track's uncertainty, or the object's center inside the track's box. Of what one
-/// mask covers the largest continues a track, or else the rest.
+/// (distance to the predicted position, class, colour). A pair has to be within the gate, which
+/// grows with the track's uncertainty, or the object's center inside the track's box. Of several
+/// clusters under one mask the largest continues a track, the others only if it does not.
 std::vector<int> associate(const std::vector<Track>& tracks,
                            const std::vector<ObjectMeasurement>& objects,
                            const AssociationConfig& config);

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/core/object_box.hpp"
 #include "mms/core/odometry_estimate.hpp"
@@ -17,27 +17,26 @@ namespace mms {
 struct DynamicMapConfig {
   AssociationConfig association;
   TrackConfig track;
-  int confirm_after = 4;
-  int confirm_unknown_after = 10;
-  double max_missed = 1.5;        ///< [s]
-  double max_tentative = 1.0;     ///< [s]
-  double max_coast_output = 0.5;  ///< [s]
-  double history_lag = 1.0;       ///< [s]
+  int confirm_after = 4;           ///< [-]: a count of detections, not a time: each is evidence
+  int confirm_unknown_after = 10;  ///< [-]: more, since an error of the pose looks like motion
+  double max_missed = 1.5;         ///< [s]
+  double max_tentative = 1.0;      ///< [s]
+  double max_coast_output = 0.5;   ///< [s]
+  double history_lag = 1.0;        ///< [s]
   ReidentificationConfig reidentification;
 
   void visit(ConfigVisitor& v) {
     v.group({"association", "", "which object continues which track"}, association);
-    v.group({"track", "", "how objects move and are seen"}, track);
-    v.integer({"confirm_after", "", "observations that make a tentative track one"}, confirm_after,
+    v.group({"track", "", "how objects move and are measured"}, track);
+    v.integer({"confirm_after", "", "observations that confirm a tentative track"}, confirm_after,
               {1.0, 100.0});
-    v.integer({"confirm_unknown_after", "", "the same of what moves without a mask"},
+    v.integer({"confirm_unknown_after", "", "the same for moving objects without a mask"},
               confirm_unknown_after, {1.0, 1000.0});
-    v.number({"max_missed", "s", "longest time a track goes on unseen"}, max_missed, {0.0, 60.0});
+    v.number({"max_missed", "s", "longest time a track continues unseen"}, max_missed, {0.0, 60.0});
     v.number({"max_tentative", "s", "the same for a tentative one, unseen by the network"},
              max_tentative, {0.0, 60.0});
-    v.number(
-        {"max_coast_output", "s", "longest time an unseen object is given as there", "max_shown"},
-        max_coast_output, {0.0, 60.0});
+    v.number({"max_coast_output", "s", "longest time an unseen object is reported", "max_shown"},
+             max_coast_output, {0.0, 60.0});
     v.number({"history_lag", "s",
               "delay of the smoothed motions in objects.json; 0: the filter's own estimates"},
              history_lag, {0.0, 60.0});
@@ -56,15 +55,15 @@ struct TrackedObject {
 };
 
 /// The dynamic map (III-D, built from P_D): the frame's dynamic clusters linked over time to
-/// objects with id, class, box and velocity in the world frame. Holds what is there now: its size
-/// and cost do not grow with the length of a run.
+/// objects with id, class, box and velocity in the world frame. Holds the present objects only:
+/// its size and cost do not grow with the length of a run.
 class DynamicMap {
  public:
   explicit DynamicMap(const DynamicMapConfig& config = {})
       : config_(config), lost_(config.reidentification) {}
 
-  /// Adds a frame; every frame, keyframe or not. A frame that is not later than the last one or has
-  /// no finite pose changes nothing.
+  /// Adds a frame, keyframe or not. A frame that is not later than the last one or has no finite
+  /// pose changes nothing.
   void update(const LabeledCloud& cloud, const OdometryEstimate& odometry);
 
   /// The objects by id: confirmed ones, seen in the last frame or not much earlier.
@@ -74,7 +73,7 @@ class DynamicMap {
   int confirmed() const { return confirmed_; }
 
  private:
-  void watch_ground(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
+  void update_ground(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
   void extend(const std::vector<ObjectMeasurement>& objects, const std::vector<int>& track_of);
   void begin_new(const std::vector<ObjectMeasurement>& objects, const std::vector<int>& track_of);
   bool is_part_of_a_track(const ObjectMeasurement& object) const;
@@ -86,7 +85,7 @@ class DynamicMap {
   bool is_over(const Track& track) const;
 
   DynamicMapConfig config_;
-  FloorTracker floor_watch_;
+  FloorTracker floor_tracker_;
   std::optional<GroundFrame> ground_;
   std::vector<Track> tracks_;
   TrackReidentifier lost_;

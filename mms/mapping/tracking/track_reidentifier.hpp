@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/mapping/tracking/track.hpp"
 
 namespace mms {
@@ -15,28 +15,27 @@ struct ReidentificationConfig {
   double min_probability = 0.67;
 
   void visit(ConfigVisitor& v) {
-    v.number({"max_away", "s", "longest time after which an object is known again"}, max_away,
+    v.number({"max_away", "s", "longest time after which an object is reidentified"}, max_away,
              {0.0, 3600.0});
-    v.number({"spread", "m/s", "at which its place becomes uncertain"}, spread, {0.0, 100.0});
-    v.number(
-        {"new_object_density", "1/m^2", "objects never seen before, over the floor", "strangers"},
-        new_object_density, {1e-9, 100.0});
-    v.number({"min_probability", "", "that it is the one it is taken for"}, min_probability,
+    v.number({"spread", "m/s", "growth of its position's standard deviation while unseen"}, spread,
+             {0.0, 100.0});
+    v.number({"new_object_density", "1/m^2", "density of objects never seen before", "strangers"},
+             new_object_density, {1e-9, 100.0});
+    v.number({"min_probability", "", "least probability of the match"}, min_probability,
              {0.5, 1.0});
   }
 };
 
-/// Objects that went out of view. A new one is one of them, by Bayes' rule, if its looks and its
-/// place say so: who looks a little different is known again where he was seen a moment ago, who
-/// was away for long only in the same dress.
+/// Reidentifies objects that left the view, by Bayes' rule over appearance and position: after a
+/// short time and nearby a moderate difference of appearance is accepted, after a long time none.
 class TrackReidentifier {
  public:
   explicit TrackReidentifier(const ReidentificationConfig& config) : config_(config) {}
 
-  /// Keeps a track; the oldest goes when there are many.
+  /// Keeps a track; drops the oldest when there are too many.
   void add(const Track& track);
 
-  /// Drops what was seen last too long ago.
+  /// Drops tracks that were last seen more than `max_away` ago.
   void forget(Timestamp now);
 
   /// Drops the track of that id, if it is there.

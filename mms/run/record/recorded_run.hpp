@@ -9,13 +9,13 @@
 #include "mms/core/object_box.hpp"
 #include "mms/core/trajectory.hpp"
 #include "mms/mapping/static_map/map_cloud.hpp"
-#include "mms/pipeline/config.hpp"
 #include "mms/pipeline/frame_result.hpp"
+#include "mms/pipeline/system_config.hpp"
 #include "mms/run/record/run_record.hpp"
 
 namespace mms {
 
-/// What a result folder holds, as far as it is there.
+/// Content of a result folder, as far as available.
 struct RunFiles {
   Trajectory trajectory;
   MapCloud map;
@@ -25,11 +25,11 @@ struct RunFiles {
   std::map<Timestamp, FrameRecord> frames;
   std::optional<RunRecord> record;
   SystemConfig config;
-  std::string data;  ///< what was run, where that is known
+  std::string data;  ///< input of the run, if known
 };
 
-/// Reads what mms run wrote, or the journal of a run that was killed.
-/// @throws FileError, DataError when it is no such folder or a file in it cannot be read.
+/// Reads the results of mms run, or the journal of a killed run.
+/// @throws FileError, DataError if the folder has none or a file cannot be read.
 RunFiles read_run_files(const std::filesystem::path& folder);
 
 }  // namespace mms

@@ -11,34 +11,36 @@
 #include "mms/io/journal/journal.hpp"
 #include "mms/io/journal/journal_writer.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
-#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/system_config.hpp"
 
 namespace mms {
 
-/// The journal of a run: what a killed run leaves of its trajectory and map. A thread of its own
-/// encodes and writes, so that a frame waits for neither, except where the disk is behind by
-/// dozens of frames. A journal that cannot be written costs one warning, not the run.
+/// Journal of a run, from which trajectory and map of a killed run are recovered. A separate thread
+/// encodes and writes, so that frames do not wait unless the disk is dozens of frames behind. If
+/// the journal cannot be written, the run continues with a warning.
 class RunJournal {
  public:
   using WarningHandler = std::function<void(const std::string&)>;
 
-  /// Begins the journal of `folder`. @param data  what is run, in the user's words
-  /// @param warn  called once at most, from either thread
+  /// Creates the journal in `folder`.
+  /// @param data  input of the run, as the user gave it
+  /// @param warn  called at most once, from either thread
   RunJournal(const std::filesystem::path& folder, const std::string& data,
              const SystemConfig& config, WarningHandler warn);
 
-  /// Writes what is in the queue; removes a journal without frames.
+  /// Writes the queue; removes a journal without frames.
   ~RunJournal();
   RunJournal(const RunJournal&) = delete;
   RunJournal& operator=(const RunJournal&) = delete;
 
-  /// Takes a frame down. @param map  what it did to the static map; nothing where it is no keyframe
+  /// Appends a frame.
+  /// @param map  its changes of the static map; nullopt if it is not a keyframe
   void add(const Processed& processed, std::optional<MapChanges> map);
 
-  /// Takes down what the frames since the last keyframe did to the map: the run is at its end.
+  /// Appends the changes of the map since the last keyframe, at the end of the run.
   void end(MapChanges map);
 
-  /// Ends the journal and removes it: what it holds is in the run's files.
+  /// Closes and removes the journal, whose content is in the run's files.
   void remove();
 
  private:
@@ -47,10 +49,10 @@ class RunJournal {
   void finish();
 
   std::filesystem::path path_;
-  std::unique_ptr<JournalWriter> writer_;  // null where the journal could not be begun
+  std::unique_ptr<JournalWriter> writer_;  // null if the journal could not be created
   BoundedQueue<std::unique_ptr<const JournalFrame>> queue_;
   std::thread thread_;
-  std::optional<JournalFrame> last_;  // without what it did to the map
+  std::optional<JournalFrame> last_;  // without its changes of the map
 };
 
 }  // namespace mms

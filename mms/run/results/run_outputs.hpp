@@ -3,18 +3,17 @@
 #include <filesystem>
 #include <string>
 
-#include "mms/pipeline/config.hpp"
 #include "mms/pipeline/slam_system.hpp"
+#include "mms/pipeline/system_config.hpp"
 #include "mms/run/record/run_log.hpp"
 
 namespace mms {
 
-/// Writes a run's files into `folder`: trajectory.tum, trajectory_kitti.txt, keyframes.tum,
+/// Writes a run's files to `folder`: trajectory.tum, trajectory_kitti.txt, keyframes.tum,
 /// static_map.ply, static_map.pcd, semantic_map.ply, map.pgm, map.yaml, map.bt, objects.json,
-/// config.yaml, metrics.json, timing.csv, report.html, and the pictures in it as PNG files in
-/// pictures/.
-/// @param data  what was run, for the report's title
-/// @throws FileError naming the file that cannot be written.
+/// config.yaml, metrics.json, timing.csv, report.html, and its images as PNG files in pictures/.
+/// @param data  input of the run, for the report's title
+/// @throws FileError with the file that cannot be written.
 void write_outputs(const std::filesystem::path& folder, const std::string& data,
                    const SystemConfig& config, const SlamSystem& system, const RunLog& log);
 

@@ -6,29 +6,28 @@
 
 #include "mms/dataset/source/frame_source.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
-#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/system_config.hpp"
 #include "mms/run/record/run_log.hpp"
 #include "mms/run/view/live_truth.hpp"
 #include "mms/run/view/serve.hpp"
 
 namespace mms {
 
-/// Shows a run while it goes on. Frames are handed over, not copied, and nothing is encoded in the
-/// run's own threads.
+/// Displays a live run. Frames are moved, not copied, and encoded outside the run's threads.
 class LiveView {
  public:
-  /// @param frames  how many are to come
-  /// @throws DataError when the viewer cannot be served there.
+  /// @param frames  number of frames to expect
+  /// @throws DataError if the viewer cannot be served.
   LiveView(const ViewOptions& options, const std::string& data, const FrameSource& source,
            const SystemConfig& config, std::size_t frames);
 
-  /// @param map  what the frame did to the map; null where nothing
+  /// @param map  changes of the map by the frame; null for none
   void show(Processed processed, std::shared_ptr<const MapChanges> map);
 
-  /// Shows what was done to the map after the last frame.
+  /// Displays changes of the map after the last frame.
   void show_map(const MapChanges& map) { scene_->add_map(std::make_shared<const MapChanges>(map)); }
 
-  /// All frames are in, and the run's files are in `folder`.
+  /// Ends the live run; the run's files are in `folder`.
   void end(const std::filesystem::path& folder, const RunLog& log);
 
   const ViewerServer& server() const { return *server_; }
@@ -36,7 +35,7 @@ class LiveView {
  private:
   LiveTruth truth_;
   std::shared_ptr<Scene> scene_;
-  std::size_t frames_ = 0;  // shown so far
+  std::size_t frames_ = 0;  // displayed so far
   std::unique_ptr<ViewerServer> server_;
 };
 

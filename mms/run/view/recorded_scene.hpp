@@ -3,13 +3,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "mms/server/scene/scene.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 
 namespace mms {
 
-/// A finished run to look at, from its folder: what mms run wrote, or the journal of one that was
-/// killed.
-/// @throws FileError, DataError when it is no such folder or a file in it cannot be read.
+/// Opens a finished run for viewing: the results of mms run, or the journal of a killed run.
+/// @throws FileError, DataError if the folder has none or a file cannot be read.
 std::shared_ptr<Scene> open_recorded_scene(const std::filesystem::path& folder);
 
 }  // namespace mms

@@ -2,12 +2,12 @@
 
 #include <array>
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 
 namespace mms {
 
-/// How large a network is: the paper's (SOLOv2 with ResNet-50), the light one with ResNet-18, and
-/// one for small computers: at most 10 GFLOP at 256x320.
+/// Size of a network: the paper's (SOLOv2 with ResNet-50), the light one with ResNet-18, and one
+/// for small computers with at most 10 GFLOP at 256x320.
 enum class NetworkSize { kNano, kR18, kR50 };
 
 /// The rows of the paper's Table I.
@@ -16,13 +16,13 @@ enum class NetworkVariant { kSolov2, kRfp, kSac, kDetectors };
 /// Switchable atrous convolution in the stages 2 to 4 of the backbone.
 enum class SacMode { kNone, kPlain, kDeformable };
 
-/// Normalisation in the heads; batch norm folds into the convolutions at inference.
+/// Normalization in the heads; batch norm is folded into the convolutions at inference.
 enum class HeadNorm { kGroup, kBatch };
 
-/// ResNet: the plain blocks at depths 18 and 34, bottlenecks at 50.
+/// ResNet: plain blocks at depths 18 and 34, bottlenecks at 50.
 struct BackboneConfig {
   int depth = 50;         ///< 18, 34 or 50 layers
-  int last_planes = 512;  ///< of stage 4; ResNet's is 512
+  int last_planes = 512;  ///< of stage 4; 512 in ResNet
   SacMode sac = SacMode::kNone;
 
   void visit(ConfigVisitor& v);
@@ -31,7 +31,7 @@ struct BackboneConfig {
 /// Feature pyramid P2 to P6.
 struct NeckConfig {
   int channels = 256;
-  bool recursive = false;  ///< look twice: RFP with two steps
+  bool recursive = false;  ///< RFP with two steps
 
   void visit(ConfigVisitor& v);
 };
@@ -43,27 +43,29 @@ struct HeadConfig {
   bool shared_tower = false;  ///< one tower for kernels and categories
   int kernel_channels = 256;  ///< E: of the mask features, and length of a kernel
   int mask_channels = 128;    ///< hidden channels of the mask-feature branch
-  double grid_density = 1.0;  ///< of SOLOv2's 40, 36, 24, 16, 12 cells a side
-  double object_scale = 96;   ///< largest object of the finest grid, sqrt of its box's area [px]
+  double grid_density = 1.0;  ///< factor of SOLOv2's 40, 36, 24, 16, 12 cells per side
+  double object_scale =
+      96;  ///< largest object of the finest grid, square root of its box area [px]
   HeadNorm norm = HeadNorm::kGroup;
 
   void visit(ConfigVisitor& v);
 
   static constexpr int kLevels = 5;
-  /// Cells a side of each level.
+  /// Cells per side of each level.
   std::array<int, kLevels> grids() const;
-  /// Closed range of sqrt(box area) [px of the network's input] that a level is responsible for;
-  /// neighbours overlap.
+  /// Closed range of sqrt(box area) [px of the network's input] of a level's objects; adjacent
+  /// ranges overlap.
   std::array<Range, kLevels> scale_ranges() const;
 };
 
-/// Architecture of the segmentation network (III-A). Everything a weights file must fit to.
+/// Architecture of the segmentation network (III-A), which determines the tensors of a weights
+/// file.
 struct NetworkConfig {
   NetworkSize size = NetworkSize::kNano;
   NetworkVariant variant = NetworkVariant::kSolov2;
   int classes = 2;
   int long_side = 320;   ///< images are scaled to fit into long_side x short_side [px],
-  int short_side = 240;  ///< whichever way they lie
+  int short_side = 240;  ///< in either orientation
   BackboneConfig backbone{.depth = 18, .last_planes = 256};
   NeckConfig neck{.channels = 64};
   HeadConfig head{.tower_channels = 128,
@@ -78,7 +80,7 @@ struct NetworkConfig {
   /// The settings of a size and a row of Table I.
   static NetworkConfig preset(NetworkSize size, NetworkVariant variant);
 
-  /// A size or variant that is not the one before brings its preset's other values along.
+  /// Changing size or variant also sets the other values of its preset.
   void visit(ConfigVisitor& v);
 };
 

@@ -4,21 +4,21 @@
 #include <string>
 #include <string_view>
 
-#include "mms/server/scene/scene.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 
 namespace mms {
 
-/// What a viewer asks for over HTTP.
+/// An HTTP request of a viewer.
 struct Request {
   bool reads = true;  ///< GET or HEAD
   std::string target;
   std::string host;
-  std::string origin;     ///< empty: none
-  std::string known_tag;  ///< ETag of what the browser has; empty: nothing
-  bool upgrades = false;  ///< wants to go on with WebSocket
+  std::string origin;     ///< empty if absent
+  std::string known_tag;  ///< ETag of the browser's copy; empty if none
+  bool upgrades = false;  ///< requests an upgrade to WebSocket
 };
 
-/// What it gets. The body is `bytes`, `file` or `text`, the first of them that there is.
+/// The response. The body is `bytes`, `file` or `text`, the first that is not empty.
 struct Answer {
   enum class Kind { kBytes, kFile, kLiveFile, kText, kWebSocket };
 
@@ -26,19 +26,19 @@ struct Answer {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::string cache = "no-store";
-  std::string tag;         ///< ETag; empty: none
+  std::string tag;         ///< ETag; empty if none
   std::string policy;      ///< Content-Security-Policy
-  std::string_view bytes;  ///< of the program itself
+  std::string_view bytes;  ///< part of the program
   std::filesystem::path file;
-  std::string live_file;      ///< name of a file that is to be written first
-  std::string download_name;  ///< to be saved under; empty: to be shown
+  std::string live_file;      ///< name of a file to write before sending
+  std::string download_name;  ///< file name for saving; empty: display
   std::string text;
 };
 
-/// @param loopback  whether the server is there for this machine alone
+/// @param loopback  whether the server only listens on loopback
 Answer answer_to(const Request& request, const Scene& scene, bool loopback);
 
-/// An answer that is one line of text.
+/// A response with one line of text.
 Answer text_answer(int status, std::string text);
 
 }  // namespace mms

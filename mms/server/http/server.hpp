@@ -5,38 +5,38 @@
 #include <memory>
 #include <string>
 
-#include "mms/server/scene/scene.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 
 namespace mms {
 
 struct ServerOptions {
-  std::string address = "127.0.0.1";  ///< to listen at
-  std::uint16_t port = 8080;          ///< 0: any that is free
-  std::string port_hint;              ///< what to do where the port is taken, for the error
+  std::string address = "127.0.0.1";  ///< address to listen on
+  std::uint16_t port = 8080;          ///< 0: any free port
+  std::string port_hint;              ///< hint for the error if the port is in use
   std::string version;                ///< of the program, for the page
-  bool background = false;            ///< its threads give way to all others
-  std::size_t max_viewers = 32;       ///< at once; others are told to come later
+  bool background = false;            ///< its threads have low priority
+  std::size_t max_viewers = 32;       ///< simultaneous; further ones are rejected
 };
 
-/// Serves the viewer's page, a run's files and, over WebSocket, the run itself
-/// (docs/viewer_protocol.md), in threads of its own until it goes.
+/// Serves the viewer page, a run's files and, over WebSocket, the run itself
+/// (docs/viewer_protocol.md) in its own threads until destruction.
 class ViewerServer {
  public:
-  /// Listens from now on.
-  /// @throws DataError when the address is none, not this machine's, or the port is taken.
+  /// Starts to listen.
+  /// @throws DataError if the address is invalid or not of this machine, or the port is in use.
   ViewerServer(const ServerOptions& options, std::shared_ptr<Scene> scene);
 
-  /// Says goodbye to all viewers.
+  /// Closes all connections.
   ~ViewerServer();
   ViewerServer(const ViewerServer&) = delete;
   ViewerServer& operator=(const ViewerServer&) = delete;
 
   std::uint16_t port() const;
 
-  /// Where the page is: "http://localhost:8080".
+  /// URL of the page: "http://localhost:8080".
   std::string url() const;
 
-  /// Whether other machines can reach it.
+  /// Whether other machines can connect.
   bool is_open() const;
 
   std::size_t viewers() const;  ///< connected now

@@ -1,7 +1,7 @@
 #pragma once
 
-// Internal to server: what all connections share. The only headers that show Boost are this,
-// http_session.hpp and viewer_session.hpp.
+// Internal to server: shared state of all connections. The only headers that include Boost are
+// this, http_session.hpp and viewer_session.hpp.
 
 #include <atomic>
 #include <boost/asio/io_context.hpp>
@@ -10,12 +10,12 @@
 
 #include "mms/server/http/server.hpp"
 #include "mms/server/scene/picture_cache.hpp"
-#include "mms/server/scene/scene.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 
 namespace mms {
 
-/// Sockets live in one thread, that of `io`; messages are made in `encoder`, and pictures, which
-/// take longer, in `loader`, so that neither holds up the sockets.
+/// Sockets run in the thread of `io`, messages are encoded in `encoder`, and images, which take
+/// longer, in `loader`, so that neither blocks the sockets.
 struct Service {
   Service(const ServerOptions& given, std::shared_ptr<Scene> shown)
       : options(given), scene(std::move(shown)), pictures(*scene) {}

@@ -6,18 +6,18 @@
 #include <optional>
 
 #include "mms/server/scene/pictures.hpp"
-#include "mms/server/scene/scene.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 
 namespace mms {
 
-/// Encodes the pictures that viewers ask for, once for all of them. For one thread.
+/// Encodes requested images once for all viewers. Not thread-safe.
 class PictureCache {
  public:
   using Clock = std::chrono::steady_clock;
 
   explicit PictureCache(const Scene& scene) : scene_(scene) {}
 
-  /// The pictures of a frame, or of one that is as good as the newest; null where there are none.
+  /// The images of a frame, or of the newest or a slightly older one; null if there are none.
   std::shared_ptr<const EncodedPictures> get(std::optional<std::size_t> frame);
 
  private:
@@ -29,7 +29,7 @@ class PictureCache {
   std::shared_ptr<const EncodedPictures> kept(std::optional<std::size_t> frame) const;
 
   const Scene& scene_;
-  std::deque<Entry> entries_;  // the last ones
+  std::deque<Entry> entries_;  // the latest ones
 };
 
 }  // namespace mms

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to server: one connected viewer, apart from its socket.
+// Internal to server: one connected viewer, without its socket.
 
 #include <cstdint>
 #include <deque>
@@ -10,53 +10,53 @@
 #include <string_view>
 #include <vector>
 
-#include "mms/server/scene/scene.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 #include "mms/server/viewer/command.hpp"
 #include "mms/server/viewer/map_feed.hpp"
-#include "mms/server/viewer/messages.hpp"
 #include "mms/server/viewer/playhead.hpp"
+#include "mms/server/viewer/viewer_messages.hpp"
 
 namespace mms {
 
-/// What a viewer is to be sent next, decided when its socket is free: so that a slow viewer is sent
-/// the newest of everything and nothing waits in line but short messages. For one thread; what
-/// takes time is given to the caller to be done elsewhere.
+/// Selects the next message for a viewer whenever its socket is free, so that a slow viewer gets
+/// the newest data without a queue, except of short messages. Not thread-safe; slow work is
+/// returned to the caller.
 class Viewer {
  public:
   using Clock = std::chrono::steady_clock;
   using Pictures = std::shared_ptr<const EncodedPictures>;
 
-  /// Makes a message; may be called in any thread.
+  /// Encodes a message; may be called in any thread.
   using Encode = std::function<Message()>;
 
   Viewer(Scene& scene, std::string version);
 
-  /// Obeys a command, or answers with an error. Returns whether it was one.
+  /// Executes a command, or queues an error. Returns whether it was valid.
   bool receive(std::string_view text, Clock::time_point now);
 
-  /// Goes with the time. To be called some 30 times a second.
+  /// Updates the time. To be called about 30 times per second.
   void tick(Clock::time_point now);
 
-  /// What to send next; nothing when there is nothing now.
+  /// The next message; nullopt if there is none at present.
   std::optional<Encode> next(Clock::time_point now);
 
-  /// Whether pictures are to be loaded now, and of which frame; nothing in the inner: the newest.
-  /// `loaded` is to be called when that is done.
-  std::optional<std::optional<std::size_t>> wanted_pictures(Clock::time_point now);
+  /// Whether images should be loaded, and of which frame; inner nullopt: the newest. Call `loaded`
+  /// afterwards.
+  std::optional<std::optional<std::size_t>> requested_pictures(Clock::time_point now);
   void loaded(Pictures pictures);
 
-  /// The map's version that this viewer has planned for, when it is to be looked at again;
-  /// `plan_map` is then to be called.
+  /// Version of the map of the viewer's plan, if the map should be checked again; then call
+  /// `plan_map`.
   std::optional<std::uint64_t> wants_plan(Clock::time_point now);
 
-  /// @param map  nothing where it is of that version still
+  /// @param map  nullopt if the version is unchanged
   void plan_map(const std::optional<std::vector<ChunkState>>& map, std::uint64_t version,
                 Clock::time_point now);
 
  private:
   struct Sent {
     std::optional<std::size_t> frame;
-    bool pictures = false;  ///< with all there are
+    bool pictures = false;  ///< with all available ones
     Clock::time_point when;
   };
 
@@ -79,7 +79,7 @@ class Viewer {
   bool state_due_ = true;
   bool files_due_ = false;
   Playhead playhead_;
-  std::vector<Timestamp> stamps_;  // of an ended run
+  std::vector<Timestamp> stamps_;  // of a finished run
   bool ended_ = false;
   PictureParts parts_;
   bool wants_map_ = true;
@@ -95,11 +95,11 @@ class Viewer {
   std::optional<Pictures> loaded_;  // not yet sent
 
   MapFeed feed_;
-  bool map_turn_ = false;  // frames and chunks take turns
+  bool map_turn_ = false;  // frames and chunks alternate
   bool planning_ = false;
   std::uint64_t map_version_ = 0;  // 0: plan in any case
   Clock::time_point next_plan_;
-  std::optional<Eigen::Vector3f> focus_;  // as the viewer said
+  std::optional<Eigen::Vector3f> focus_;  // given by the viewer
   Eigen::Vector3f planned_focus_ = Eigen::Vector3f::Zero();
 };
 

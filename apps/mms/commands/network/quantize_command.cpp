@@ -14,7 +14,7 @@
 #include "mms/core/error.hpp"
 #include "mms/io/weights/safetensors.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
-#include "mms/segmentation/engine/calibration/calibration.hpp"
+#include "mms/segmentation/engine/calibration/range_calibration.hpp"
 
 namespace mms {
 namespace {
@@ -39,7 +39,7 @@ void stop_if_asked() {
   }
 }
 
-/// So many pictures of each source, spread over the whole of it.
+/// Evenly spaced images of each source.
 std::vector<PreparedImage> pictures_of(const QuantizeArguments& arguments,
                                        const NetworkConfig& config) {
   RateProgress progress("picture");
@@ -47,8 +47,9 @@ std::vector<PreparedImage> pictures_of(const QuantizeArguments& arguments,
   for (const std::string& where : arguments.data) {
     const auto source =
         open_pictures(where, [&](const std::string& message) { progress.warn(message); });
-    const std::size_t wanted = std::max<std::size_t>(1, arguments.images / arguments.data.size());
-    const std::size_t every = std::max<std::size_t>(1, source->size() / wanted);
+    const std::size_t per_source =
+        std::max<std::size_t>(1, arguments.images / arguments.data.size());
+    const std::size_t every = std::max<std::size_t>(1, source->size() / per_source);
     for (std::size_t i = 0; const std::optional<Picture> picture = source->next(); ++i) {
       stop_if_asked();
       if (i % every == 0) pictures.push_back(prepare_image(picture->image, config));
@@ -57,13 +58,14 @@ std::vector<PreparedImage> pictures_of(const QuantizeArguments& arguments,
   }
   progress.finish();
   if (pictures.empty()) {
-    throw DataError("--data", "has no picture that could be read", "the warnings above say why");
+    throw DataError("--data", "has no readable image", "see the warnings above");
   }
   return pictures;
 }
 
-/// Pictures spread over all of them, to judge by.
-std::vector<PreparedImage> some_of(const std::vector<PreparedImage>& pictures, std::size_t count) {
+/// Evenly spaced subset for the sensitivity.
+std::vector<PreparedImage> subset_of(const std::vector<PreparedImage>& pictures,
+                                     std::size_t count) {
   std::vector<PreparedImage> some;
   const std::size_t every = std::max<std::size_t>(1, pictures.size() / count);
   for (std::size_t i = 0; i < pictures.size() && some.size() < count; i += every) {
@@ -96,7 +98,7 @@ void print_sensitivities(const SegmentationModel& model, const QuantizeArguments
                                                     return true;
                                                   });
   progress.finish();
-  fmt::print("change of the outputs when one layer alone is in bytes:\n");
+  fmt::print("relative change of the outputs with one layer in int8:\n");
   for (const auto& [layer, error] : layers) fmt::print("{:6.2f} %  {}\n", 100.0 * error, layer);
 }
 
@@ -107,14 +109,14 @@ void quantize(const QuantizeArguments& arguments) {
   if (arguments.long_side > 0) resize_input(model.network, arguments.long_side);
   const std::vector<PreparedImage> pictures = pictures_of(arguments, model.network);
   const engine::Quantization quantization = calibrated(model, arguments, pictures);
-  const std::vector<PreparedImage> judged = some_of(pictures, arguments.judged);
+  const std::vector<PreparedImage> judged = subset_of(pictures, arguments.judged);
   if (arguments.sensitivity) print_sensitivities(model, arguments, quantization, judged);
   const double error = engine::output_error(model, where, quantization, judged);
   if (arguments.int8_weights) model.weights = engine::weights_in_bytes(model, quantization);
   engine::pack_quantization(quantization, model.weights);
   const TensorType type = arguments.int8_weights ? TensorType::kInt8 : TensorType::kFloat16;
   write_safetensors(arguments.output, pack_model(std::move(model)), type);
-  fmt::print("{}: calibrated on {} pictures, the outputs change by {:.1f} %\n",
+  fmt::print("{}: calibrated on {} images, the outputs change by {:.1f} %\n",
              arguments.output.string(), pictures.size(), 100.0 * error);
 }
 
@@ -123,35 +125,35 @@ void quantize(const QuantizeArguments& arguments) {
 void add_quantize_command(CLI::App& app) {
   const auto arguments = std::make_shared<QuantizeArguments>();
   CLI::App* command = app.add_subcommand(
-      "quantize", "Calibrate a network to compute in bytes (int8), several times faster");
+      "quantize", "Calibrate a network for int8 inference, which is several times faster");
   command->add_option("WEIGHTS", arguments->weights, "weights file of mms train or mms import")
       ->required();
   command
-      ->add_option("--data", arguments->data,
-                   "pictures as it will see them: a picture, a folder, or a recording; several "
-                   "with commas or one after the other")
+      ->add_option(
+          "--data", arguments->data,
+          "example images: a file, a folder, or a recording; several separated by commas or spaces")
       ->required()
       ->delimiter(',');
   command
       ->add_option("-o,--output", arguments->output,
-                   "weights file to write: the same weights in float16, with the ranges for int8")
+                   "weights file to write: the weights in float16, with the ranges for int8")
       ->required();
-  command->add_option("--images", arguments->images, "number of images to calibrate with")
+  command->add_option("--images", arguments->images, "number of calibration images")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100000}))
       ->capture_default_str();
   command
       ->add_option("--long-side", arguments->long_side,
-                   "input of the written network [px]; without it that of the training")
+                   "long side of the network's input [px] (default: that of the training)")
       ->check(CLI::Range(96, 4096));
   command
       ->add_option("--float-layers", arguments->float_layers,
-                   "convolutions to leave in float32, with commas")
+                   "convolutions to keep in float32, comma-separated")
       ->delimiter(',');
   command->add_flag("--int8-weights", arguments->int8_weights,
                     "write the weights in int8 as well: half the file, the same results in int8");
   CLI::Option* former = command->add_flag("--bytes", arguments->int8_weights)->group("");
   command->add_flag("--sensitivity", arguments->sensitivity,
-                    "say what each convolution alone costs in accuracy");
+                    "print the accuracy loss of each convolution");
   command->callback([arguments, former] {
     if (former->count() > 0) print_warnings({"--bytes is now called --int8-weights"});
     quantize(*arguments);

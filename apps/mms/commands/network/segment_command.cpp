@@ -21,7 +21,7 @@
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
-#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/system_config.hpp"
 #include "mms/run/record/peak_memory.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
 
@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLargestCount = 1'000'000'000;  // of pictures
+constexpr std::size_t kMaxImages = 1'000'000'000;  // number of images
 
 struct SegmentArguments {
   std::string data;
@@ -39,7 +39,7 @@ struct SegmentArguments {
   fs::path weights;
   fs::path annotations;
   std::string split;
-  std::size_t limit = kLargestCount;
+  std::size_t limit = kMaxImages;
   int threads = 0;
   bool json_only = false;
 };
@@ -52,7 +52,7 @@ SegmentationConfig settings_of(const SegmentArguments& arguments) {
   return config.segmentation;
 }
 
-/// Writes what was found: masks, overlays and results picture by picture.
+/// Writes masks, overlays and results, image by image.
 class SegmentOutputs {
  public:
   SegmentOutputs(const fs::path& folder, std::vector<std::string> classes, double least_score,
@@ -102,11 +102,12 @@ class SegmentOutputs {
   double least_score_;
   bool json_only_;
   CocoDataset found_;                         ///< images and categories
-  std::optional<CocoResultsWriter> results_;  ///< opened once there is the folder
+  std::optional<CocoResultsWriter> results_;  ///< opened after the folder was created
   std::size_t objects_ = 0;
 };
 
-/// The first picture prepares the network for its size, and is told apart.
+/// Mean time per image. The first one, which includes the warm-up of the network, is reported
+/// separately.
 class PictureTimes {
  public:
   void add(std::chrono::duration<double, std::milli> time) {
@@ -115,8 +116,8 @@ class PictureTimes {
   }
 
   std::string text() const {
-    if (pictures_ < 2) return fmt::format("{:.1f} ms a picture", first_);
-    return fmt::format("{:.1f} ms a picture (the first {:.0f})", rest_ / (pictures_ - 1), first_);
+    if (pictures_ < 2) return fmt::format("{:.1f} ms/image", first_);
+    return fmt::format("{:.1f} ms/image (the first {:.0f})", rest_ / (pictures_ - 1), first_);
   }
 
  private:
@@ -153,11 +154,10 @@ void segment(const SegmentArguments& arguments) {
   }
   progress.finish();
   if (outputs.pictures() == 0) {
-    throw DataError(arguments.data, "none of its pictures could be read",
-                    "the warnings above say why");
+    throw DataError(arguments.data, "none of its images could be read", "see the warnings above");
   }
   outputs.finish();
-  fmt::print("{}: {} pictures, {} objects of score {} or more, {}, {:.0f} MiB\n",
+  fmt::print("{}: {} images, {} objects with score {} or more, {}, {:.0f} MiB\n",
              arguments.output.string(), outputs.pictures(), outputs.objects(), config.objects.score,
              times.text(), peak_memory_mb());
 }
@@ -166,28 +166,28 @@ void segment(const SegmentArguments& arguments) {
 
 void add_segment_command(CLI::App& app) {
   const auto arguments = std::make_shared<SegmentArguments>();
-  CLI::App* command = app.add_subcommand("segment", "Find people and vehicles in pictures");
+  CLI::App* command = app.add_subcommand("segment", "Segment people and vehicles in images");
   command
       ->add_option("DATA", arguments->data,
-                   "a picture, a folder of pictures, or a recording as of mms run")
+                   "an image, a folder of images, or a recording as of mms run")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "folder for masks/, overlays/, results.json (COCO) and images.json")
+                   "output folder for masks/, overlays/, results.json (COCO) and images.json")
       ->required();
   command->add_option("-c,--config", arguments->config,
-                      "settings, the group 'segmentation' of them");
+                      "settings file, of which the group 'segmentation' is used");
   command->add_option("--weights", arguments->weights,
-                      "network to use: our safetensors, or an ONNX model with YOLO-seg's outputs");
+                      "network: our safetensors, or an ONNX model with YOLO-seg outputs");
   CLI::Option* annotations =
       command->add_option("--annotations", arguments->annotations,
-                          "COCO file: segment its images, found below DATA, under their ids");
-  command->add_option("--split", arguments->split, "only those images of this split")
+                          "COCO file: segment its images, which are below DATA, with their ids");
+  command->add_option("--split", arguments->split, "segment only images of this split")
       ->needs(annotations);
-  command->add_option("--limit", arguments->limit, "at most N pictures")
-      ->check(CLI::Range(std::size_t{1}, kLargestCount))
+  command->add_option("--limit", arguments->limit, "segment at most N images")
+      ->check(CLI::Range(std::size_t{1}, kMaxImages))
       ->default_str("all");
-  add_threads_option(*command, arguments->threads, "of the network (default: one a core)");
+  add_threads_option(*command, arguments->threads, "of the network (default: one per core)");
   command->add_flag("--json-only", arguments->json_only, "write no masks and overlays");
   command->callback([arguments] { segment(*arguments); });
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mms/core/config.hpp"
+#include "mms/core/config_visitor.hpp"
 #include "mms/fusion/config/fusion_config.hpp"
 #include "mms/geometry/sensor_noise.hpp"
 #include "mms/localization/features/feature_extractor.hpp"

@@ -1,4 +1,4 @@
-#include "mms/server/viewer/messages.hpp"
+#include "mms/server/viewer/viewer_messages.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -9,8 +9,8 @@
 
 namespace mms::msg {
 
-// ROS 1's messages that sensors send, as plain structs (wire.hpp says how they are read and
-// written). Fields are called and ordered as in ROS, and mean what ROS's documentation says.
+// ROS 1 sensor messages as plain structs (serialization: wire.hpp). Fields have the names, order
+// and meaning of ROS.
 
 /// std_msgs/Header
 struct Header {

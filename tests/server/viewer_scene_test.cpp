@@ -1,4 +1,4 @@
-#include "mms/server/scene/scene.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
 
-TEST(Scene, GivesFramesViewAndMap) {
+TEST(Scene, ReturnsFramesViewAndMap) {
   Scene scene(scene_info(true), 1);
   scene.add(frame_at(0), view_of(0), nullptr);
   scene.add(frame_at(1), view_of(1), floor_map(4));
@@ -26,27 +26,27 @@ TEST(Scene, GivesFramesViewAndMap) {
   EXPECT_EQ(scene.read_map([](const MapChunks& map) { return map.size(); }), 16U);
 }
 
-TEST(Scene, TheRunNeverWaitsForAReader) {
+TEST(Scene, AddDoesNotWaitForReaders) {
   Scene scene(scene_info(true), 1);
   scene.add(frame_at(0), view_of(0), nullptr);
   std::promise<void> reading;
-  std::promise<void> go_on;
+  std::promise<void> resume;
   std::thread reader([&] {
     scene.read_map([&](const MapChunks&) {
       reading.set_value();
-      go_on.get_future().wait();
+      resume.get_future().wait();
       return 0;
     });
   });
   reading.get_future().wait();
   for (std::size_t i = 1; i < 50; ++i) scene.add(frame_at(i), view_of(i), floor_map(4));
   EXPECT_EQ(scene.size(), 50U);
-  go_on.set_value();
+  resume.set_value();
   reader.join();
   EXPECT_EQ(scene.read_map([](const MapChunks& map) { return map.version(); }), 49U);
 }
 
-TEST(Scene, NothingIsLostWhileManyRead) {
+TEST(Scene, LosesNothingWithConcurrentReaders) {
   Scene scene(scene_info(true), 1);
   std::atomic<bool> done = false;
   std::vector<std::thread> readers;
@@ -69,7 +69,7 @@ TEST(Scene, NothingIsLostWhileManyRead) {
   EXPECT_EQ(scene.view(std::nullopt)->frame, kFrames - 1);
 }
 
-TEST(Scene, TruthIsReplacedForReadersToCome) {
+TEST(Scene, ReplacesTruthForLaterReaders) {
   Scene scene(scene_info(true), 1);
   scene.add(frame_at(0), nullptr, nullptr);
   scene.add(frame_at(1), nullptr, nullptr);

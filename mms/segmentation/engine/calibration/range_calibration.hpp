@@ -11,17 +11,17 @@
 
 namespace mms::engine {
 
-/// Finds the ranges of a network's values on example pictures (post-training quantization).
+/// Determines the ranges of a network's values on example images (post-training quantization).
 class Calibration {
  public:
-  /// @throws DataError as `NetworkEngine` does.
+  /// @throws DataError as `NetworkEngine`.
   Calibration(const SegmentationModel& model, const std::string& where);
 
   void add(const PreparedImage& image);
 
-  /// Ranges of the least squared error.
-  /// @param float_layers  convolutions to leave in float32
-  /// @throws DataError when the network has no such convolution.
+  /// Ranges with the least squared error.
+  /// @param float_layers  convolutions that stay in float32
+  /// @throws DataError if the network has no such convolution.
   Quantization quantization(std::set<std::string> float_layers) const;
 
   const NetworkConfig& config() const { return network_.config(); }
@@ -37,25 +37,25 @@ class Calibration {
   std::map<std::string, Seen> values_;
 };
 
-/// The network's weights as int8 convolutions take them, those that compute in bytes rounded to
-/// them (`to_bytes`): a file of them is half as large and computes the same in bytes.
+/// The network's weights with those of int8 convolutions rounded (`to_bytes`): the file has half
+/// the size and gives the same int8 results.
 Weights weights_in_bytes(const SegmentationModel& model, const Quantization& quantization);
 
-/// What it costs to compute one layer in bytes and all others in float32.
+/// Error from computing one layer in int8 and all others in float32.
 struct LayerSensitivity {
   std::string layer;
-  double error = 0.0;  ///< root mean square of the head's maps' change, relative to the maps
+  double error = 0.0;  ///< relative RMS change of the head's maps
 };
 
-/// The sensitivity of each convolution on some pictures, in the order in which they run.
-/// @param progress  called with the number of layers done and of all; false stops
+/// The sensitivity of each convolution on example images, in the order of execution.
+/// @param progress  called with the number of finished layers and the total; returning false stops
 std::vector<LayerSensitivity> layer_sensitivities(const SegmentationModel& model,
                                                   const std::string& where,
                                                   const Quantization& quantization,
                                                   const std::vector<PreparedImage>& images,
                                                   const std::function<bool(int, int)>& progress);
 
-/// Root mean square change of the head's maps by a quantization, relative to the maps in float32.
+/// Relative RMS change of the head's maps by a quantization, compared to float32.
 double output_error(const SegmentationModel& model, const std::string& where,
                     const Quantization& quantization, const std::vector<PreparedImage>& images);
 

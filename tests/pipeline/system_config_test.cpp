@@ -1,4 +1,4 @@
-#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/system_config.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ class Checker : public ConfigVisitor {
   }
 
   void expect_sound(const FieldInfo& info) {
-    EXPECT_TRUE(paths_.insert(path(info)).second) << path(info) << " is there twice";
+    EXPECT_TRUE(paths_.insert(path(info)).second) << path(info) << " appears twice";
     EXPECT_FALSE(info.key.empty());
     EXPECT_FALSE(info.doc.empty()) << path(info);
     for (const char c : info.key) {

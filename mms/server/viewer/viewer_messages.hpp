@@ -13,26 +13,28 @@
 
 namespace mms {
 
-/// Version of the messages, docs/viewer_protocol.md.
+/// Protocol version, docs/viewer_protocol.md.
 inline constexpr int kProtocolVersion = 1;
 
-/// The messages a viewer gets, each with the fields that docs/viewer_protocol.md names.
+/// Messages to a viewer, with the fields of docs/viewer_protocol.md.
 Message hello_message(const SceneInfo& info, const std::vector<std::string>& files,
                       std::string_view version);
 
-/// Poses of successive frames. @param first  position of the first of them in the run
+/// Poses of consecutive frames.
+/// @param first  index of the first of them in the run
 /// @param start  stamp of the run's first frame
 Message trajectory_message(const SceneFrames& frames, std::size_t first, Timestamp start,
                            bool has_truth);
 Message series_message(const SceneInfo& info, const SceneFrames& frames, std::size_t first);
 
-/// The ways of all objects, so that they can be drawn at once. @param frames  from the run's first
+/// Trajectories of all objects, for drawing.
+/// @param frames  from the first of the run
 Message tracks_message(const SceneFrames& frames);
 
-/// Whether a frame's pictures are in its message, come later, or never.
+/// Whether a frame's images are in its message, follow later, or do not exist.
 enum class PicturesState { kNone, kPending, kHere };
 
-/// What of a frame's pictures a viewer wants.
+/// Which of a frame's images a viewer requests.
 struct PictureParts {
   bool points = true;
   bool image = true;  ///< and mask
@@ -40,23 +42,23 @@ struct PictureParts {
   bool any() const { return points || image; }
 };
 
-/// @param pictures  null but for PicturesState::kHere
+/// @param pictures  null unless PicturesState::kHere
 Message frame_message(const SceneInfo& info, const SceneFrame& frame, std::size_t index,
                       PicturesState state, const EncodedPictures* pictures,
                       const PictureParts& parts = {});
 
-/// @param points  empty: the chunk is gone
+/// @param points  empty: the chunk was removed
 Message map_message(const VoxelKey& chunk, const LevelPoints& points);
 
 struct PlayState {
   bool playing = false;
   std::size_t frame = 0;
   double speed = 1.0;
-  bool ended = false;       ///< no frame comes after the last one there is
-  std::size_t dropped = 0;  ///< frames this viewer was not sent because newer ones were there
+  bool ended = false;       ///< no further frames follow
+  std::size_t dropped = 0;  ///< frames skipped because newer ones were available
 };
 
-/// @param files  when they have changed: the names of those that can be fetched; else empty
+/// @param files  names of the downloadable files if they changed; else empty
 Message state_message(const PlayState& state, const std::vector<std::string>& files = {});
 
 Message error_message(std::string_view text);

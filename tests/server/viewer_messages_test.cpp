@@ -1,4 +1,4 @@
-#include "mms/server/viewer/messages.hpp"
+#include "mms/server/viewer/viewer_messages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ SceneFrames frames(std::size_t count) {
   return all;
 }
 
-TEST(Message, BeginsEveryBufferAtAMultipleOfFour) {
+TEST(Message, AlignsBuffersToFourBytes) {
   MessageWriter writer(nlohmann::json{{"type", "x"}});
   const std::vector<std::uint8_t> bytes = {1, 2, 3, 4, 5};
   const std::vector<float> numbers = {1.5F, -2.0F};
@@ -32,12 +32,12 @@ TEST(Message, BeginsEveryBufferAtAMultipleOfFour) {
   EXPECT_EQ(decoded.json["buffers"][1]["count"], 1);
 }
 
-TEST(Message, ReplacesWhatIsNoUtf8) {
+TEST(Message, ReplacesInvalidUtf8) {
   const Message message = MessageWriter(nlohmann::json{{"type", "x"}, {"name", "a\xff"}}).finish();
   EXPECT_EQ(decode_message(*message).json["name"], "a\xef\xbf\xbd");
 }
 
-TEST(Message, HelloSaysWhatTheRunIs) {
+TEST(Message, HelloDescribesRun) {
   SceneInfo info = scene_info(true);
   info.camera = CameraIntrinsics{500.0, 501.0, 320.0, 240.0, 640, 480, {}};
   const nlohmann::json json = decode_message(*hello_message(info, {"a.ply"}, "1.2")).json;
@@ -51,7 +51,7 @@ TEST(Message, HelloSaysWhatTheRunIs) {
   EXPECT_EQ(json["files"], nlohmann::json{"a.ply"});
 }
 
-TEST(Message, TrajectoryHasPosesStampsAndTruth) {
+TEST(Message, TrajectoryHasPosesStampsAndGroundTruth) {
   SceneFrames run = frames(3);
   auto without = std::make_shared<SceneFrame>(*run[2]);
   without->truth.reset();
@@ -68,14 +68,14 @@ TEST(Message, TrajectoryHasPosesStampsAndTruth) {
   EXPECT_TRUE(std::isnan(truth[6]));
 }
 
-TEST(Message, SeriesHasARowAFrame) {
+TEST(Message, SeriesHasRowPerFrame) {
   const DecodedMessage message = decode_message(*series_message(scene_info(true), frames(2), 0));
   EXPECT_EQ(message.json["names"], (nlohmann::json{"read", "dynamic_share"}));
   EXPECT_EQ(message.json["units"], (nlohmann::json{"ms", "ratio"}));
   EXPECT_EQ(message.values<float>("values"), (std::vector<float>{0.0F, 0.5F, 1.0F, 0.5F}));
 }
 
-TEST(Message, TracksHaveARowAnObjectAndFrame) {
+TEST(Message, TracksHaveRowPerObjectAndFrame) {
   const DecodedMessage message = decode_message(*tracks_message(frames(2)));
   EXPECT_EQ(message.json["ids"], nlohmann::json{7});
   EXPECT_EQ(message.json["classes"], nlohmann::json{1});
@@ -84,7 +84,7 @@ TEST(Message, TracksHaveARowAnObjectAndFrame) {
   EXPECT_EQ(message.values<float>("center")[5], 3.0F);
 }
 
-TEST(Message, FrameHasWhatTheViewerWants) {
+TEST(Message, FrameContainsRequestedParts) {
   const EncodedPictures pictures = encode_pictures(*view_of(4));
   const SceneInfo info = scene_info(true);
   SceneFrame frame = frame_at(4);
@@ -108,16 +108,16 @@ TEST(Message, FrameHasWhatTheViewerWants) {
   EXPECT_EQ(bare.json["pictures"], "here");
 }
 
-TEST(Message, AnEmptyChunkIsRemoved) {
+TEST(Message, EmptyChunkIsRemoved) {
   const VoxelKey key{-1, 0, 12};
-  const DecodedMessage gone = decode_message(*map_message(key, {}));
-  EXPECT_EQ(gone.json["chunk"], "-1,0,12");
-  EXPECT_EQ(gone.json["remove"], true);
-  const DecodedMessage there = decode_message(*map_message(key, {2, 0.4, floor_points(3)}));
-  EXPECT_EQ(there.json["remove"], false);
-  EXPECT_EQ(there.json["level"], 2);
-  EXPECT_EQ(there.values<float>("points").size(), 27U);
-  EXPECT_EQ(there.values<std::uint8_t>("colors").size(), 27U);
+  const DecodedMessage removed = decode_message(*map_message(key, {}));
+  EXPECT_EQ(removed.json["chunk"], "-1,0,12");
+  EXPECT_EQ(removed.json["remove"], true);
+  const DecodedMessage present = decode_message(*map_message(key, {2, 0.4, floor_points(3)}));
+  EXPECT_EQ(present.json["remove"], false);
+  EXPECT_EQ(present.json["level"], 2);
+  EXPECT_EQ(present.values<float>("points").size(), 27U);
+  EXPECT_EQ(present.values<std::uint8_t>("colors").size(), 27U);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "benchmarks/scene.hpp"
+#include "benchmarks/benchmark_scene.hpp"
 
 #include "mms/simulation/simulated_scene.hpp"
 

@@ -14,62 +14,63 @@
 
 namespace mms {
 
-/// What there is to see of a run, live or finished. The run adds to it in one thread, and viewers
-/// read it in others. Adding never waits: while a viewer reads, which is for moments, what is added
-/// is kept aside until the next time.
+/// Visible state of a run, live or finished. The run adds to it in one thread; viewers read it in
+/// others. Adding never blocks: additions during a read are stored and applied later.
 class Scene {
  public:
-  /// Gives what the sensor saw at a frame of a finished run, null where that is not to be had. Runs
-  /// in a thread of the server, one call at a time, and may take its time.
+  /// Returns the sensor data of a frame of a finished run, null if unavailable. Called in a server
+  /// thread, one call at a time; may be slow.
   using ViewLoader = std::function<std::shared_ptr<const SensorView>(std::size_t frame)>;
 
-  /// @param min_observations  views that have to see a voxel of the map before it is shown
+  /// @param min_observations  observations that a voxel of the map needs to be visible
   explicit Scene(SceneInfo info, int min_observations = 1);
 
-  /// Adds a frame. @param view  replaces that of the frame before; may be null
-  /// @param map  what the frame did to the map; null where it did nothing
+  /// Adds a frame.
+  /// @param view  replaces the previous one; may be null
+  /// @param map  changes of the map by the frame; null for none
   void add(SceneFrame frame, std::shared_ptr<const SensorView> view,
            std::shared_ptr<const MapChanges> map);
 
-  /// Adds to the map alone, together with the next frame or the end.
+  /// Adds to the map only, together with the next frame or the end.
   void add_map(std::shared_ptr<const MapChanges> map) {
     pending_.changes.push_back(std::move(map));
   }
 
-  /// No frame comes any more. @param folder  where the run's files are
+  /// Marks the run as finished.
+  /// @param folder  with the run's files
   void end(const std::filesystem::path& folder);
 
-  /// Puts other true positions in place, one a frame.
+  /// Replaces the ground-truth positions, one per frame.
   void replace_truth(const std::vector<std::optional<Eigen::Vector3d>>& truth);
 
-  /// What the first frame tells of the sensor. Called before it is added, if at all.
+  /// Sets the sensor's properties, known from the first frame; called before that frame is added.
   void set_sensor(const std::optional<CameraIntrinsics>& camera, const Eigen::Vector3d& up);
 
-  /// Called before viewers are there.
+  /// To be called before viewers connect.
   void set_loader(ViewLoader loader) { loader_ = std::move(loader); }
 
-  /// Without the sensor until there is a frame.
+  /// Without sensor before the first frame.
   const SceneInfo& info() const { return info_; }
   std::size_t size() const { return size_; }
   bool ended() const { return ended_; }
 
-  /// Grows when frames already given have changed.
+  /// Incremented when earlier frames change.
   std::uint64_t edition() const { return edition_; }
 
-  /// Folder of the run's files; empty while the run goes on.
+  /// Folder of the run's files; empty during the run.
   std::filesystem::path folder() const;
 
-  /// Frames from `first` to before `last`, fewer where there are fewer.
+  /// Frames in [first, last), fewer if not available.
   SceneFrames frames(std::size_t first, std::size_t last) const;
 
-  /// What the sensor saw at a frame, or at the newest; null where that is not to be had.
+  /// Sensor data of a frame, or of the newest; null if unavailable.
   std::shared_ptr<const SensorView> view(std::optional<std::size_t> frame) const;
 
-  /// The map as it is now; takes over what was added to it since the last call.
+  /// The present map; first applies all pending changes.
   template <class Read>
   auto read_map(const Read& read) {
     const std::scoped_lock lock(map_mutex_);
-    take_over_map();
+    apply_map_changes();
     return read(static_cast<const MapChunks&>(map_));
   }
 
@@ -81,23 +82,23 @@ class Scene {
     Changes changes;
   };
 
-  void take_over_pending();
-  void take_over_map();
+  void apply_pending();
+  void apply_map_changes();
 
   SceneInfo info_;
   ViewLoader loader_;
-  Pending pending_;  // of the thread that adds
+  Pending pending_;  // of the adding thread
   std::atomic<std::size_t> size_ = 0;
   std::atomic<bool> ended_ = false;
   std::atomic<std::uint64_t> edition_ = 0;
 
-  mutable std::mutex mutex_;  // of what follows; held for moments only
+  mutable std::mutex mutex_;  // guards what follows; held briefly
   SceneFrames frames_;
   std::shared_ptr<const SensorView> newest_;
   Changes changes_;
   std::filesystem::path folder_;
 
-  std::mutex map_mutex_;  // the run never takes it
+  std::mutex map_mutex_;  // never locked by the run
   MapChunks map_;
 };
 

@@ -1,4 +1,4 @@
-#include "mms/segmentation/engine/calibration/calibration.hpp"
+#include "mms/segmentation/engine/calibration/range_calibration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr int kSignedLevels = 127;
 constexpr int kUnsignedLevels = 255;
 
-/// Copies of the head's maps of one picture, one after the other.
+/// Copies of the head's maps for one image.
 using Outputs = std::vector<std::vector<float>>;
 
 Outputs outputs_of(NetworkEngine& network, const PreparedImage& image) {
@@ -39,7 +39,7 @@ std::vector<Outputs> outputs_of(NetworkEngine& network, const std::vector<Prepar
   return all;
 }
 
-/// Mean over all maps of their relative change, squared.
+/// Mean squared relative change over all maps.
 double relative_change(const std::vector<Outputs>& changed, const std::vector<Outputs>& original) {
   double sum = 0.0;
   double maps = 0.0;
@@ -59,9 +59,9 @@ double relative_change(const std::vector<Outputs>& changed, const std::vector<Ou
   return std::sqrt(sum / std::max(maps, 1.0));
 }
 
-/// Names of the convolutions in the order in which they run first.
+/// Names of the convolutions in the order of execution.
 std::vector<std::string> layer_names(const SegmentationModel& model) {
-  constexpr int kAnySide = 128;  // names are the same for every size
+  constexpr int kAnySide = 128;  // names do not depend on the size
   std::vector<std::string> names;
   LayerReader layers(model.weights);
   for (const Node& node : network_graph(model.network, layers, kAnySide, kAnySide).nodes) {

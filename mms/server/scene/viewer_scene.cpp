@@ -1,4 +1,4 @@
-#include "mms/server/scene/scene.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -19,14 +19,14 @@ void Scene::add(SceneFrame frame, std::shared_ptr<const SensorView> view,
   pending_.view = std::move(view);
   if (map) pending_.changes.push_back(std::move(map));
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  // A reader that the system has put to sleep, as one of low priority may be, holds nobody up.
-  if (lock.owns_lock()) take_over_pending();
+  // Does not wait for a reader, which may have low priority.
+  if (lock.owns_lock()) apply_pending();
 }
 
-void Scene::take_over_pending() {
+void Scene::apply_pending() {
   frames_.insert(frames_.end(), pending_.frames.begin(), pending_.frames.end());
   changes_.insert(changes_.end(), pending_.changes.begin(), pending_.changes.end());
-  // The old view goes with the next frame, when no lock is held.
+  // The old view is destroyed with the next frame, outside the lock.
   if (!pending_.frames.empty()) newest_.swap(pending_.view);
   pending_.frames.clear();
   pending_.changes.clear();
@@ -35,14 +35,14 @@ void Scene::take_over_pending() {
 
 void Scene::end(const std::filesystem::path& folder) {
   const std::scoped_lock lock(mutex_);
-  take_over_pending();
+  apply_pending();
   folder_ = folder;
   ended_ = true;
 }
 
 void Scene::replace_truth(const std::vector<std::optional<Eigen::Vector3d>>& truth) {
   const std::scoped_lock lock(mutex_);
-  take_over_pending();
+  apply_pending();
   for (std::size_t i = 0; i < std::min(truth.size(), frames_.size()); ++i) {
     auto changed = std::make_shared<SceneFrame>(*frames_[i]);
     changed->truth = truth[i];
@@ -71,7 +71,7 @@ std::shared_ptr<const SensorView> Scene::view(std::optional<std::size_t> frame) 
   return newest_;
 }
 
-void Scene::take_over_map() {
+void Scene::apply_map_changes() {
   Changes changes;
   {
     const std::scoped_lock lock(mutex_);

@@ -1,4 +1,4 @@
-#include "mms/pipeline/config.hpp"
+#include "mms/pipeline/system_config.hpp"
 
 namespace mms {
 
