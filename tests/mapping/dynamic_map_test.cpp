@@ -19,17 +19,40 @@ DynamicCluster cluster_at(const Eigen::Vector3f& center,
   return cluster;
 }
 
+/// Sets the corners of the clusters' boxes as their points, each cluster's in a row of its own.
+/// Empty pixels around the rows keep them from being truncated. A cluster without a box has no
+/// points.
+void set_points(LabeledCloud& cloud) {
+  constexpr int kCorners = 8;
+  constexpr int kMargin = 5;
+  cloud.width = kCorners + 2 * kMargin;  // a camera's, whose y axis is down
+  cloud.height = kMargin * (static_cast<int>(cloud.clusters.size()) + 1);
+  const auto size = static_cast<std::size_t>(cloud.width * cloud.height);
+  cloud.points.assign(size, Eigen::Vector3f::Constant(NAN));
+  cloud.labels.assign(size, PointLabel::kInvalid);
+  cloud.cluster.assign(size, -1);
+  for (std::size_t c = 0; c < cloud.clusters.size(); ++c) {
+    const DynamicCluster& cluster = cloud.clusters[c];
+    if (!cluster.box_min.allFinite()) continue;
+    const std::size_t first = kMargin * ((c + 1) * static_cast<std::size_t>(cloud.width) + 1);
+    for (std::size_t i = 0; i < kCorners; ++i) {
+      const Eigen::Array3f high(static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1),
+                                static_cast<float>(i >> 2));
+      cloud.points[first + i] =
+          cluster.box_min.array() + high * (cluster.box_max - cluster.box_min).array();
+      cloud.labels[first + i] = PointLabel::kDynamic;
+      cloud.cluster[first + i] = static_cast<std::int16_t>(c);
+    }
+  }
+}
+
 /// Updates the map with frame `index`: those clusters, observed from that pose.
 void update(DynamicMap& map, int index, const std::vector<DynamicCluster>& clusters,
             const Eigen::Isometry3d& T_world_sensor = Eigen::Isometry3d::Identity()) {
   LabeledCloud cloud;
   cloud.stamp = Timestamp::from_seconds(1.0 + kPeriod * index);
   cloud.clusters = clusters;
-  cloud.width = 1;  // a camera's, whose y axis is down
-  cloud.height = 2;
-  cloud.points.assign(2, Eigen::Vector3f::Constant(NAN));
-  cloud.labels.assign(2, PointLabel::kInvalid);
-  cloud.cluster.assign(2, -1);
+  set_points(cloud);
   OdometryEstimate odometry;
   odometry.stamp = cloud.stamp;
   odometry.T_world_sensor = Transform<World, Sensor>(T_world_sensor);
@@ -270,13 +293,11 @@ TEST(DynamicMap, OneMaskKeepsOneObject) {
   EXPECT_LT(map.objects()[0].box.center().z(), 3.5);
 }
 
-TEST(DynamicMap, AClusterWithoutPointsIsWhereItsBoxIsAndOneWithoutABoxIsNowhere) {
+TEST(DynamicMap, IgnoresClustersWithoutPoints) {
   DynamicMap map;
-  DynamicCluster lost_points = cluster_at({0.0F, 0.0F, 3.0F});
-  lost_points.centroid.setZero();
-  DynamicCluster no_box = lost_points;
-  no_box.box_min.setConstant(NAN);
-  for (int i = 0; i < 10; ++i) update(map, i, {no_box, lost_points});
+  DynamicCluster empty = cluster_at({0.0F, 0.0F, 1.0F});
+  empty.box_min.setConstant(NAN);
+  for (int i = 0; i < 10; ++i) update(map, i, {empty, cluster_at({0.0F, 0.0F, 3.0F})});
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_NEAR(map.objects()[0].box.center().z(), 3.0, 0.3);
 }
