@@ -5,14 +5,19 @@
 namespace mms {
 namespace {
 
-/// By which a track's box is grown to tell parts of its object, and others beside it [m].
+/// [m]: margin around a track's box in which a masked cluster is a part of its object. Source:
+/// three standard deviations of a box's center (`position_sigma`).
 constexpr double kPartMargin = 0.1;
-constexpr double kLoosePartMargin = 0.3;  // of what moves without a mask, as an arm may
 
-/// Share of a cluster's points in another object's box that makes it a cluster of both.
-constexpr double kSharedPart = 0.25;
+/// [m]: the same for moving clusters without a mask. Source: half the length of an arm, which
+/// reaches out of a person's box.
+constexpr double kUnmaskedPartMargin = 0.3;
 
-/// Up in the first sensor's frame, which is the world's: a camera is held level, a LiDAR upright.
+/// [-]: share of a cluster's points in another object's box from which the cluster is of both.
+/// Source: by experiment on the simulated scenes; half of what two equal objects would share.
+constexpr double kMinSharedPart = 0.25;
+
+/// Up in the first sensor's frame, which is the world's: cameras are assumed level, LiDARs upright.
 Eigen::Vector3d nominal_up(const LabeledCloud& cloud) {
   return cloud.organised() ? Eigen::Vector3d(0.0, -1.0, 0.0) : Eigen::Vector3d(0.0, 0.0, 1.0);
 }
@@ -23,7 +28,7 @@ void DynamicMap::update(const LabeledCloud& cloud, const OdometryEstimate& odome
   if (cloud.stamp <= last_stamp_ || !odometry.T_world_sensor.is_finite()) return;
   last_stamp_ = cloud.stamp;
   prune();
-  watch_ground(cloud, odometry.T_world_sensor);
+  update_ground(cloud, odometry.T_world_sensor);
   for (Track& track : tracks_) {
     track.set_ground(*ground_);
     track.predict(cloud.stamp);
@@ -50,11 +55,11 @@ bool DynamicMap::is_over(const Track& track) const {
              : to_seconds(last_stamp_ - track.last_evidence()) > config_.max_tentative;
 }
 
-void DynamicMap::watch_ground(const LabeledCloud& cloud,
-                              const Transform<World, Sensor>& T_world_sensor) {
+void DynamicMap::update_ground(const LabeledCloud& cloud,
+                               const Transform<World, Sensor>& T_world_sensor) {
   if (!ground_) ground_.emplace(nominal_up(cloud));
-  floor_watch_.update(cloud, T_world_sensor, ground_->up());
-  const std::optional<Floor>& floor = floor_watch_.floor();
+  floor_tracker_.update(cloud, T_world_sensor, ground_->up());
+  const std::optional<Floor>& floor = floor_tracker_.floor();
   if (floor) ground_.emplace(floor->up, floor->height);
 }
 
@@ -73,7 +78,7 @@ void DynamicMap::extend(const std::vector<ObjectMeasurement>& objects,
 
 void DynamicMap::begin_new(const std::vector<ObjectMeasurement>& objects,
                            const std::vector<int>& track_of) {
-  std::vector<int> followed;  // masks of which another part than the largest has a track
+  std::vector<int> followed;  // masks of which a part other than the largest has a track
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!objects[i].largest && track_of[i] >= 0) followed.push_back(objects[i].instance);
   }
@@ -81,7 +86,7 @@ void DynamicMap::begin_new(const std::vector<ObjectMeasurement>& objects,
     const bool is_spilled =
         std::find(followed.begin(), followed.end(), objects[i].instance) != followed.end();
     if (!objects[i].largest || is_spilled) continue;
-    // What follows an object without a mask of its own begins none.
+    // A cluster that has neither a mask nor motion of its own begins no track.
     const bool has_evidence =
         objects[i].score > 0.0F || objects[i].object_class == ObjectClass::kUnknown;
     if (track_of[i] >= 0 || !has_evidence || is_part_of_a_track(objects[i])) continue;
@@ -111,10 +116,10 @@ bool DynamicMap::is_sure(const Track& track) const {
   const auto& prior = config_.track.classes[static_cast<std::size_t>(track.object_class())];
   const bool is_named =
       track.observations() >= config_.confirm_after && track.score() >= prior.min_score;
-  return is_named || track.movements() >= config_.confirm_unknown_after;
+  return is_named || track.motion_detections() >= config_.confirm_unknown_after;
 }
 
-/// What `track` continues of what was lost, or is out of view but still expected elsewhere.
+/// The object that `track` continues: one that was lost, or is out of view and predicted elsewhere.
 std::optional<Track> DynamicMap::reidentify(const Track& track) {
   TrackReidentifier away = lost_;
   for (const Track& other : tracks_) {
@@ -129,11 +134,11 @@ bool DynamicMap::is_part_of_a_track(const ObjectMeasurement& object) const {
   const bool is_named = object.object_class != ObjectClass::kUnknown;
   return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
     return (track.confirmed() || !is_named) && track.last_seen() == object.stamp &&
-           track.contains(object.centroid, is_named ? kPartMargin : kLoosePartMargin);
+           track.contains(object.centroid, is_named ? kPartMargin : kUnmaskedPartMargin);
   });
 }
 
-/// Whether the points also cover where another object, which has none of its own, is expected.
+/// Whether the points also cover the predicted box of another object without a measurement.
 bool DynamicMap::is_shared(const ObjectMeasurement& object,
                            const std::vector<bool>& has_own) const {
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
@@ -141,7 +146,7 @@ bool DynamicMap::is_shared(const ObjectMeasurement& object,
     const auto inside = std::count_if(
         object.points.begin(), object.points.end(),
         [&](const Eigen::Vector3d& point) { return tracks_[t].contains(point, 0.0); });
-    if (kSharedPart * static_cast<double>(object.points.size()) < static_cast<double>(inside)) {
+    if (kMinSharedPart * static_cast<double>(object.points.size()) < static_cast<double>(inside)) {
       return true;
     }
   }
@@ -152,7 +157,7 @@ std::vector<TrackedObject> DynamicMap::objects() const {
   std::vector<TrackedObject> objects;
   for (const Track& track : tracks_) {
     if (!track.confirmed()) continue;
-    // What was hardly seen is not given for long when it is gone.
+    // An object seen for a short time only is not given for longer than that while unseen.
     const double known = to_seconds(track.last_seen() - track.first_seen());
     const double unseen = to_seconds(last_stamp_ - track.last_seen());
     if (unseen > std::min(config_.max_coast_output, known)) continue;

@@ -15,52 +15,52 @@ namespace mms {
 /// Whether an object of the dynamic map was seen in the last frame.
 enum class TrackState {
   kActive,
-  kCoasting,  ///< not seen; expected where its velocity takes it
+  kCoasting,  ///< not seen; its position is predicted
 };
 
-/// One dynamic object over time, in the world frame: a box with heading and size learned from all
+/// One dynamic object over time, in the world frame: a box with heading and size estimated from all
 /// views, and a motion.
 class Track {
  public:
   Track(int id, const ObjectMeasurement& first, const GroundFrame& ground,
         const TrackConfig& config);
 
-  /// Takes what is known of the ground now.
+  /// Replaces the upright axis and the floor.
   void set_ground(const GroundFrame& ground);
 
-  /// Moves the expectation on to a stamp, not earlier than the last.
+  /// Predicts the motion up to a stamp, not earlier than the last.
   void predict(Timestamp stamp);
 
   /// The box that a measurement gives, if it is of this object.
   BoxFit fit(const ObjectMeasurement& object) const { return fit(object, motion_.position()); }
 
-  /// Takes in a measurement that is of this object.
-  /// @param shared  whether it is of another object too: it then tells little of place and size
+  /// Updates the track with a measurement of its object.
+  /// @param shared  whether the measurement covers another object too: its position is then
+  ///                uncertain, and shape and appearance are not learned from it
   void update(const ObjectMeasurement& object, bool shared);
 
-  /// Makes it an object for as long as it lives.
+  /// Makes the track an object until it is deleted.
   void confirm() { confirmed_ = true; }
 
-  /// Goes on with the id and the size of an object that was lost and is this one.
+  /// Takes over the id, the class and the size of a lost track of the same object.
   void continue_as(const Track& lost);
   bool confirmed() const { return confirmed_; }
 
   int id() const { return id_; }
-  int observations() const { return observations_; }    ///< with a mask of their own
-  int movements() const { return motion_detections_; }  ///< told by nothing but its movement
+  int observations() const { return observations_; }            ///< views with a mask
+  int motion_detections() const { return motion_detections_; }  ///< views without a mask, in motion
   Timestamp first_seen() const { return first_seen_; }
   Timestamp last_seen() const { return last_seen_; }
   Eigen::Vector3d last_position() const { return last_position_; }  ///< at last_seen
-  Timestamp last_evidence() const {
-    return last_evidence_;
-  }  ///< seen with a mask of its own, or to move
+  /// Stamp of the last view with a mask or in motion.
+  Timestamp last_evidence() const { return last_evidence_; }
   Eigen::Vector3d position() const { return motion_.position(); }
   Eigen::Matrix3d position_covariance() const { return motion_.position_covariance(); }
   const MotionFilter& motion() const { return motion_; }
   const Eigen::Vector3d& size() const { return size_; }
   const Appearance& appearance() const { return appearance_; }
   double score() const { return score_; }  ///< mean over the last observations, in [0, 1]
-  ObjectClass object_class() const;        ///< the one that most masks have
+  ObjectClass object_class() const;        ///< the class of most masks
 
   ObjectBox box() const;
 
@@ -70,6 +70,7 @@ class Track {
  private:
   BoxFit fit(const ObjectMeasurement& object, const std::optional<Eigen::Vector3d>& expected) const;
   void update_class(const ObjectMeasurement& object);
+  void add_view(const ObjectMeasurement& object, bool shared);
   PositionError error_of(const ObjectMeasurement& object, bool is_unanchored) const;
   void learn_shape(const ObjectMeasurement& object);
   void learn_size(const BoxFit& fit);
