@@ -6,19 +6,18 @@
 
 namespace mms {
 
-/// What tells one person from another: histograms of the colours of shoes and shins, thighs, trunk,
-/// and head. Heights are those over the floor, so that a body that is partly hidden is compared by
-/// what is seen of it. Histograms bear what a mean does not: points of what is behind are a few in
-/// cells of their own.
+/// Appearance of a person: color histograms of shins, thighs, torso and head. The bands are heights
+/// over the floor, so that a partly hidden body is compared by its visible parts. Histograms are
+/// robust, unlike a mean: stray points of the background fall into a few cells of their own.
 class Appearance {
  public:
-  /// Takes in a point.
+  /// Adds a point.
   /// @param height  over the floor [m]
   /// @param color   R G B, 0 to 255
   void add(double height, const Eigen::Vector3f& color);
 
-  /// Moves on towards what was seen last, band by band.
-  /// @param gain  share of the new, in (0, 1]
+  /// Blends in the latest view, band by band.
+  /// @param gain  share of the new view, in (0, 1]
   void learn(const Appearance& seen, float gain);
 
   /// Root mean square of the Hellinger distances of the histograms of the bands that both have: 0
@@ -26,8 +25,11 @@ class Appearance {
   std::optional<double> difference(const Appearance& other) const;
 
  private:
-  static constexpr int kShades = 4;  // cells of brightness
-  static constexpr int kHues = 8;    // cells of the share of red, and of that of green
+  /// [-]: cells of brightness. Source: fewer than of shares, since light and shade change it.
+  static constexpr int kShades = 4;
+  /// [-]: cells of the share of red, and of that of green. Source: by experiment on simulated
+  /// people.
+  static constexpr int kHues = 8;
   using Histogram = Eigen::Array<float, kShades * kHues * kHues, 1>;
   struct Band {
     Histogram counts = Histogram::Zero();

@@ -10,11 +10,15 @@
 namespace mms {
 namespace {
 
+/// [-]: standard deviations of a track's position to which its gate grows. Source: contain 95 % of
+/// a normal distribution in one dimension.
 constexpr double kGateSigmas = 2.0;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// [-]: cost of a pair that is no candidate. Source: above any cost.
+constexpr double kInfeasible = std::numeric_limits<double>::infinity();
 
 double gate_of(const Track& track, const AssociationConfig& config) {
-  if (!track.confirmed()) return config.gate_radius;  // may be nothing, and is lost quickly
+  if (!track.confirmed()) return config.gate_radius;  // may be a false detection
   const double sigma = std::sqrt(track.position_covariance().diagonal().maxCoeff());
   return std::clamp(kGateSigmas * sigma, config.gate_radius,
                     std::max(config.gate_radius, config.max_gate));
@@ -24,17 +28,17 @@ double cost_of(const Track& track, const ObjectMeasurement& object,
                const AssociationConfig& config) {
   const double distance = (track.fit(object).center - track.position()).norm();
   const bool is_near = distance <= gate_of(track, config);
-  if (!is_near && !track.contains(object.centroid, 0.0)) return kNever;
+  if (!is_near && !track.contains(object.centroid, 0.0)) return kInfeasible;
   double cost = distance / config.gate_radius;
   if (!may_be_one(track.object_class(), object.object_class)) cost += config.class_penalty;
   const std::optional<double> difference = track.appearance().difference(object.appearance);
   const bool is_back = distance > config.gate_radius;
   const double allowed = is_back ? config.returning_color_difference : config.max_color_difference;
-  if (difference && *difference > allowed) return kNever;
+  if (difference && *difference > allowed) return kInfeasible;
   return cost + config.color_penalty * difference.value_or(0.0);
 }
 
-/// Of what one mask covers, the rest follows no track where the largest follows one.
+/// Where the largest cluster under a mask continues a track, the others under it continue none.
 void exclude_rest(const std::vector<ObjectMeasurement>& objects, std::vector<int>& track_of) {
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].largest) continue;

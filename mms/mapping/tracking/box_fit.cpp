@@ -7,16 +7,44 @@
 namespace mms {
 namespace {
 
-constexpr double kTrim = 0.02;          // share of the points beyond either end that may be stray
-constexpr double kUprightTrim = 0.005;  // the same upwards, where a head is few points
-constexpr double kFacing = 0.25;        // sine of the angle at which a face is seen well
-constexpr double kRightness = 0.3;      // cosine at which an end is at the image's left or right
-constexpr double kMuchOfIt = 0.8;       // share of a size, below which a part is missing
-constexpr double kSidePoint = 0.02;     // distance to a rectangle's side that counts as on it [m]
-constexpr double kFloorError = 0.2;     // of its height [m]
-constexpr double kHiddenBelow = 1.2;    // of what stands on the floor [m]
-constexpr int kHeadingSteps = 45;       // over a quarter of a turn
-constexpr std::size_t kHeadingPoints = 100;  // that a heading is found from
+/// [-]: share of the points at either end that may be stray. Source: eight of the 400 points of a
+/// measurement, as flying pixels at a boundary leave them.
+constexpr double kTrimmedShare = 0.02;
+
+/// [-]: the same along the upright axis. Source: a head has about 6 % of a body's visible points,
+/// of which `kTrimmedShare` would be a third.
+constexpr double kUprightTrimmedShare = 0.005;
+
+/// [-]: sine of the angle between view and face from which the face is visible. Source: 15 degrees;
+/// depth cameras give few returns at flatter ones.
+constexpr double kMinFaceSine = 0.25;
+
+/// [-]: cosine of the angle between an axis and the image's rows up to which an end is at the left
+/// or right. Source: 73 degrees; beyond it left and right ends overlap in the image.
+constexpr double kMinSideCosine = 0.3;
+
+/// [-]: share of the known size below which a part of an object gives no returns. Source: by
+/// experiment on the simulated scenes; legs and arms in motion change a size by less.
+constexpr double kMinCompleteShare = 0.8;
+
+/// [m]: distance to a rectangle's side below which all points are equally close. Source: a standard
+/// deviation of the Kinect's depth noise at 3.5 m.
+constexpr double kMinSideDistance = 0.02;
+
+/// [m]: error of the floor's height under an object. Source: two degrees of tilt at 6 m.
+constexpr double kMaxFloorError = 0.2;
+
+/// [m]: height over the floor up to which an object that stands on it may be hidden. Source: tables
+/// and loaded pallets are up to 1.2 m high.
+constexpr double kMaxHiddenHeight = 1.2;
+
+/// [-]: headings tested over a quarter of a turn. Source: steps of two degrees, which move the ends
+/// of a box 1.2 m long by 2 cm.
+constexpr int kHeadingSteps = 45;
+
+/// [-]: points that a heading is estimated from. Source: bounds the time; each of two visible sides
+/// still has dozens.
+constexpr std::size_t kMaxHeadingPoints = 100;
 
 struct Interval {
   double low = 0.0;
@@ -24,9 +52,9 @@ struct Interval {
 };
 
 Interval trimmed_interval(std::vector<double>& values, double trim) {
-  const auto truncation = static_cast<std::ptrdiff_t>(trim * static_cast<double>(values.size()));
-  const auto low = values.begin() + truncation;
-  const auto high = values.end() - 1 - truncation;
+  const auto trimmed = static_cast<std::ptrdiff_t>(trim * static_cast<double>(values.size()));
+  const auto low = values.begin() + trimmed;
+  const auto high = values.end() - 1 - trimmed;
   std::nth_element(values.begin(), low, values.end());
   const double low_value = *low;
   std::nth_element(values.begin(), high, values.end());
@@ -46,25 +74,25 @@ struct Ends {
   bool high = true;
 };
 
-/// The ends that neither border nor occluder truncations off.
+/// The ends that are truncated neither by the image's border nor by an occluder.
 Ends visible_ends(const ObjectMeasurement& object, const Eigen::Vector3d& axis, bool upright) {
   if (upright) return {!object.truncation.bottom, !object.truncation.top};
   const double rightness = axis.dot(object.right);
-  if (std::abs(rightness) < kRightness) return {};
+  if (std::abs(rightness) < kMinSideCosine) return {};
   const bool left = !object.truncation.left;
   const bool right = !object.truncation.right;
   return rightness > 0.0 ? Ends{left, right} : Ends{right, left};
 }
 
-/// The ends that the object itself does not hide: both where the sensor faces a side along the
-/// axis, else the nearer one.
+/// The ends that the object itself does not hide: both where a side along the axis is visible, else
+/// the nearer one.
 Ends unhidden_ends(double sensor_along, const Interval& along, bool side_in_view) {
   if (side_in_view) return {};
   const double center = 0.5 * (along.low + along.high);
   return sensor_along < center ? Ends{true, false} : Ends{false, true};
 }
 
-/// The end that lies nearer to where it is expected.
+/// The end that lies nearer to its expected position.
 Ends nearer_end(const Interval& seen, double expected, double size) {
   const double low_off = std::abs(seen.low - (expected - 0.5 * size));
   const double high_off = std::abs(seen.high - (expected + 0.5 * size));
@@ -76,9 +104,9 @@ double center_of(const Interval& seen, const Ends& ends, double size) {
   return ends.low ? seen.low + 0.5 * size : seen.high - 0.5 * size;
 }
 
-/// Whether what was seen of something reaches, seen or not, down to the floor.
+/// Whether an object of which an interval is visible stands on the floor.
 bool stands_on(const std::optional<double>& floor, const Interval& seen) {
-  return floor && seen.low > *floor - kFloorError && seen.low < *floor + kHiddenBelow &&
+  return floor && seen.low > *floor - kMaxFloorError && seen.low < *floor + kMaxHiddenHeight &&
          seen.high > *floor;
 }
 
@@ -93,23 +121,23 @@ BoxFit fit_box(const ObjectMeasurement& object, const GroundFrame& ground, doubl
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = axes.col(k);
     const bool upright = k == 2;
-    Interval seen = interval_along(object, axis, upright ? kUprightTrim : kTrim);
+    Interval seen = interval_along(object, axis, upright ? kUprightTrimmedShare : kTrimmedShare);
     const bool stands = upright && stands_on(ground.floor(), seen);
     if (stands) seen.low = *ground.floor();
-    // A horizontal axis runs along the face that looks along the other one.
-    const bool side_in_view = upright || std::abs(view.dot(axes.col(1 - k))) > kFacing;
-    Ends uncut = visible_ends(object, axis, upright);
-    uncut.low = uncut.low || stands;
+    // A horizontal axis runs along the face whose normal is the other one.
+    const bool side_in_view = upright || std::abs(view.dot(axes.col(1 - k))) > kMinFaceSine;
+    Ends visible = visible_ends(object, axis, upright);
+    visible.low = visible.low || stands;
     const Ends unhidden = unhidden_ends(axis.dot(object.sensor), seen, side_in_view);
-    Ends ends = {uncut.low && unhidden.low, uncut.high && unhidden.high};
-    // More than the size known was seen: nothing is hidden.
+    Ends ends = {visible.low && unhidden.low, visible.high && unhidden.high};
+    // The known size is in view: nothing is hidden.
     if (seen.high - seen.low >= size[k]) ends = {};
     const bool both = ends.low && ends.high;
-    if (both && expected && !stands && seen.high - seen.low < kMuchOfIt * size[k]) {
+    if (both && expected && !stands && seen.high - seen.low < kMinCompleteShare * size[k]) {
       ends = nearer_end(seen, axis.dot(*expected), size[k]);
     }
     const auto i = static_cast<std::size_t>(k);
-    fit.whole[i] = uncut.low && uncut.high && side_in_view;
+    fit.whole[i] = visible.low && visible.high && side_in_view;
     fit.anchored = fit.anchored && (ends.low || ends.high);
     fit.extent[k] = seen.high - seen.low;
     center[k] = center_of(seen, ends, size[k]);
@@ -122,7 +150,7 @@ double rectangle_heading(const ObjectMeasurement& object, const GroundFrame& gro
   double best_score = -1.0;
   double best = 0.0;
   std::array<std::vector<double>, 2> along;
-  const std::size_t stride = 1 + (object.points.size() - 1) / kHeadingPoints;
+  const std::size_t stride = 1 + (object.points.size() - 1) / kMaxHeadingPoints;
   for (int step = 0; step < kHeadingSteps; ++step) {
     const double heading = step * 0.5 * std::numbers::pi / kHeadingSteps;
     const Eigen::Matrix3d axes = ground.axes(heading);
@@ -134,7 +162,7 @@ double rectangle_heading(const ObjectMeasurement& object, const GroundFrame& gro
         values.push_back(axes.col(k).dot(object.points[i]));
       }
       std::vector<double> sorted = values;
-      sides[static_cast<std::size_t>(k)] = trimmed_interval(sorted, kTrim);
+      sides[static_cast<std::size_t>(k)] = trimmed_interval(sorted, kTrimmedShare);
     }
     double score = 0.0;
     for (std::size_t i = 0; i < along[0].size(); ++i) {
@@ -142,7 +170,7 @@ double rectangle_heading(const ObjectMeasurement& object, const GroundFrame& gro
         return std::min(std::abs(along[k][i] - sides[k].low),
                         std::abs(along[k][i] - sides[k].high));
       };
-      score += 1.0 / std::max(kSidePoint, std::min(to_side(0), to_side(1)));
+      score += 1.0 / std::max(kMinSideDistance, std::min(to_side(0), to_side(1)));
     }
     if (score > best_score) {
       best_score = score;

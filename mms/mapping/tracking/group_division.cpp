@@ -1,17 +1,30 @@
 #include "mms/mapping/tracking/group_division.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <utility>
+
+#include "mms/geometry/principal_axes.hpp"
 
 namespace mms {
 namespace {
 
-constexpr double kTrim = 0.02;       // share of the points beyond either end that may be stray
-constexpr double kLeastShare = 0.4;  // of an even share of the points that makes a part
-constexpr std::size_t kMostParts = 4;
-constexpr int kRounds = 5;               // of Lloyd's algorithm
-constexpr std::size_t kMaxPoints = 400;  // that an extent is measured from
+/// [-]: share of the points at either end that may be stray. Source: as in a box fit.
+constexpr double kTrimmedShare = 0.02;
+
+/// [-]: least points of a part, relative to an even share. Source: by experiment on the simulated
+/// scenes; a person half hidden by the others still has as many.
+constexpr double kMinPartShare = 0.4;
+
+/// [-]: parts of a cluster. Source: with more people under one mask, parts hidden by others have
+/// too few points.
+constexpr std::size_t kMaxParts = 4;
+
+/// [-]: rounds of Lloyd's algorithm. Source: means that begin evenly along the group's axis hardly
+/// move after five.
+constexpr int kLloydRounds = 5;
+
+/// [-]: points that an extent is measured from. Source: as in an object's measurement.
+constexpr std::size_t kMaxPoints = 400;
 
 /// A point of a cluster and where it is on the floor.
 struct FloorPoint {
@@ -26,14 +39,9 @@ Eigen::Vector2d mean_of(const Group& group) {
   return sum / static_cast<double>(group.size());
 }
 
-/// The direction in which a group reaches farthest.
+/// The direction of a group's largest variance.
 Eigen::Vector2d principal_axis(const Group& group) {
-  const Eigen::Vector2d mean = mean_of(group);
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  for (const FloorPoint& point : group) {
-    covariance += (point.place - mean) * (point.place - mean).transpose();
-  }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).eigenvectors().col(1);
+  return principal_axes(scatter_of(group, &FloorPoint::place).matrix).largest();
 }
 
 struct Ends {
@@ -46,9 +54,10 @@ Ends ends_along(const Group& group, const Eigen::Vector2d& axis) {
   std::vector<double> values;
   const std::size_t stride = 1 + (group.size() - 1) / kMaxPoints;
   for (std::size_t i = 0; i < group.size(); i += stride) values.push_back(axis.dot(group[i].place));
-  const auto truncation = static_cast<std::ptrdiff_t>(kTrim * static_cast<double>(values.size()));
+  const auto trimmed =
+      static_cast<std::ptrdiff_t>(kTrimmedShare * static_cast<double>(values.size()));
   std::sort(values.begin(), values.end());
-  return {*(values.begin() + truncation), *(values.end() - 1 - truncation)};
+  return {*(values.begin() + trimmed), *(values.end() - 1 - trimmed)};
 }
 
 bool is_one(const Group& group, double max_extent) {
@@ -64,7 +73,7 @@ std::size_t nearest(const std::vector<Eigen::Vector2d>& means, const Eigen::Vect
   return static_cast<std::size_t>(found - means.begin());
 }
 
-/// `count` parts about means that begin evenly along the group's axis; fewer where one is empty.
+/// `count` parts around means that begin evenly along the group's axis; fewer where one is empty.
 std::vector<Group> k_means(const Group& group, std::size_t count) {
   const Eigen::Vector2d axis = principal_axis(group);
   const Ends ends = ends_along(group, axis);
@@ -76,7 +85,7 @@ std::vector<Group> k_means(const Group& group, std::size_t count) {
     means.push_back(center + (along - axis.dot(center)) * axis);
   }
   std::vector<Group> parts;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kLloydRounds; ++round) {
     parts.assign(means.size(), {});
     for (const FloorPoint& point : group) parts[nearest(means, point.place)].push_back(point);
     std::erase_if(parts, [](const Group& part) { return part.empty(); });
@@ -91,9 +100,9 @@ std::vector<Group> divide(Group group, double max_extent) {
   const auto fits = [&](const Group& part) { return is_one(part, max_extent); };
   if (fits(group)) return {std::move(group)};
   std::vector<Group> best = {group};
-  for (std::size_t count = 2; count <= kMostParts; ++count) {
+  for (std::size_t count = 2; count <= kMaxParts; ++count) {
     std::vector<Group> parts = k_means(group, count);
-    const double least = kLeastShare * static_cast<double>(group.size() / count);
+    const double least = kMinPartShare * static_cast<double>(group.size() / count);
     const bool has_stray = std::any_of(parts.begin(), parts.end(), [&](const Group& part) {
       return static_cast<double>(part.size()) < least;
     });

@@ -11,16 +11,16 @@
 
 namespace mms {
 
-/// The clusters of a cloud, those that hold several objects divided.
+/// The clusters of a cloud, those of several objects divided into parts.
 struct ClusterParts {
   std::vector<std::int16_t> part;    ///< of every point, -1 for none
-  std::vector<std::size_t> cluster;  ///< that each part is of, in the order of the clusters
+  std::vector<std::size_t> cluster;  ///< cluster of each part, in the order of the clusters
 };
 
-/// Divides clusters that reach farther over the floor than one object of their class can: people
-/// before each other who share a mask. Into as few parts about means on the floor (Lloyd 1982) as
-/// are small enough, at most four; few points are a stray end of an object, not a part of their
-/// own. Clusters without points of theirs are one part.
+/// Divides clusters whose extent over the floor exceeds one object of their class: people behind
+/// each other who share a mask. K-means on the floor (Lloyd 1982) gives the fewest parts that are
+/// small enough, at most four; a few points are a stray end of an object, not a part. Clusters
+/// without points are one part.
 ClusterParts divide_groups(const LabeledCloud& cloud,
                            const Transform<World, Sensor>& T_world_sensor,
                            const GroundFrame& ground, const TrackConfig& config);

@@ -12,10 +12,21 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kHeightNoise = 0.01;   // spectral density of the height's drift [m^2/s]
-constexpr double kLikely = 5.0;         // standard deviations
-constexpr double kOffsetMemory = 1.0;   // time constant with which an offset changes [s]
-constexpr double kKnownExactly = 1e-9;  // variance of what has none [m^2], [m^2/s^2]
+/// [m^2/s]: spectral density of the height's drift. Source: 0.1 m after one second, as of a person
+/// who bends or a box of which more comes into view.
+constexpr double kHeightNoise = 0.01;
+
+/// [-]: standard deviations up to which a measurement has its full weight. Source: normal noise in
+/// three dimensions exceeds them once in 60,000 measurements.
+constexpr double kHuberThreshold = 5.0;
+
+/// [s]: time constant of an offset's changes. Source: a person's gait cycle, in which the visible
+/// part of a truncated body changes.
+constexpr double kOffsetTime = 1.0;
+
+/// [m^2], [m^2/s^2]: variance added to what has none. Source: the square of 0.03 mm, far below any
+/// sensor's noise, keeps a matrix invertible.
+constexpr double kMinVariance = 1e-9;
 
 }  // namespace
 
@@ -30,7 +41,7 @@ MotionFilter::MotionFilter(const Vector3d& position, const Vector3d& up, double 
 MotionFilter::Covariance MotionFilter::transition(double seconds) const {
   Covariance transition = Covariance::Identity();
   transition.block<3, 3>(0, 3) = seconds * Matrix3d::Identity();
-  transition.bottomRightCorner<3, 3>() *= std::exp(-seconds / kOffsetMemory);
+  transition.bottomRightCorner<3, 3>() *= std::exp(-seconds / kOffsetTime);
   return transition;
 }
 
@@ -42,8 +53,8 @@ void MotionFilter::predict(double seconds, double noise) {
   Covariance added = Covariance::Zero();
   added.topLeftCorner<6, 6>() << acceleration * (seconds * seconds / 3.0) + drift,
       acceleration * (seconds / 2.0), acceleration * (seconds / 2.0), acceleration;
-  const double forgotten = (1.0 - kept * kept) * offset_sigma_ * offset_sigma_;
-  added.bottomRightCorner<3, 3>().diagonal().setConstant(forgotten);
+  const double renewed = (1.0 - kept * kept) * offset_sigma_ * offset_sigma_;
+  added.bottomRightCorner<3, 3>().diagonal().setConstant(renewed);
   state_ = step * state_;
   covariance_ = step * covariance_ * step.transpose() + added;
   corrections_.setZero();
@@ -52,16 +63,16 @@ void MotionFilter::predict(double seconds, double noise) {
 void MotionFilter::smooth(const MotionFilter& later, double seconds, double noise) {
   MotionFilter expected = *this;
   expected.predict(seconds, noise);
-  // Of an offset that came or went in between, what was later tells nothing.
+  // The later estimate has no information on an offset that began or ended in between.
   const bool same_offset = offset_sigma_ > 0.0 && later.offset_sigma_ > 0.0;
-  const Eigen::Index told = same_offset ? 9 : 6;
-  Eigen::MatrixXd innovation = expected.covariance_.topLeftCorner(told, told);
-  innovation.diagonal().array() += kKnownExactly;
-  const Eigen::MatrixXd joint = (transition(seconds) * covariance_).topRows(told);
+  const Eigen::Index size = same_offset ? 9 : 6;
+  Eigen::MatrixXd innovation = expected.covariance_.topLeftCorner(size, size);
+  innovation.diagonal().array() += kMinVariance;
+  const Eigen::MatrixXd joint = (transition(seconds) * covariance_).topRows(size);
   const Eigen::MatrixXd gain = innovation.ldlt().solve(joint).transpose();
-  state_ += gain * (later.state_ - later.corrections_ - expected.state_).head(told);
+  state_ += gain * (later.state_ - later.corrections_ - expected.state_).head(size);
   const Covariance change = later.covariance_ - expected.covariance_;
-  covariance_ += gain * change.topLeftCorner(told, told) * gain.transpose();
+  covariance_ += gain * change.topLeftCorner(size, size) * gain.transpose();
 }
 
 void MotionFilter::shift(const Vector3d& by) {
@@ -100,7 +111,7 @@ void MotionFilter::update(const Vector3d& position, const PositionError& error) 
   const Matrix3d expected = measured * covariance_ * measured.transpose();
   const Matrix3d noise = error.noise * error.noise * Matrix3d::Identity();
   const double sigmas = std::sqrt(off.dot((expected + noise).inverse() * off));
-  const Matrix3d innovation = expected + std::max(1.0, sigmas / kLikely) * noise;
+  const Matrix3d innovation = expected + std::max(1.0, sigmas / kHuberThreshold) * noise;
   const Eigen::Matrix<double, 9, 3> gain =
       covariance_ * measured.transpose() * innovation.inverse();
   state_ += gain * off;

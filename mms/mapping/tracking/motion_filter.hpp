@@ -4,17 +4,17 @@
 
 namespace mms {
 
-/// How far a measured position may be off [m].
+/// Error of a measured position [m].
 struct PositionError {
-  double noise = 0.0;   ///< standard deviation from one measurement to the next
-  double offset = 0.0;  ///< that of an error which stays the same for a while; 0: none
+  double noise = 0.0;   ///< standard deviation, independent between measurements
+  double offset = 0.0;  ///< standard deviation of an error that persists for a while; 0: none
 };
 
-/// Position and velocity of a point that goes over the floor and keeps its velocity but for random
+/// Position and velocity of a point that moves over the floor with constant velocity and random
 /// accelerations (a Kalman filter with white acceleration noise; Bar-Shalom et al., Estimation with
-/// Applications to Tracking and Navigation, 2001, 6.2). Its height drifts, and has no velocity: a
-/// body that comes into view does not rise. Measurements of a part of an object are off by an
-/// offset that stays while it is seen so, and that is estimated too (8.3): when all of it comes
+/// Applications to Tracking and Navigation, 2001, 6.2). Its height drifts without a velocity: a
+/// body that comes into view does not rise. Measurements of a part of an object have an offset that
+/// persists while only that part is visible, and that is estimated too (8.3): when all of it comes
 /// into view, the position changes, the velocity does not. World frame, [m] and [m/s].
 class MotionFilter {
  public:
@@ -27,20 +27,21 @@ class MotionFilter {
   /// @param noise    spectral density of the acceleration [m^2/s^3]
   void predict(double seconds, double noise);
 
-  /// Takes another direction for the upright one.
+  /// Replaces the upright direction.
   void set_up(const Eigen::Vector3d& up);
 
-  /// Takes in a measured position. One that is farther off than is likely counts as little as that
-  /// is unlikely (Huber's weights).
+  /// Updates with a measured position. The weight of an unlikely one falls with its distance
+  /// (Huber's weights).
   void update(const Eigen::Vector3d& position, const PositionError& error);
 
-  /// Takes in what was learned later (a step of the smoother of Rauch, Tung and Striebel; 8.6).
+  /// Improves the estimate by a later one (a step of the smoother of Rauch, Tung and
+  /// Striebel; 8.6).
   /// @param later    this filter after that time and an update, and after its own `smooth` if any
   /// @param seconds  until then, positive
   /// @param noise    that of `predict`
   void smooth(const MotionFilter& later, double seconds, double noise);
 
-  /// Moves the point without a motion: it was taken for another.
+  /// Corrects the position without a motion: another point of the object is tracked from now on.
   void shift(const Eigen::Vector3d& by);
 
   /// Shortens the velocity to a length [m/s].
@@ -63,8 +64,8 @@ class MotionFilter {
   Eigen::Matrix3d horizontal_;  ///< projection
   State state_ = State::Zero();
   Covariance covariance_ = Covariance::Zero();
-  State corrections_ = State::Zero();  ///< since the last prediction, by no measurement
-  double offset_sigma_ = 0.0;          ///< 0 while the measurements have none
+  State corrections_ = State::Zero();  ///< by `shift` and `limit_speed` since the last prediction
+  double offset_sigma_ = 0.0;          ///< 0 while the measurements have no offset
 };
 
 }  // namespace mms

@@ -18,7 +18,7 @@ ObjectHistory ObjectSmoother::history() const {
   return std::move(all.settled_);
 }
 
-/// The recent frames, each judged with those after it.
+/// The recent frames, each improved by those after it.
 std::deque<ObjectSmoother::Frame> ObjectSmoother::smoothed() const {
   struct Later {
     Timestamp stamp;
@@ -39,7 +39,7 @@ std::deque<ObjectSmoother::Frame> ObjectSmoother::smoothed() const {
   return frames;
 }
 
-/// Takes in all recent frames but those of the last seconds.
+/// Moves all recent frames but those of the last `seconds` to the history.
 void ObjectSmoother::settle(double seconds) {
   if (recent_.empty()) return;
   const Timestamp newest = recent_.back().stamp;

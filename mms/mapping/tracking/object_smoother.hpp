@@ -9,17 +9,17 @@
 
 namespace mms {
 
-/// Where the dynamic map's objects were and how they moved, judged with what was seen up to `lag`
-/// later: a fixed-lag smoother (Rauch, Tung and Striebel's recursion over the tracks' filters).
-/// What a track is at once lags behind where its object starts, stops or turns; what is written
-/// down need not. Keeps the filters of 2 `lag`; each frame costs two steps of the recursion an
+/// Positions and velocities of the dynamic map's objects, estimated with the measurements of up to
+/// `history_lag` later: a fixed-lag smoother (Rauch, Tung and Striebel's recursion over the tracks'
+/// filters). A track's live estimate lags where its object starts, stops or turns; the recorded one
+/// does not. Keeps the filters of twice the lag; a frame costs two steps of the recursion an
 /// object.
 class ObjectSmoother {
  public:
   explicit ObjectSmoother(const DynamicMapConfig& config) : config_(config) {}
 
-  /// Adds a frame's objects; frames come in the order of their stamps. One that is not later than
-  /// the last is kept, but tells nothing of those before it.
+  /// Adds a frame's objects, in the order of stamps. A frame that is not later than the last is
+  /// kept, but does not improve those before it.
   void add(Timestamp stamp, const std::vector<TrackedObject>& objects);
 
   /// All frames so far.

@@ -7,21 +7,31 @@
 namespace mms {
 namespace {
 
-constexpr std::size_t kMost = 100;
-constexpr double kStay = 1.0;  // of whoever stays where he is [m]
+/// [-]: lost tracks that are kept. Source: bounds memory and time; more than pass a robot in the 60
+/// s of `max_away`.
+constexpr std::size_t kMaxLost = 100;
 
-// Differences of looks, measured on simulated people of other seeds than those of the tests: of one
-// who comes back, of two, and the standard deviation of both.
-constexpr double kOfOne = 0.38;
-constexpr double kOfTwo = 0.76;
-constexpr double kSigma = 0.12;
+/// [m]: standard deviation of the position of an object that stays in place. Source: about two
+/// steps of a person at work.
+constexpr double kStationarySigma = 1.0;
 
-/// How much more probable a difference of looks is of one object than of two. Nobody is surer for
-/// being more alike than one who comes back mostly is.
+/// [-]: mean appearance difference between views of one person. Source: measured on simulated
+/// people of other seeds than those of the tests.
+constexpr double kMeanDifferenceSame = 0.38;
+
+/// [-]: mean appearance difference between two persons. Source: the same measurement.
+constexpr double kMeanDifferenceOther = 0.76;
+
+/// [-]: standard deviation of both differences. Source: the same measurement.
+constexpr double kDifferenceSigma = 0.12;
+
+/// Likelihood ratio of an appearance difference: of one object to two objects. A difference below
+/// the mean of one object counts as that mean.
 double appearance_likelihood_ratio(double difference) {
-  const double d = std::max(difference, kOfOne);
+  const double d = std::max(difference, kMeanDifferenceSame);
   const auto square = [](double x) { return x * x; };
-  return std::exp((square(d - kOfTwo) - square(d - kOfOne)) / (2.0 * square(kSigma)));
+  return std::exp((square(d - kMeanDifferenceOther) - square(d - kMeanDifferenceSame)) /
+                  (2.0 * square(kDifferenceSigma)));
 }
 
 /// Normal density over the floor at that distance from its center [1/m^2].
@@ -33,7 +43,7 @@ double density(double distance, double sigma) {
 }  // namespace
 
 void TrackReidentifier::add(const Track& track) {
-  if (lost_.size() == kMost) lost_.erase(lost_.begin());
+  if (lost_.size() == kMaxLost) lost_.erase(lost_.begin());
   lost_.push_back(track);
 }
 
@@ -52,10 +62,10 @@ std::optional<Track> TrackReidentifier::take(const Track& track) {
   double most = 0.0;
   auto best = lost_.end();
   for (auto lost = lost_.begin(); lost != lost_.end(); ++lost) {
-    const double now = likelihood(*lost, track);
-    all += now;
-    if (now <= most) continue;
-    most = now;
+    const double current = likelihood(*lost, track);
+    all += current;
+    if (current <= most) continue;
+    most = current;
     best = lost;
   }
   if (best == lost_.end() || most < config_.min_probability * all) return std::nullopt;
@@ -64,15 +74,17 @@ std::optional<Track> TrackReidentifier::take(const Track& track) {
   return found;
 }
 
-/// Against somebody never seen before, whose density over the floor is that of `new_object_density`
-/// [1/m^2]. Half of all stay where they are, half go on.
+/// Likelihood that `track` continues `lost`, to be compared with `new_object_density` [1/m^2], that
+/// of an object never seen before. Equal priors: the object stayed in place, or it moved on.
 double TrackReidentifier::likelihood(const Track& lost, const Track& track) const {
   const std::optional<double> difference = lost.appearance().difference(track.appearance());
   if (!difference || !may_be_one(lost.object_class(), track.object_class())) return 0.0;
   const double seconds = to_seconds(track.last_seen() - lost.last_seen());
-  const double way = (track.position() - lost.last_position()).norm();
-  const double there = 0.5 * (density(way, kStay) + density(way, kStay + config_.spread * seconds));
-  return appearance_likelihood_ratio(*difference) * there;
+  const double distance = (track.position() - lost.last_position()).norm();
+  const double moved_sigma = kStationarySigma + config_.spread * seconds;
+  const double position =
+      0.5 * (density(distance, kStationarySigma) + density(distance, moved_sigma));
+  return appearance_likelihood_ratio(*difference) * position;
 }
 
 }  // namespace mms

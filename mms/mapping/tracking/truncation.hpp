@@ -7,9 +7,8 @@
 
 namespace mms {
 
-/// Looks along the boundaries of the parts of an organised cloud's clusters for what truncates
-/// them: the image's border or a nearer surface beside them. A side is truncated where that holds
-/// for a good part of its boundary.
+/// Sides at which the parts of an organised cloud's clusters are truncated: a quarter of the side's
+/// boundary lies at the image's border or beside a nearer surface.
 /// @return one for each part
 std::vector<ObjectMeasurement::Truncation> find_truncations(const LabeledCloud& cloud,
                                                             const ClusterParts& parts);

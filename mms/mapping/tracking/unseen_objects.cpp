@@ -3,7 +3,9 @@
 namespace mms {
 namespace {
 
-constexpr float kSole = 0.06F;  // height of what is taken for floor [m]
+/// [m]: height over the floor up to which points belong to it. Source: three standard deviations of
+/// the Kinect's depth noise at 3.6 m.
+constexpr float kFloorClearance = 0.06F;
 
 /// The box of an object above the floor it stands on, for points in the sensor frame.
 class ExpectedBox {
@@ -11,7 +13,7 @@ class ExpectedBox {
   ExpectedBox(const ObjectBox& box, const Transform<World, Sensor>& T_world_sensor)
       : T_box_sensor_((box.T_world_box.inverse() * T_world_sensor.isometry()).cast<float>()),
         half_((0.5 * box.size.array()).cast<float>()),
-        lowest_(kSole - static_cast<float>(0.5 * box.size.z())) {}
+        lowest_(kFloorClearance - static_cast<float>(0.5 * box.size.z())) {}
 
   bool contains(const Eigen::Vector3f& point) const {
     const Eigen::Vector3f local = T_box_sensor_ * point;

@@ -9,9 +9,9 @@
 
 namespace mms {
 
-/// Takes out of P_S what is where an object was expected, but not seen: the network misses a person
-/// for some frames, whom the static map would keep. The static points in the boxes of those
-/// `objects` that coast become dynamic ones of no cluster; the floor they stand on stays.
+/// Removes from P_S the points where an object is predicted but not seen: the network misses a
+/// person for some frames, who would enter the static map. The static points in the boxes of
+/// coasting `objects` become dynamic points without a cluster; the floor below them stays static.
 ///
 /// @return  points that became dynamic
 std::size_t mask_unseen_objects(const std::vector<TrackedObject>& objects,
