@@ -9,7 +9,7 @@
 
 namespace mms {
 
-/// Where up and forward are in the frame of a sensor that is held level.
+/// Directions of up and forward in the frame of a level sensor.
 struct SensorAxes {
   Eigen::Vector3d up;
   Eigen::Vector3d forward;
@@ -22,15 +22,15 @@ struct SensorAxes {
 struct Floor {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit, world frame
   double height = 0.0;                            ///< over the world frame's origin [m]
-  bool found = false;                             ///< else a guess: level, at the lowest points
+  bool found = false;                             ///< else assumed: level, at the lowest points
 };
 
-/// The lowest well supported level surface of a static map. Normals of the map's points are not
-/// needed, so that sparse LiDAR maps do; where known, they tell floors from ceilings.
-/// @param up  expected direction of up, world frame; the floor is within `max_tilt` of it
+/// The lowest level surface of a static map with enough area. Needs no normals of the map's points,
+/// so that sparse LiDAR maps are sufficient; where known, they exclude ceilings.
+/// @param up  assumed direction of up, world frame; the floor is within `max_tilt` of it
 Floor find_floor(const MapCloud& map, const Eigen::Vector3d& up, const FloorConfig& config);
 
-/// The map frame of a floor: x is `forward` (world frame) laid onto the floor.
+/// The map frame of a floor: x is `forward` (world frame) projected onto the floor.
 Transform<World, Map> map_frame(const Floor& floor, const Eigen::Vector3d& forward);
 
 }  // namespace mms

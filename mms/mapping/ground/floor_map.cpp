@@ -9,6 +9,14 @@
 namespace mms {
 namespace {
 
+/// [m]: depth below the floor's plane to which voxels belong to the floor. Source: a plane tilted
+/// by one degree is off by 0.3 m at 17 m, about `max_range` of the occupancy map.
+constexpr double kMaxFloorDip = 0.3;
+
+/// [-]: cells of a grid. Source: memory; 100 MB of one byte each, a square kilometre of 0.1 m
+/// cells.
+constexpr std::int64_t kMaxCells = 100'000'000;
+
 /// Calls `visit(key)` for the voxels of the map frame whose centres may lie in the block.
 template <class Visit>
 void for_each_near(const OccupancyBlock& block, double voxel_size,
@@ -31,7 +39,7 @@ Eigen::Vector3d center_of(const VoxelKey& key, double voxel_size) {
   return (Eigen::Array3d(key.x, key.y, key.z) + 0.5).matrix() * voxel_size;
 }
 
-/// The columns between the corners that some voxel is in.
+/// Bounds of the columns of all added voxels.
 struct Bounds {
   std::int32_t min_x = std::numeric_limits<std::int32_t>::max();
   std::int32_t min_y = std::numeric_limits<std::int32_t>::max();
@@ -50,15 +58,14 @@ struct Bounds {
   std::int64_t height(int bits) const { return (max_y >> bits) - (min_y >> bits) + 1; }
 };
 
-/// What a voxel says about the cell it is over.
-class Verdict {
+/// State that a voxel gives to the grid cell below it.
+class CellState {
  public:
-  Verdict(double voxel_size, const GridConfig& config) : size_(voxel_size), config_(config) {}
+  CellState(double voxel_size, const GridConfig& config) : size_(voxel_size), config_(config) {}
 
   Occupancy of(const VoxelKey& key, Occupancy state) const {
-    constexpr double kBelow = 0.3;  // the floor may lie a bit lower than its plane [m]
     const double height = (key.z + 0.5) * size_;
-    if (height < -kBelow) return Occupancy::kUnknown;
+    if (height < -kMaxFloorDip) return Occupancy::kUnknown;
     if (state == Occupancy::kFree) {
       return height < config_.free_height ? Occupancy::kFree : Occupancy::kUnknown;
     }
@@ -71,9 +78,9 @@ class Verdict {
   GridConfig config_;
 };
 
-/// Whether none of the 26 voxels around one is an obstacle: a speck of noise or of a walker's shoe.
-/// Things have neighbours, a pole above and below. The floor does not count as one.
-bool is_alone(const std::vector<VoxelKey>& obstacles, const VoxelKey& key) {
+/// Whether none of the 26 voxels around one is an obstacle: noise, or points of a person's shoe.
+/// Obstacles have neighbours, a pole above and below. The floor does not count as one.
+bool is_isolated(const std::vector<VoxelKey>& obstacles, const VoxelKey& key) {
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       const auto first = std::lower_bound(obstacles.begin(), obstacles.end(),
@@ -88,19 +95,20 @@ bool is_alone(const std::vector<VoxelKey>& obstacles, const VoxelKey& key) {
 }
 
 template <class Visit>
-void for_each_verdict(const OccupancyVoxels& voxels, const GridConfig& config, const Visit& visit) {
-  const Verdict verdict(voxels.voxel_size, config);
+void for_each_cell_state(const OccupancyVoxels& voxels, const GridConfig& config,
+                         const Visit& visit) {
+  const CellState state_of_cell(voxels.voxel_size, config);
   std::vector<VoxelKey> obstacles;
   for (const VoxelKey& key : voxels.free) {
-    if (verdict.of(key, Occupancy::kFree) == Occupancy::kFree) visit(key, Occupancy::kFree);
+    if (state_of_cell.of(key, Occupancy::kFree) == Occupancy::kFree) visit(key, Occupancy::kFree);
   }
   for (const VoxelKey& key : voxels.occupied) {
-    const Occupancy result = verdict.of(key, Occupancy::kOccupied);
+    const Occupancy result = state_of_cell.of(key, Occupancy::kOccupied);
     if (result == Occupancy::kFree) visit(key, result);
     if (result == Occupancy::kOccupied) obstacles.push_back(key);
   }
   for (const VoxelKey& key : obstacles) {
-    if (!is_alone(obstacles, key)) visit(key, Occupancy::kOccupied);
+    if (!is_isolated(obstacles, key)) visit(key, Occupancy::kOccupied);
   }
 }
 
@@ -128,11 +136,10 @@ OccupancyVoxels voxels_in_map_frame(const OccupancyMap& map,
 
 OccupancyGrid floor_grid(const OccupancyVoxels& voxels, const Transform<World, Map>& T_world_map,
                          const GridConfig& config) {
-  constexpr std::int64_t kMostCells = 100'000'000;
   Bounds bounds;
-  for_each_verdict(voxels, config, [&](const VoxelKey& key, Occupancy) { bounds.add(key); });
+  for_each_cell_state(voxels, config, [&](const VoxelKey& key, Occupancy) { bounds.add(key); });
   int bits = 0;  // a cell has 2^bits voxels a side
-  while (!bounds.empty() && bounds.cells(bits) > kMostCells) ++bits;
+  while (!bounds.empty() && bounds.cells(bits) > kMaxCells) ++bits;
   OccupancyGrid grid;
   grid.resolution = voxels.voxel_size * (1 << bits);
   grid.T_world_map = T_world_map;
@@ -142,9 +149,9 @@ OccupancyGrid floor_grid(const OccupancyVoxels& voxels, const Transform<World, M
   grid.origin = grid.resolution * Eigen::Vector2d(left, bottom);
   grid.cells = Image<Occupancy>(static_cast<int>(bounds.width(bits)),
                                 static_cast<int>(bounds.height(bits)), Occupancy::kUnknown);
-  for_each_verdict(voxels, config, [&](const VoxelKey& key, Occupancy verdict) {
+  for_each_cell_state(voxels, config, [&](const VoxelKey& key, Occupancy state) {
     Occupancy& cell = grid.cells((key.x >> bits) - left, (key.y >> bits) - bottom);
-    cell = std::max(cell, verdict);
+    cell = std::max(cell, state);
   });
   return grid;
 }

@@ -6,15 +6,15 @@
 
 namespace mms {
 
-/// The occupancy map's voxels laid out anew along the axes of the map frame: each has the state of
-/// the voxel that its centre lies in, so that closed surfaces stay closed. Sorted by key.
+/// The occupancy map resampled to voxels along the axes of the map frame: each has the state of the
+/// voxel that its centre lies in, so that closed surfaces stay closed. Sorted by key.
 OccupancyVoxels voxels_in_map_frame(const OccupancyMap& map,
                                     const Transform<World, Map>& T_world_map);
 
-/// The floor from above. A cell is occupied if any voxel between `min_height` and `max_height` over
-/// it is, unless it hangs there without any occupied neighbour; else free if the floor, or empty
-/// space below `free_height`, was seen; else unknown. Empty if nothing is known. Very large maps
-/// get cells of several voxels.
+/// The 2D grid of the floor. A cell is occupied if any voxel between `min_height` and `max_height`
+/// above it is, isolated voxels excepted; else free if the floor, or empty space below
+/// `free_height`, was seen; else unknown. Empty if nothing is known. Very large maps get cells of
+/// several voxels.
 /// @param voxels  in the map frame, sorted
 OccupancyGrid floor_grid(const OccupancyVoxels& voxels, const Transform<World, Map>& T_world_map,
                          const GridConfig& config);

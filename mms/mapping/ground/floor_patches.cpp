@@ -1,46 +1,47 @@
 #include "mms/mapping/ground/floor_patches.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "mms/geometry/principal_axes.hpp"
 #include "mms/geometry/voxels/voxel_hash_map.hpp"
 
 namespace mms {
 namespace {
 
+/// [-]: points of a patch. Source: twice the three of a plane.
+constexpr int kMinPoints = 6;
+
+/// [m]: standard deviation along a patch's shorter side. Source: less than half that of a full
+/// patch, `kPatchSize` / sqrt(12).
+constexpr double kMinWidth = 0.05;
+
+/// [-]: standard deviation across a patch, relative to that along its shorter side. Source: 3.5 cm
+/// in a full patch, about a LiDAR's noise.
+constexpr double kMaxThickness = 0.3;
+
 /// Sums over the map's points in one voxel, relative to its first one.
 struct Sums {
-  int count = 0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  PointSums<double, 3> offsets;
   Eigen::Vector3d normals = Eigen::Vector3d::Zero();  // zero where all are unknown
 
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
-    if (count++ == 0) first = point;
-    const Eigen::Vector3d offset = point - first;
-    sum += offset;
-    squares += offset * offset.transpose();
+    if (offsets.count() == 0) first = point;
+    offsets.add(point - first);
     normals += normal;
   }
 };
 
-/// The patch of a voxel's points; nothing where they are few, in a line, or not flat.
+/// The patch of a voxel's points; nothing where they are too few, collinear or not flat.
 std::optional<FloorPatch> fit_patch(const Sums& sums, const Eigen::Vector3d& up) {
-  constexpr int kFewest = 6;
-  constexpr double kLeastWidth = 0.05;  // standard deviation along the shorter side [m]
-  constexpr double kThickest = 0.3;     // standard deviation across it, relative to that
-  if (sums.count < kFewest) return std::nullopt;
-  const Eigen::Vector3d mean = sums.sum / sums.count;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sums.squares / sums.count -
-                                                              mean * mean.transpose());
-  const Eigen::Vector3d variances = solver.eigenvalues();
-  if (variances(1) < kLeastWidth * kLeastWidth) return std::nullopt;
-  if (variances(0) > kThickest * kThickest * variances(1)) return std::nullopt;
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
-  return FloorPatch{sums.first + mean, normal.dot(up) < 0.0 ? Eigen::Vector3d(-normal) : normal};
+  if (sums.offsets.count() < kMinPoints) return std::nullopt;
+  const auto [variances, axes] = principal_axes(sums.offsets.covariance());
+  if (variances(1) < kMinWidth * kMinWidth) return std::nullopt;
+  if (variances(0) > kMaxThickness * kMaxThickness * variances(1)) return std::nullopt;
+  const Eigen::Vector3d normal = axes.col(0);
+  return FloorPatch{sums.first + sums.offsets.mean(), oriented(normal, up)};
 }
 
 }  // namespace

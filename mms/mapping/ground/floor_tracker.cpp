@@ -7,13 +7,30 @@
 namespace mms {
 namespace {
 
-constexpr int kEvery = 5;                 // frames
-constexpr std::size_t kMaxPoints = 6000;  // of a frame
-constexpr float kMaxRange = 8.0F;         // of a point [m]
-constexpr int kMemory = 20;               // floors averaged
-constexpr double kHigher = 0.15;          // from which a surface is a table, not the floor [m]
-constexpr double kMaxTurn = 5.0;          // between two floors [deg]
-constexpr int kStubborn = 10;             // rejected in a row that are right after all
+/// [-]: frames from one search to the next. Source: bounds the time; three searches a second at the
+/// 15 Hz of the simulated scenes.
+constexpr int kInterval = 5;
+
+/// [-]: points of a search. Source: bounds the time; a floor patch at 4 m still has a dozen.
+constexpr std::size_t kMaxPoints = 6000;
+
+/// [m]: range of the points. Source: the Kinect's depth noise is 0.1 m there.
+constexpr float kMaxRange = 8.0F;
+
+/// [-]: floors averaged. Source: reduces their errors to less than a quarter.
+constexpr int kMaxAveraged = 20;
+
+/// [m]: height above the floor from which a level surface is an object. Source: below a stair's
+/// step of 0.17 m.
+constexpr double kMaxRise = 0.15;
+
+/// [deg]: angle between two estimates of a floor. Source: above their errors of about a degree,
+/// below the slope of a ramp.
+constexpr double kMaxTilt = 5.0;
+
+/// [-]: consecutive rejections after which the floor is replaced. Source: people and tables cover
+/// the floor for less than 3 s.
+constexpr int kMaxRejections = 10;
 
 MapCloud static_points(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor) {
   const std::size_t stride = 1 + cloud.points.size() / kMaxPoints;
@@ -32,7 +49,7 @@ MapCloud static_points(const LabeledCloud& cloud, const Transform<World, Sensor>
 
 void FloorTracker::update(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor,
                           const Eigen::Vector3d& up) {
-  if (frames_++ % kEvery != 0) return;
+  if (frames_++ % kInterval != 0) return;
   const Floor seen =
       find_floor(static_points(cloud, T_world_sensor), floor_ ? floor_->up : up, config_);
   const Eigen::Vector3d sensor = T_world_sensor.translation();
@@ -42,18 +59,18 @@ void FloorTracker::update(const LabeledCloud& cloud, const Transform<World, Sens
 
 void FloorTracker::follow(const Floor& seen, const Eigen::Vector3d& sensor) {
   const Eigen::Vector3d foot = sensor - (seen.up.dot(sensor) - seen.height) * seen.up;
-  const double higher = floor_ ? floor_->up.dot(foot) - floor_->height : 0.0;
+  const double rise = floor_ ? floor_->up.dot(foot) - floor_->height : 0.0;
   const double cosine = floor_ ? floor_->up.dot(seen.up) : 1.0;
-  const bool is_turned = cosine < std::cos(kMaxTurn * std::numbers::pi / 180.0);
-  if ((is_turned || higher > kHigher) && ++rejected_ < kStubborn) return;
-  // A floor that lies lower, or that was seen again and again, takes the place of the last.
-  if (rejected_ >= kStubborn || higher < -kHigher) seen_ = 0;
+  const bool is_tilted = cosine < std::cos(kMaxTilt * std::numbers::pi / 180.0);
+  if ((is_tilted || rise > kMaxRise) && ++rejected_ < kMaxRejections) return;
+  // A lower floor, or one that was found repeatedly, replaces the last.
+  if (rejected_ >= kMaxRejections || rise < -kMaxRise) seen_ = 0;
   rejected_ = 0;
-  seen_ = std::min(seen_ + 1, kMemory);
+  seen_ = std::min(seen_ + 1, kMaxAveraged);
   const double gain = 1.0 / seen_;
   if (seen_ == 1) floor_ = seen;
   floor_->up = (floor_->up + gain * (seen.up - floor_->up)).normalized();
-  floor_->height = floor_->up.dot(foot) - (1.0 - gain) * higher;
+  floor_->height = floor_->up.dot(foot) - (1.0 - gain) * rise;
 }
 
 }  // namespace mms

@@ -7,19 +7,18 @@
 
 namespace mms {
 
-/// The floor about the sensor, as the frames of a run show it: what stands on it is measured from
-/// there. Looks at every few frames, and averages, so that a floor that is not quite level far away
-/// is right where the sensor is.
+/// The floor around the sensor, on which tracked objects stand. Searches it in every few frames and
+/// averages, so that it is accurate near the sensor though the floor is not exactly a plane.
 class FloorTracker {
  public:
   explicit FloorTracker(const FloorConfig& config = {}) : config_(config) {}
 
-  /// Looks for the floor among the frame's static points.
-  /// @param up  in the world frame, as far as it is known without a floor
+  /// Searches the floor among the frame's static points.
+  /// @param up  in the world frame, used until a floor is found
   void update(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor,
               const Eigen::Vector3d& up);
 
-  /// Nothing until one was seen.
+  /// Nothing until one was found.
   const std::optional<Floor>& floor() const { return floor_; }
 
  private:

@@ -7,7 +7,7 @@
 namespace mms {
 
 /// The world's upright axis and headings about it. A heading of 0 is the world's z axis (a camera's
-/// view) or, where that is the upright one, its x axis, taken to the horizontal.
+/// view) or, where that is upright, its x axis, projected to the horizontal.
 class GroundFrame {
  public:
   /// @param up     in the world frame; any length but 0
@@ -15,7 +15,7 @@ class GroundFrame {
   explicit GroundFrame(const Eigen::Vector3d& up, std::optional<double> floor = {})
       : up_(up.normalized()), floor_(floor) {
     const Eigen::Vector3d ahead =
-        std::abs(up_.z()) < 0.7 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+        std::abs(up_.z()) < kMaxUprightZ ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
     ahead_ = (ahead - up_.dot(ahead) * up_).normalized();
     left_ = up_.cross(ahead_);
   }
@@ -40,6 +40,9 @@ class GroundFrame {
   }
 
  private:
+  /// [-]: z of `up` from which z is upright. Source: 45 degrees.
+  static constexpr double kMaxUprightZ = 0.7;
+
   Eigen::Vector3d up_;
   std::optional<double> floor_;
   Eigen::Vector3d ahead_;
