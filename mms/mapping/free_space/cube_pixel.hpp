@@ -11,8 +11,8 @@
 
 namespace mms {
 
-/// One image for each side of a cube about a LiDAR: what is looked up by direction, whatever the
-/// sensor's mounting and pattern.
+/// One image for each side of a cube around a LiDAR: values by direction, for any mounting and scan
+/// pattern.
 template <class T>
 using CubeImage = std::array<Image<T>, 6>;
 
@@ -23,13 +23,13 @@ CubeImage<T> make_cube(int side) {
   return cube;
 }
 
-/// Whether a point at `range` [m] has a direction and a place.
+/// Whether a point at `range` [m] has a direction and a position.
 inline bool has_direction(float range) {
   return range > 0.0F && std::isfinite(range);
 }
 
-/// The pixel of a finite direction, in a cube of side x side pixels a face of 90 degrees; of no
-/// direction at all, any.
+/// The pixel of a finite direction, in a cube of side x side pixels a face of 90 degrees; any pixel
+/// for the zero vector.
 struct CubePixel {
   std::size_t face = 0;
   int x = 0;

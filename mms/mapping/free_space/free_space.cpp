@@ -6,7 +6,11 @@
 namespace mms {
 namespace {
 
-constexpr int kTile = 8;
+/// [px]: side of the tiles in which the farthest depth is kept. Source: a block of 16 cm has 23 px
+/// at 4 m and a focal length of 580 px, so that a few tiles decide on it.
+constexpr int kTileSize = 8;
+
+/// [m]: depth of points out of view. Source: no depth is negative.
 constexpr float kOutOfView = -1.0F;
 
 /// Depth of every pixel, 0 for none.
@@ -42,10 +46,11 @@ Image<float> nearest_of_neighbours(const Image<float>& depth) {
 }
 
 Image<float> farthest_of_tiles(const Image<float>& depth) {
-  Image<float> tiles((depth.width() + kTile - 1) / kTile, (depth.height() + kTile - 1) / kTile);
+  Image<float> tiles((depth.width() + kTileSize - 1) / kTileSize,
+                     (depth.height() + kTileSize - 1) / kTileSize);
   for (int y = 0; y < depth.height(); ++y) {
     for (int x = 0; x < depth.width(); ++x) {
-      float& tile = tiles(x / kTile, y / kTile);
+      float& tile = tiles(x / kTileSize, y / kTileSize);
       tile = std::max(tile, depth(x, y));
     }
   }
@@ -65,14 +70,15 @@ FreeSpace::FreeSpace(const LabeledCloud& cloud, double margin, const DepthNoise&
       farthest_(farthest_of_tiles(nearest_)) {}
 
 Eigen::Vector2f FreeSpace::pixel_of(const Eigen::Vector3f& point) const {
-  // Every voxel in view passes here.
+  // Called for every voxel in view.
   if (!distorted_) return focal_ * point.head<2>().array() / point.z() + center_;
   const Eigen::Vector3d p = point.cast<double>();
   if (!camera_.in_lens_range(p)) return Eigen::Vector2f::Constant(-1.0F);
   return camera_.project(p).cast<float>();
 }
 
-/// Of the surface measured in a point's direction, 0 where none was, kOutOfView beyond the image.
+/// Depth of the surface measured in a point's direction, 0 without one, kOutOfView beyond the
+/// image.
 float FreeSpace::depth_at(const Eigen::Vector3f& point) const {
   if (!(point.z() > 0.0F)) return kOutOfView;
   const Eigen::Vector2f pixel = pixel_of(point);
@@ -106,7 +112,7 @@ bool FreeSpace::may_see_into(const Eigen::Vector3f& center, float radius) const 
   if (pixel.x() + rx < 0.0 || pixel.x() - rx >= k.width) return false;
   if (pixel.y() + ry < 0.0 || pixel.y() - ry >= k.height) return false;
   const auto tile = [](double value, int count) {
-    return std::clamp(static_cast<int>(std::clamp(value, 0.0, 1e6)) / kTile, 0, count - 1);
+    return std::clamp(static_cast<int>(std::clamp(value, 0.0, 1e6)) / kTileSize, 0, count - 1);
   };
   const int x_end = tile(pixel.x() + rx, farthest_.width());
   const int y_end = tile(pixel.y() + ry, farthest_.height());

@@ -6,7 +6,9 @@
 namespace mms {
 namespace {
 
-constexpr int kSide = 90;  // pixels of a face of 90 degrees
+/// [px]: side of a face of 90 degrees. Source: one degree a pixel; with its eight neighbours it
+/// spans the 2 degrees between two rings of 16.
+constexpr int kFaceSize = 90;
 
 }  // namespace
 
@@ -17,20 +19,20 @@ void ScanFreeSpace::Span::extend(float low, float high) {
 }
 
 ScanFreeSpace::ScanFreeSpace(const LabeledCloud& cloud, double margin)
-    : faces_(make_cube<Span>(kSide)), margin_(static_cast<float>(margin)) {
-  CubeImage<Span> single = make_cube<Span>(kSide);
+    : faces_(make_cube<Span>(kFaceSize)), margin_(static_cast<float>(margin)) {
+  CubeImage<Span> single = make_cube<Span>(kFaceSize);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const float range = cloud.points[i].norm();
     if (cloud.labels[i] == PointLabel::kInvalid || !has_direction(range)) continue;
-    const CubePixel pixel(cloud.points[i], kSide);
+    const CubePixel pixel(cloud.points[i], kFaceSize);
     single[pixel.face](pixel.x, pixel.y).extend(range, range);
   }
   for (std::size_t face = 0; face < faces_.size(); ++face) {
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kFaceSize; ++y) {
+      for (int x = 0; x < kFaceSize; ++x) {
         Span& span = faces_[face](x, y);
-        for (int ny = std::max(0, y - 1); ny <= std::min(y + 1, kSide - 1); ++ny) {
-          for (int nx = std::max(0, x - 1); nx <= std::min(x + 1, kSide - 1); ++nx) {
+        for (int ny = std::max(0, y - 1); ny <= std::min(y + 1, kFaceSize - 1); ++ny) {
+          for (int nx = std::max(0, x - 1); nx <= std::min(x + 1, kFaceSize - 1); ++nx) {
             span.extend(single[face](nx, ny).nearest, single[face](nx, ny).farthest);
           }
         }
@@ -40,7 +42,7 @@ ScanFreeSpace::ScanFreeSpace(const LabeledCloud& cloud, double margin)
 }
 
 const ScanFreeSpace::Span& ScanFreeSpace::span_of(const Eigen::Vector3f& point) const {
-  const CubePixel pixel(point, kSide);
+  const CubePixel pixel(point, kFaceSize);
   return faces_[pixel.face](pixel.x, pixel.y);
 }
 

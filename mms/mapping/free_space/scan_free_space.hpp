@@ -7,19 +7,19 @@
 
 namespace mms {
 
-/// The space one LiDAR scan sees to be empty: in front of its points, static or dynamic alike. Its
-/// directions are the pixels, about a degree wide, of a cube about the sensor, so that any mounting
-/// and any pattern works. A direction is free as far as the nearest point in it and the eight
-/// around it, of which sparse scans leave some without any.
+/// The space that one LiDAR scan observes as free: in front of its points, static or dynamic. Its
+/// directions are the pixels, about a degree wide, of a cube around the sensor, for any mounting
+/// and scan pattern. A direction is free as far as the nearest point in it and its eight
+/// neighbours; in sparse scans some of them have no point.
 class ScanFreeSpace {
  public:
   /// @param margin  by which a point has to lie behind another, noise included [m]
   ScanFreeSpace(const LabeledCloud& cloud, double margin);
 
-  /// True where what was measured is clearly behind `point` (sensor frame [m]).
+  /// True where the measured surface is clearly behind `point` (sensor frame [m]).
   bool sees_through(const Eigen::Vector3f& point) const;
 
-  /// True where something was measured at `point` (sensor frame [m]), or nearer and farther.
+  /// True where points were measured at `point` (sensor frame [m]), or both nearer and farther.
   bool touches(const Eigen::Vector3f& point) const;
 
   /// True where nothing was measured in the direction of `point` (sensor frame [m]).

@@ -28,17 +28,17 @@ class CellBits {
   std::array<std::uint64_t, kWords> words_{};
 };
 
-/// What one keyframe saw of a block.
+/// Observations of a block by one keyframe.
 struct BlockMarks {
   OccupancyBlock* block = nullptr;
   CellBits hit;   ///< holds a static point
   CellBits free;  ///< a ray passed through
-  CellBits keep;  ///< holds a static point unfit for a hit: neither hit nor free
+  CellBits keep;  ///< holds a static point that makes no hit: neither hit nor free
   CellBits end;   ///< a ray to it has been followed
 };
 
-/// The blocks that one keyframe views into, each with its marks; so that a voxel counts once a
-/// keyframe, however many rays meet in it.
+/// The blocks that one keyframe observes, each with its marks, so that a voxel counts once a
+/// keyframe for any number of rays.
 class KeyframeMarks {
  public:
   explicit KeyframeMarks(OccupancyBlocks& blocks, std::uint32_t keyframe,

@@ -13,7 +13,7 @@ OccupancyBlock& OccupancyBlocks::at(const VoxelKey& key) {
 
 LogOdds OccupancyBlocks::log_odds(const VoxelKey& key) const {
   const auto entry = index_.find(BlockCells::block_of(key));
-  if (entry == index_.end()) return kNeverSeen;
+  if (entry == index_.end()) return kUnobserved;
   return blocks_[entry->second].log_odds[BlockCells::cell_of(key)];
 }
 
@@ -32,8 +32,9 @@ OccupancyBlocks OccupancyBlocks::coarsened() const {
 
 std::size_t OccupancyBlocks::memory_bytes() const {
   using Entry = std::pair<VoxelKey, std::uint32_t>;
-  constexpr std::size_t kBucket = sizeof(Entry) + 8;  // robin_map's distance and stored hash
-  return blocks_.size() * sizeof(OccupancyBlock) + index_.bucket_count() * kBucket;
+  // [-]: bytes of a bucket. Source: robin_map stores a distance and a hash of 4 bytes each.
+  constexpr std::size_t kBucketSize = sizeof(Entry) + 8;
+  return blocks_.size() * sizeof(OccupancyBlock) + index_.bucket_count() * kBucketSize;
 }
 
 }  // namespace mms

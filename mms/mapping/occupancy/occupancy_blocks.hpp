@@ -15,17 +15,21 @@ namespace mms {
 
 /// Log odds that a voxel is occupied, in steps of 1 / kLogOddsScale.
 using LogOdds = std::int8_t;
+
+/// [-]: steps of log odds. Source: the byte's range of +-127 covers probabilities to 0.998.
 constexpr float kLogOddsScale = 20.0F;
-constexpr LogOdds kNeverSeen = -128;
+
+/// [-]: value of voxels that were never observed. Source: the byte's value beyond -127.
+constexpr LogOdds kUnobserved = -128;
 
 inline Occupancy occupancy_of(LogOdds value) {
-  if (value == kNeverSeen) return Occupancy::kUnknown;
+  if (value == kUnobserved) return Occupancy::kUnknown;
   return value < 0 ? Occupancy::kFree : Occupancy::kOccupied;
 }
 
 /// A cube of voxels, stored densely, because most of what a sensor sees is empty space.
 struct OccupancyBlock {
-  explicit OccupancyBlock(const VoxelKey& at) : key(at) { log_odds.fill(kNeverSeen); }
+  explicit OccupancyBlock(const VoxelKey& at) : key(at) { log_odds.fill(kUnobserved); }
 
   VoxelKey key;  ///< in units of the block's side
   std::array<LogOdds, BlockCells::kCount> log_odds;

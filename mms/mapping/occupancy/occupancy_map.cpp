@@ -9,6 +9,24 @@
 namespace mms {
 namespace {
 
+/// [-]: voxels from the world's origin to the sensor. Source: keys are integers of 32 bits; 2^28
+/// leaves rays of 2^28 voxels more.
+constexpr double kMaxSensorVoxels = 1 << 28;
+
+/// [-]: rays a voxel has along a side at the largest depth. Source: two, so that none is missed.
+constexpr double kRaysPerVoxel = 2.0;
+
+/// [px]: largest step between rays. Source: a tenth of the width of 640 px.
+constexpr int kMaxStep = 64;
+
+/// [-]: standard deviations of depth by which rays end before their points. Source: contain 95 % of
+/// normal noise.
+constexpr float kClearanceSigmas = 2.0F;
+
+/// [-]: share of the memory budget used before voxels are coarsened. Source: the coarser copy is
+/// built beside the finer map and has about an eighth of its memory.
+constexpr double kMaxMemoryShare = 0.85;
+
 LogOdds log_odds_of(double probability) {
   return static_cast<LogOdds>(
       std::lround(kLogOddsScale * std::log(probability / (1.0 - probability))));
@@ -19,7 +37,7 @@ void add(std::uint64_t bits, std::size_t word, int step, LogOdds least, LogOdds 
          OccupancyBlock& block) {
   for (; bits != 0; bits &= bits - 1) {
     LogOdds& value = block.log_odds[64 * word + static_cast<std::size_t>(std::countr_zero(bits))];
-    const int before = value == kNeverSeen ? 0 : value;
+    const int before = value == kUnobserved ? 0 : value;
     value = static_cast<LogOdds>(std::clamp<int>(before + step, least, most));
   }
 }
@@ -32,8 +50,7 @@ OccupancyMap::OccupancyMap(const OccupancyConfig& config, const SurfaceConfig& s
 void OccupancyMap::integrate(const LabeledCloud& cloud,
                              const Transform<World, Sensor>& T_world_sensor) {
   if (!config_.enabled || !T_world_sensor.is_finite()) return;
-  constexpr double kFarthest = 1 << 28;  // [voxels]
-  if (T_world_sensor.translation().cwiseAbs().maxCoeff() > kFarthest * voxel_size()) return;
+  if (T_world_sensor.translation().cwiseAbs().maxCoeff() > kMaxSensorVoxels * voxel_size()) return;
   const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
   const int step = step_of(cloud);
   KeyframeMarks marks(blocks_, ++keyframes_, marks_);
@@ -43,11 +60,12 @@ void OccupancyMap::integrate(const LabeledCloud& cloud,
   keep_to_budget();
 }
 
-/// At the farthest depth a voxel still has two pixels a side.
+/// Step between the rows and columns that are used: `kRaysPerVoxel` at the largest depth.
 int OccupancyMap::step_of(const LabeledCloud& cloud) const {
   if (!cloud.organised()) return 1;
   const double pixels = cloud.camera.fx * voxel_size() / surface_.max_depth;
-  return std::clamp(static_cast<int>(0.5 * std::min(pixels, 1e3)), 1, 64);
+  return std::clamp(static_cast<int>(std::min(pixels / kRaysPerVoxel, 1.0 * kMaxStep)), 1,
+                    kMaxStep);
 }
 
 void OccupancyMap::mark_hits(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor,
@@ -62,17 +80,17 @@ void OccupancyMap::mark_hits(const LabeledCloud& cloud, const Eigen::Isometry3f&
   }
 }
 
-/// The point, or the farthest place before it that is within range.
+/// The point, or the last one within range on the ray to it.
 Eigen::Vector3f OccupancyMap::reach(const Eigen::Vector3f& point, bool is_depth) const {
   float share = std::min(1.0F, static_cast<float>(config_.max_range) / point.norm());
   if (is_depth) share = std::min(share, static_cast<float>(surface_.max_depth) / point.z());
   return share * point;
 }
 
-/// How far before a point a ray ends [m].
+/// Distance before a point at which its ray ends [m].
 float OccupancyMap::clearance(const Eigen::Vector3f& point, bool is_depth) const {
   const auto half_voxel = static_cast<float>(0.5 * voxel_size());
-  return is_depth ? half_voxel + 2.0F * surface_.noise.sigma(point.z()) : half_voxel;
+  return is_depth ? half_voxel + kClearanceSigmas * surface_.noise.sigma(point.z()) : half_voxel;
 }
 
 void OccupancyMap::mark_rays(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor,
@@ -122,8 +140,7 @@ void OccupancyMap::apply() {
 }
 
 void OccupancyMap::keep_to_budget() {
-  // The coarser copy is built beside the finer map and takes about an eighth of its memory.
-  const double limit = 0.85 * config_.memory * 1e6;
+  const double limit = kMaxMemoryShare * config_.memory * 1e6;
   while (static_cast<double>(blocks_.memory_bytes()) > limit && blocks_.all().size() > 1) {
     blocks_ = blocks_.coarsened();
     marks_.clear();

@@ -13,15 +13,15 @@ namespace mms {
 
 /// Free, occupied and unknown space in voxels of the world frame, as OctoMap keeps it (Hornung et
 /// al., 2013): clamped log odds, a keyframe's hits at its static points, misses along the rays
-/// before its points. Rays to people and vehicles free what lies before them and hit nothing, so
-/// that who walks through a room leaves no obstacle.
+/// to its points. Rays to people and vehicles free the space before them and hit nothing, so that a
+/// person who walks through a room leaves no obstacle.
 ///
 /// A voxel that a keyframe hits is not freed by the same keyframe, and rays end short of their
-/// points, so that rays that graze a wall do not eat it. One ray a voxel is followed: what a
-/// keyframe costs depends on what it sees, not on how long the run has been.
+/// points, so that rays at grazing angles do not free a wall. One ray a voxel is followed: the cost
+/// of a keyframe depends on its view, not on the length of the run.
 class OccupancyMap {
  public:
-  /// @param surface  which of a depth image's points are fit for hits, and the noise of all
+  /// @param surface  selects the points of a depth image that make hits; the noise of all points
   explicit OccupancyMap(const OccupancyConfig& config = {}, const SurfaceConfig& surface = {});
 
   /// Adds a keyframe. A pose that is not finite, or too far for voxels to be numbered, changes
