@@ -20,7 +20,7 @@ class FrameViewpoints {
   /// @param frame  number of a frame that was not pruned
   const Eigen::Vector3f& at(std::uint32_t frame) const;
 
-  /// Whether so many were added since the last pruning that another one is worth its time.
+  /// Whether the entries have doubled since the last pruning.
   bool wants_pruning() const { return entries_.size() >= limit_; }
 
   /// Removes the viewpoints that are not needed.
@@ -35,7 +35,8 @@ class FrameViewpoints {
     Eigen::Vector3f viewpoint;
   };
 
-  static constexpr std::size_t kFirstLimit = 4096;  ///< [frames], two minutes at 30 Hz, 64 KiB
+  /// [-]: entries before the first pruning. Source: 64 KiB of memory.
+  static constexpr std::size_t kFirstLimit = 4096;
 
   std::vector<Entry> entries_;  // by frame
   std::uint32_t last_ = 0;

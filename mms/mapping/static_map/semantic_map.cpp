@@ -7,11 +7,17 @@
 namespace mms {
 namespace {
 
-/// Nobody knows the way of an object that was unseen for longer [s].
-constexpr double kLongestGap = 0.5;
+/// [s]: longest time unseen across which a trajectory is drawn. Source: the `max_coast_output` of
+/// `DynamicMapConfig`, for which an unseen object is reported.
+constexpr double kMaxGap = 0.5;
 
+/// [-]: R G B of people. Source: the paper's figure of the final map.
 constexpr Rgb kRed = {230, 30, 30};
+
+/// [-]: R G B of vehicles. Source: the paper's figure.
 constexpr Rgb kGreen = {30, 190, 60};
+
+/// [-]: R G B of unknown objects. Source: distinct from the two others.
 constexpr Rgb kAmber = {240, 170, 30};
 
 Rgb color_of(ObjectClass object_class) {
@@ -19,7 +25,7 @@ Rgb color_of(ObjectClass object_class) {
   return kColors[static_cast<int>(object_class)];
 }
 
-struct Seen {
+struct Observation {
   Timestamp stamp;
   const ObjectBox* box = nullptr;
 };
@@ -65,8 +71,8 @@ class Pen {
   double spacing_;
 };
 
-/// Middle of the underside: ways are drawn on the floor.
-Eigen::Vector3d foot(const ObjectBox& object) {
+/// Center of the box's underside: trajectories are drawn on the floor.
+Eigen::Vector3d base_of(const ObjectBox& object) {
   return object.T_world_box * Eigen::Vector3d(0.0, 0.0, -0.5 * object.size.z());
 }
 
@@ -74,13 +80,13 @@ Eigen::Vector3d foot(const ObjectBox& object) {
 
 MapCloud semantic_map(MapCloud map, const ObjectHistory& history, double spacing) {
   Pen pen(map, spacing);
-  std::map<int, Seen> last;
+  std::map<int, Observation> last;
   for (const ObjectFrame& frame : history) {
     for (const ObjectBox& object : frame.objects) {
-      const auto [known, is_new] = last.try_emplace(object.id, Seen{frame.stamp, &object});
-      const Seen& before = known->second;
-      if (!is_new && to_seconds(frame.stamp - before.stamp) <= kLongestGap) {
-        pen.line(foot(*before.box), foot(object), color_of(object.object_class));
+      const auto [known, is_new] = last.try_emplace(object.id, Observation{frame.stamp, &object});
+      const Observation& before = known->second;
+      if (!is_new && to_seconds(frame.stamp - before.stamp) <= kMaxGap) {
+        pen.line(base_of(*before.box), base_of(object), color_of(object.object_class));
       }
       known->second = {frame.stamp, &object};
     }

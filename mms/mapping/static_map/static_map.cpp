@@ -12,6 +12,18 @@
 namespace mms {
 namespace {
 
+/// [-]: voxels looked up together, so that their memory loads overlap. Source: halved the time of
+/// inserting into a map of more than the cache.
+constexpr std::size_t kBatchSize = 32;
+
+/// [-]: share of a block's side that is the depth noise up to which views are counted. Source: with
+/// more noise a surface falls into different blocks from view to view.
+constexpr double kMaxNoiseShare = 0.5;
+
+/// [-]: share of the memory budget used before voxels are coarsened. Source: the coarser copy is
+/// built beside the finer map and has about a third of its memory.
+constexpr double kMaxMemoryShare = 0.75;
+
 void increment(std::uint16_t& counter) {
   if (counter < std::numeric_limits<std::uint16_t>::max()) ++counter;
 }
@@ -80,17 +92,15 @@ void StaticMap::prune_viewpoints() {
 
 void StaticMap::insert(const std::vector<SurfacePoint>& points,
                        const Eigen::Isometry3f& T_world_sensor) {
-  // From farther off a surface falls now into one block, now into the next: no views to count.
   const float sharp = std::min(
-      1.0F, noise_weight(static_cast<float>(0.5 * grid_.block_size()), config_.surface.noise));
+      1.0F,
+      noise_weight(static_cast<float>(kMaxNoiseShare * grid_.block_size()), config_.surface.noise));
   const auto is_first_view = [&](std::uint32_t& frame) {
     return std::exchange(frame, last_frame()) <= last_view_;
   };
-  // A large map lies in main memory: half the time went into waiting for one voxel after the other.
-  constexpr std::size_t kBatch = 32;
-  std::array<VoxelGrid::Place, kBatch> places;
-  for (std::size_t begin = 0; begin < points.size(); begin += kBatch) {
-    const std::size_t size = std::min(kBatch, points.size() - begin);
+  std::array<VoxelGrid::Place, kBatchSize> places;
+  for (std::size_t begin = 0; begin < points.size(); begin += kBatchSize) {
+    const std::size_t size = std::min(kBatchSize, points.size() - begin);
     for (std::size_t i = 0; i < size; ++i) {
       places[i] = grid_.place(Eigen::Vector3f(T_world_sensor * points[begin + i].point));
       __builtin_prefetch(&places[i].voxel());
@@ -143,8 +153,7 @@ std::size_t StaticMap::carve(const Space& free_space, double views_per_hit,
 }
 
 bool StaticMap::keep_to_budget() {
-  // The coarser copy is built beside the finer map and takes about a third of its memory.
-  const double limit = 0.75 * config_.memory * 1e6;
+  const double limit = kMaxMemoryShare * config_.memory * 1e6;
   bool coarsened = false;
   while (static_cast<double>(grid_.memory_bytes()) > limit && grid_.blocks().size() > 1) {
     grid_ = grid_.coarsened();

@@ -9,14 +9,17 @@
 namespace mms {
 namespace {
 
+/// [-]: steps of a position within its voxel. Source: one byte; 0.08 mm in a voxel of 2 cm.
 constexpr float kOffsetSteps = 256.0F;
+
+/// [-]: steps of a normal's coordinate. Source: one signed byte; about half a degree.
 constexpr float kNormalSteps = 127.0F;
 
 Eigen::Vector3f corner_of(const VoxelKey& key, double voxel_size) {
   return (Eigen::Vector3d(key.x, key.y, key.z) * voxel_size).cast<float>();
 }
 
-VoxelChange told(const VoxelBlock& block, const Voxel& voxel, double voxel_size) {
+VoxelChange change_of(const VoxelBlock& block, const Voxel& voxel, double voxel_size) {
   VoxelChange change{voxel.cell, voxel.hits, {}, {}, to_rgb(voxel.color)};
   const Eigen::Vector3f offset = (voxel.position - corner_of(block.voxel_key(voxel), voxel_size)) *
                                  (kOffsetSteps / static_cast<float>(voxel_size));
@@ -31,7 +34,7 @@ VoxelChange told(const VoxelBlock& block, const Voxel& voxel, double voxel_size)
   return change;
 }
 
-void take_over(const VoxelChange& change, const VoxelKey& key, double voxel_size, Voxel& voxel) {
+void apply_change(const VoxelChange& change, const VoxelKey& key, double voxel_size, Voxel& voxel) {
   voxel.hits = change.hits;
   voxel.color = Eigen::Vector3f(change.color.r, change.color.g, change.color.b);
   voxel.position = corner_of(key, voxel_size);
@@ -43,9 +46,9 @@ void take_over(const VoxelChange& change, const VoxelKey& key, double voxel_size
   }
 }
 
-/// A mean of n points moves little with the next one, so it is told again when n has doubled; and
-/// when the voxel begins to be shown.
-bool is_news(const Voxel& voxel, int min_observations) {
+/// A mean of n views changes little with the next one, so it is reported again when n has doubled,
+/// and when the voxel begins to be shown.
+bool is_due(const Voxel& voxel, int min_observations) {
   return std::has_single_bit(voxel.hits) || voxel.hits == min_observations;
 }
 
@@ -69,9 +72,10 @@ MapChanges StaticMap::changes() const {
     if (!coarsened_ && block.last_frame <= previous_view_) continue;
     BlockChange change{block.key, block.views, {}};
     for (const Voxel& voxel : block.voxels) {
-      const bool news =
-          voxel.last_frame > previous_view_ && is_news(voxel, config_.min_observations);
-      if (coarsened_ || news) change.voxels.push_back(told(block, voxel, grid_.voxel_size()));
+      const bool is_reported =
+          voxel.last_frame > previous_view_ && is_due(voxel, config_.min_observations);
+      if (coarsened_ || is_reported)
+        change.voxels.push_back(change_of(block, voxel, grid_.voxel_size()));
     }
     // Further views show the same voxels as those before.
     const auto needed = static_cast<std::size_t>(config_.min_observations);
@@ -92,7 +96,7 @@ void StaticMap::apply(const MapChanges& changes) {
       check(voxel_change);
       const VoxelKey key = BlockCells::voxel_of(change.key, voxel_change.cell);
       Voxel& voxel = grid_.place(key).voxel();
-      take_over(voxel_change, key, grid_.voxel_size(), voxel);
+      apply_change(voxel_change, key, grid_.voxel_size(), voxel);
       voxel.last_frame = last_view_;
     }
     if (VoxelBlock* block = grid_.find_block(change.key)) block->views = change.views;

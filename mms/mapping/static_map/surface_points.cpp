@@ -9,8 +9,20 @@
 namespace mms {
 namespace {
 
-/// The organised cloud as an image of inverse depth, which is linear on any plane, so that its
-/// second difference finds jumps without taking a floor at a grazing angle for one.
+/// [-]: depth noise that a second difference may have. Source: three standard deviations of it,
+/// 3 sqrt(1 + 2^2 + 1) of those of a depth.
+constexpr float kSecondDifferenceSigmas = 7.3F;
+
+/// [px]: step of the central differences of a normal. Source: noise then turns it by about ten
+/// degrees at 2 m.
+constexpr int kNormalStep = 3;
+
+/// [m^2]: least length of a normal before it is normalised. Source: far below the square of any
+/// distance between pixels.
+constexpr float kMinNormalLength = 1e-12F;
+
+/// The organised cloud as an image of inverse depth, which is linear on any plane: its second
+/// difference detects jumps, but not a floor at a grazing angle.
 class Grid {
  public:
   Grid(const LabeledCloud& cloud, const SurfaceConfig& config)
@@ -23,13 +35,13 @@ class Grid {
 
   /// Largest difference of inverse depth at depth `z` that noise and `max_jump` explain.
   float tolerance(float z) const {
-    // 3 sigma of the second difference, whose variance is 1 + 1 + 2^2 of a depth's.
-    return (static_cast<float>(config_.max_jump) + 7.3F * config_.noise.sigma(z)) / (z * z);
+    const float noise = kSecondDifferenceSigmas * config_.noise.sigma(z);
+    return (static_cast<float>(config_.max_jump) + noise) / (z * z);
   }
 
-  /// Whether the pixel lies inside a surface: it has neighbours with depths on every side, and no
-  /// jump goes through it or those beside it. On the boundaries of things depth and colour wobble
-  /// by a pixel. Far away single dropouts are many, but seldom make a whole side.
+  /// Whether the pixel lies inside a surface: it has neighbours with depths on every side, and
+  /// there is no jump at it or beside it. At the boundaries of objects depth and colour are off by
+  /// a pixel. Far away single dropouts are frequent, but rarely cover a whole side.
   bool inside_surface(int x, int y, float tolerance) const {
     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       if (is_side_missing(x, y, dx, dy)) return false;
@@ -43,16 +55,16 @@ class Grid {
 
   /// Normal from central differences; zero where a neighbour is missing or across a jump.
   Eigen::Vector3f normal(int x, int y, float tolerance) const {
-    constexpr int kStep = 3;  // wide enough that noise turns it by about ten degrees at 2 m
-    const bool whole = inverse(x - kStep, y) > 0.0F && inverse(x + kStep, y) > 0.0F &&
-                       inverse(x, y - kStep) > 0.0F && inverse(x, y + kStep) > 0.0F &&
-                       smooth(x, y, kStep, 0, tolerance) && smooth(x, y, 0, kStep, tolerance);
+    const bool whole = inverse(x - kNormalStep, y) > 0.0F && inverse(x + kNormalStep, y) > 0.0F &&
+                       inverse(x, y - kNormalStep) > 0.0F && inverse(x, y + kNormalStep) > 0.0F &&
+                       smooth(x, y, kNormalStep, 0, tolerance) &&
+                       smooth(x, y, 0, kNormalStep, tolerance);
     if (!whole) return Eigen::Vector3f::Zero();
-    const Eigen::Vector3f along_x = point(x + kStep, y) - point(x - kStep, y);
-    const Eigen::Vector3f along_y = point(x, y + kStep) - point(x, y - kStep);
+    const Eigen::Vector3f along_x = point(x + kNormalStep, y) - point(x - kNormalStep, y);
+    const Eigen::Vector3f along_y = point(x, y + kNormalStep) - point(x, y - kNormalStep);
     const Eigen::Vector3f normal = along_y.cross(along_x);  // towards the camera
     const float length = normal.norm();
-    return length > 1e-12F ? Eigen::Vector3f(normal / length) : Eigen::Vector3f::Zero();
+    return length > kMinNormalLength ? Eigen::Vector3f(normal / length) : Eigen::Vector3f::Zero();
   }
 
  private:
@@ -71,7 +83,7 @@ class Grid {
 
   float inverse(int x, int y) const { return inverse_.contains(x, y) ? inverse_(x, y) : 0.0F; }
 
-  /// No jump at (x, y) along one axis. Beside a hole only the first difference is left.
+  /// No jump at (x, y) along one axis. Beside a hole only the first difference is available.
   bool smooth(int x, int y, int dx, int dy, float tolerance) const {
     const float here = inverse_(x, y);
     const float before = inverse(x - dx, y - dy);
@@ -86,8 +98,8 @@ class Grid {
   Image<float> inverse_;  // [1/m], 0 for no return
 };
 
-/// Sets what lies within `radius` pixels of what is set, along a row or a column.
-void grow(const std::uint8_t* from, std::size_t step, int count, int radius, std::uint8_t* to) {
+/// Dilates a row or column by `radius` pixels.
+void dilate(const std::uint8_t* from, std::size_t step, int count, int radius, std::uint8_t* to) {
   for (int i = 0, next = 0; i < count; ++i) {
     if (from[static_cast<std::size_t>(i) * step] == 0) continue;
     next = std::max(next, i - radius);
@@ -97,21 +109,21 @@ void grow(const std::uint8_t* from, std::size_t step, int count, int radius, std
   }
 }
 
-/// Non-zero where something dynamic is within `radius` pixels; empty where nothing is dynamic.
+/// Non-zero within `radius` pixels of a dynamic pixel; empty where nothing is dynamic.
 Image<std::uint8_t> near_dynamic(const Image<std::uint8_t>& dynamic, int radius) {
   const auto& pixels = dynamic.pixels();
   const bool any = std::any_of(pixels.begin(), pixels.end(), [](auto p) { return p != 0; });
   if (!any || radius == 0) return any ? dynamic : Image<std::uint8_t>();
   Image<std::uint8_t> rows(dynamic.width(), dynamic.height());
   for (int y = 0; y < dynamic.height(); ++y) {
-    grow(dynamic.row(y), 1, dynamic.width(), radius, rows.row(y));
+    dilate(dynamic.row(y), 1, dynamic.width(), radius, rows.row(y));
   }
-  Image<std::uint8_t> grown(dynamic.width(), dynamic.height());
+  Image<std::uint8_t> dilated(dynamic.width(), dynamic.height());
   const auto width = static_cast<std::size_t>(dynamic.width());
   for (int x = 0; x < dynamic.width(); ++x) {
-    grow(rows.row(0) + x, width, dynamic.height(), radius, grown.row(0) + x);
+    dilate(rows.row(0) + x, width, dynamic.height(), radius, dilated.row(0) + x);
   }
-  return grown;
+  return dilated;
 }
 
 Rgb color_of(const LabeledCloud& cloud, std::size_t i) {

@@ -85,9 +85,10 @@ VoxelGrid VoxelGrid::coarsened() const {
 
 std::size_t VoxelGrid::memory_bytes() const {
   using Entry = std::pair<VoxelKey, std::uint32_t>;
-  constexpr std::size_t kBucket = sizeof(Entry) + 8;  // robin_map's distance and stored hash
+  // [-]: bytes of a bucket. Source: robin_map stores a distance and a hash of 4 bytes each.
+  constexpr std::size_t kBucketSize = sizeof(Entry) + 8;
   return blocks_.size() * sizeof(VoxelBlock) + capacity_ * sizeof(Voxel) +
-         index_.bucket_count() * kBucket;
+         index_.bucket_count() * kBucketSize;
 }
 
 }  // namespace mms

@@ -15,21 +15,24 @@
 
 namespace mms {
 
-/// What the static map knows of one voxel; means are weighted by 1 / variance of the points.
+/// A voxel of the static map; means are weighted by 1 / variance of the points.
 struct Voxel {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< mean, world frame [m]
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();    ///< mean, not normalised; zero if unknown
   Eigen::Vector3f color = Eigen::Vector3f::Zero();     ///< mean red, green, blue in [0, 255]
   float weight = 0.0F;                                 ///< sum of the points' weights
-  std::uint32_t last_frame = 0;                        ///< number of the last one that measured it
-  std::uint16_t hits = 0;                              ///< views that measured it (`StaticMap`)
-  std::uint16_t seen_through = 0;                      ///< keyframes that measured behind it
-  std::uint16_t cell = 0;                              ///< place in its block
+  std::uint32_t last_frame = 0;    ///< number of the last frame that measured it
+  std::uint16_t hits = 0;          ///< views that measured it (`StaticMap`)
+  std::uint16_t seen_through = 0;  ///< keyframes that measured behind it
+  std::uint16_t cell = 0;          ///< place in its block
 };
 
-/// Whether the means of a voxel's normals did not cancel each other out.
+/// [-]: least length of a mean normal. Source: above the rounding of means of unit vectors.
+constexpr float kMinMeanNormal = 1e-3F;
+
+/// Whether a voxel has normals that do not cancel out.
 inline bool has_normal(const Voxel& voxel) {
-  return voxel.normal.norm() > 1e-3F;
+  return voxel.normal.norm() > kMinMeanNormal;
 }
 
 inline Rgb to_rgb(const Eigen::Vector3f& color) {
@@ -42,8 +45,8 @@ struct VoxelBlock {
   VoxelKey key;                                          ///< in units of the block's side
   std::array<std::uint16_t, BlockCells::kCount> slot{};  ///< 1 + index into `voxels`, 0 for none
   std::vector<Voxel> voxels;
-  std::uint32_t last_frame = 0;  ///< number of the last one that measured in it
-  std::uint16_t views = 0;       ///< views that measured in it, near enough to tell
+  std::uint32_t last_frame = 0;  ///< number of the last frame that measured in it
+  std::uint16_t views = 0;       ///< views that measured in it with little noise
 
   /// In units of the voxel's side.
   VoxelKey voxel_key(const Voxel& voxel) const { return BlockCells::voxel_of(key, voxel.cell); }
@@ -56,7 +59,7 @@ class VoxelGrid {
   /// @param voxel_size  side of a voxel [m]
   explicit VoxelGrid(double voxel_size);
 
-  /// Where a voxel is; valid until voxels are erased.
+  /// Reference to a voxel; valid until voxels are erased.
   struct Place {
     VoxelBlock* block = nullptr;
     std::size_t index = 0;
@@ -64,11 +67,11 @@ class VoxelGrid {
     Voxel& voxel() const { return block->voxels[index]; }
   };
 
-  /// The voxel that holds `point` (world frame [m]), made where there is none.
+  /// The voxel that holds `point` (world frame [m]), created where there is none.
   Place place(const Eigen::Vector3f& point) { return place(voxel_key(point, inverse_size_)); }
   Place place(const VoxelKey& key);
 
-  /// The same; the reference is valid until the next voxel is made.
+  /// The same; the reference is valid until the next voxel is created.
   Voxel& at(const Eigen::Vector3f& point) { return place(point).voxel(); }
 
   /// The voxel at `key`, or null.

@@ -1,53 +1,48 @@
 #include "mms/mapping/static_map/voxel_normals.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "mms/geometry/principal_axes.hpp"
 
 namespace mms {
 namespace {
 
-/// Sums for the covariance of the means around a voxel, relative to its own.
-struct Spread {
-  int count = 0;
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
+/// [-]: neighbours of a plane. Source: one more than three points, which always have a plane.
+constexpr int kMinNeighbors = 4;
 
-  void add(const Eigen::Vector3f& offset) {
-    ++count;
-    sum += offset;
-    squares += offset * offset.transpose();
-  }
-  Eigen::Matrix3f covariance() const {
-    const auto n = static_cast<float>(count);
-    return squares / n - (sum / n) * (sum / n).transpose();
-  }
-};
+/// [-]: least middle variance, relative to the largest. Source: below it the points are a line, as
+/// one LiDAR ring leaves it.
+constexpr float kMinMiddleVariance = 0.05F;
 
-Spread neighbourhood(const VoxelGrid& grid, const VoxelKey& center, const Voxel& voxel) {
-  Spread spread;
+/// [-]: largest variance across the plane, relative to the middle one. Source: above it the points
+/// are as thick as wide.
+constexpr float kMaxThickness = 0.5F;
+
+/// Sums over the means around a voxel, relative to its own.
+PointSums<float, 3> neighbourhood(const VoxelGrid& grid, const VoxelKey& center,
+                                  const Voxel& voxel) {
+  PointSums<float, 3> offsets;
   for (int z = -1; z <= 1; ++z) {
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) {
         const Voxel* other = grid.find({center.x + x, center.y + y, center.z + z});
-        if (other != nullptr) spread.add(other->position - voxel.position);
+        if (other != nullptr) offsets.add(other->position - voxel.position);
       }
     }
   }
-  return spread;
+  return offsets;
 }
 
 }  // namespace
 
 Eigen::Vector3f neighbourhood_normal(const VoxelGrid& grid, const VoxelBlock& block,
                                      const Voxel& voxel, const Eigen::Vector3f& viewpoint) {
-  const Spread spread = neighbourhood(grid, block.voxel_key(voxel), voxel);
-  if (spread.count < 4) return Eigen::Vector3f::Zero();
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
-  solver.computeDirect(spread.covariance());
-  const Eigen::Vector3f values = solver.eigenvalues();
-  // A line of points, as one LiDAR ring leaves it, has no normal; nor has a blob.
-  if (values(1) < 0.05F * values(2) || values(0) > 0.5F * values(1)) return Eigen::Vector3f::Zero();
-  const Eigen::Vector3f normal = solver.eigenvectors().col(0);
-  return normal.dot(viewpoint - voxel.position) < 0.0F ? Eigen::Vector3f(-normal) : normal;
+  const PointSums<float, 3> offsets = neighbourhood(grid, block.voxel_key(voxel), voxel);
+  if (offsets.count() < kMinNeighbors) return Eigen::Vector3f::Zero();
+  const auto axes = principal_axes(offsets.covariance(), EigenMethod::kClosedForm);
+  const Eigen::Vector3f& values = axes.variances;
+  const bool is_line = values(1) < kMinMiddleVariance * values(2);
+  if (is_line || values(0) > kMaxThickness * values(1)) return Eigen::Vector3f::Zero();
+  const Eigen::Vector3f to_viewpoint = viewpoint - voxel.position;
+  return oriented(axes.smallest(), to_viewpoint);
 }
 
 }  // namespace mms
