@@ -7,7 +7,10 @@ namespace {
 
 using testing::constant_faults;
 
-constexpr const char* kCheckedFolders[] = {"mms/localization", "mms/fusion"};
+constexpr const char* kCheckedFolders[] = {"mms/localization",       "mms/fusion",
+                                           "mms/mapping/free_space", "mms/mapping/ground",
+                                           "mms/mapping/occupancy",  "mms/mapping/static_map",
+                                           "mms/mapping/tracking"};
 
 std::vector<std::string> faults_of(const std::string& source) {
   return constant_faults("a.cpp", source);
