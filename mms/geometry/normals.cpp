@@ -1,32 +1,27 @@
 #include "mms/geometry/normals.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
 
+#include "mms/geometry/principal_axes.hpp"
 #include "mms/geometry/voxels/cell_chains.hpp"
 
 namespace mms {
 namespace {
 
 constexpr int kMinNeighbours = 6;
-/// Largest ratio of the smallest to the middle variance of a flat neighbourhood.
+/// Largest ratio of the smallest to the second largest variance of a flat neighborhood.
 constexpr float kMaxFlatRatio = 0.2F;
 
-/// Normal of the surface through `points`; zero where they are few or not flat.
+/// Normal of the surface through `points`; zero if they are too few or not flat.
 Eigen::Vector3f flat_normal(const std::vector<Eigen::Vector3f>& points) {
   if (points.size() < kMinNeighbours) return Eigen::Vector3f::Zero();
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-  for (const auto& p : points) mean += p;
-  mean /= static_cast<float>(points.size());
-  Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
-  for (const auto& p : points) covariance += (p - mean) * (p - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(covariance);
-  const Eigen::Vector3f variances = solver.eigenvalues();
-  if (!(variances[0] <= kMaxFlatRatio * variances[1])) return Eigen::Vector3f::Zero();
-  const Eigen::Vector3f normal = solver.eigenvectors().col(0);
-  return normal.dot(mean) > 0.0F ? Eigen::Vector3f(-normal) : normal;
+  const auto scatter = scatter_of(points);
+  const auto axes = principal_axes(scatter.matrix);
+  if (!(axes.variances[0] <= kMaxFlatRatio * axes.variances[1])) return Eigen::Vector3f::Zero();
+  const Eigen::Vector3f to_origin = -scatter.mean;
+  return oriented(axes.smallest(), to_origin);
 }
 
 }  // namespace
@@ -36,7 +31,7 @@ std::vector<SurfacePatch> grid_patches(std::span<const Eigen::Vector3f> points, 
   std::vector<SurfacePatch> patches(points.size());
   const int height = width > 0 ? static_cast<int>(points.size()) / width : 0;
   const auto at = [&](int x, int y) { return points[static_cast<std::size_t>(y * width + x)]; };
-  // Inverse depth is linear on any plane, however grazing; NaN joins nothing.
+  // Inverse depth is linear on a plane at any incidence; NaN is connected to nothing.
   const auto is_joined = [&](float before, float z, float after) {
     return std::abs(2.0F / z - 1.0F / before - 1.0F / after) * z * z <= max_edge;
   };

@@ -1,40 +1,34 @@
 #include "mms/geometry/plane_segmentation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 
+#include "mms/geometry/principal_axes.hpp"
+
 namespace mms {
 namespace {
 
-/// A hypothesis is fitted to the samples around its seed [m] that lie within their tolerance plus
-/// this slope times the distance from the seed, because the seed's own normal is noisy.
+/// A hypothesis is fitted to the samples within this radius of its seed [m] and within their
+/// tolerance plus this slope times the distance, because the seed's normal is noisy.
 constexpr float kSeedRadius = 0.6F;
 constexpr float kSeedSlope = 0.15F;
 constexpr int kRefinements = 2;
 
-/// Cosine of the largest angle (0.12 rad) between a plane and the mean of its samples' normals: a
-/// plane laid through steps or clutter leans against all the surfaces it cuts.
+/// Cosine of the largest angle (0.12 rad) between a plane and the mean normal of its samples: a
+/// plane through steps or clutter is oblique to the surfaces it crosses.
 constexpr float kMinCosine = 0.9928F;
 
 /// Area-weighted moments of a plane's samples.
 struct Moments {
-  double area = 0.0;
-  int count = 0;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  PointSums<double, 3> points;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 
   void add(const PlaneSample& sample) {
-    const Eigen::Vector3d p = sample.point.cast<double>();
-    const double w = sample.area;
-    area += w;
-    ++count;
-    first += w * p;
-    second += w * p * p.transpose();
-    normal += w * sample.normal.cast<double>();
+    const double area = sample.area;
+    points.add(sample.point.cast<double>(), area);
+    normal += area * sample.normal.cast<double>();
   }
 };
 
@@ -42,22 +36,21 @@ struct Fit {
   Plane plane;
   float area = 0.0F;    ///< [m^2]
   float extent = 0.0F;  ///< shorter side of the rectangle with the same second moments [m]
-  float cosine = 0.0F;  ///< between the plane's normal and the mean of its samples'
+  float cosine = 0.0F;  ///< cosine between the plane's normal and the mean normal of its samples
   int count = 0;
 };
 
 std::optional<Fit> fit_plane(const Moments& moments) {
-  if (moments.count < 3 || !(moments.area > 0.0)) return std::nullopt;
-  const Eigen::Vector3d mean = moments.first / moments.area;
-  const Eigen::Matrix3d covariance = moments.second / moments.area - mean * mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  const PointSums<double, 3>& points = moments.points;
+  if (points.count() < 3 || !(points.weight() > 0.0)) return std::nullopt;
+  const auto axes = principal_axes(points.covariance());
+  const Eigen::Vector3d normal = axes.smallest();
   Fit fit;
-  fit.plane = {normal.cast<float>(), static_cast<float>(-normal.dot(mean))};
-  fit.area = static_cast<float>(moments.area);
-  fit.extent = static_cast<float>(std::sqrt(12.0 * std::max(0.0, solver.eigenvalues()(1))));
+  fit.plane = {normal.cast<float>(), static_cast<float>(-normal.dot(points.mean()))};
+  fit.area = static_cast<float>(points.weight());
+  fit.extent = static_cast<float>(std::sqrt(12.0 * std::max(0.0, axes.variances(1))));
   fit.cosine = static_cast<float>(std::abs(normal.dot(moments.normal.normalized())));
-  fit.count = moments.count;
+  fit.count = points.count();
   return fit;
 }
 
@@ -69,10 +62,10 @@ bool agrees(const PlaneSample& sample, const Plane& plane, float min_cosine, flo
 struct Hypothesis {
   PlaneSample seed;
   Plane plane;
-  float area = 0.0F;  ///< of the samples on it [m^2]
+  float area = 0.0F;  ///< total of the samples on it [m^2]
 };
 
-/// Plane of the surface around `seed`.
+/// Plane fitted around `seed`.
 std::optional<Plane> local_plane(const std::vector<PlaneSample>& samples, const PlaneSample& seed,
                                  float min_cosine) {
   const Plane tangent{seed.normal, -seed.normal.dot(seed.point)};
@@ -87,7 +80,7 @@ std::optional<Plane> local_plane(const std::vector<PlaneSample>& samples, const 
   return fit ? std::optional<Plane>(fit->plane) : std::nullopt;
 }
 
-/// Planes around evenly drawn samples, those with the largest area first.
+/// Planes around evenly spaced samples, largest area first.
 std::vector<Hypothesis> draw_hypotheses(const std::vector<PlaneSample>& samples, int count,
                                         float min_cosine) {
   std::vector<Hypothesis> hypotheses;
@@ -106,7 +99,7 @@ std::vector<Hypothesis> draw_hypotheses(const std::vector<PlaneSample>& samples,
   return hypotheses;
 }
 
-/// Least squares over the samples on the plane, repeated.
+/// Iterated least squares over the samples on the plane.
 std::optional<Fit> refine(const std::vector<PlaneSample>& samples, Plane plane, float min_cosine) {
   std::optional<Fit> fit;
   for (int pass = 0; pass < kRefinements; ++pass) {
