@@ -18,7 +18,7 @@ std::vector<DynamicObjects::Object> fuse_geometry(const MaskImage& mask,
                                                   const std::vector<Instance>& instances,
                                                   const FusionConfig& config, LabeledCloud& cloud) {
   const NodeGrid grid(cloud, config.cluster_stride);
-  Nodes nodes = make_grid_nodes(cloud, mask, grid, config.noise);
+  Nodes nodes = make_grid_nodes(cloud, mask, grid, config.noise.depth);
   const GridPlanes planes = find_grid_planes(nodes, config.planes);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const float limit = config.planes.distance_limit(nodes.sigma[n]);

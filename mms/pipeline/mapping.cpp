@@ -11,7 +11,7 @@ namespace {
 
 StaticMapConfig static_map_config(const SystemConfig& config) {
   StaticMapConfig map = config.static_map;
-  map.surface.noise = config.noise.depth;
+  map.surface = with_noise(map.surface, config.noise);
   return map;
 }
 

@@ -6,28 +6,11 @@
 #include "mms/pipeline/stage_timer.hpp"
 
 namespace mms {
-namespace {
-
-FusionConfig fusion_config(const SystemConfig& config) {
-  FusionConfig fusion = config.fusion;
-  fusion.noise = config.noise.depth;
-  fusion.lidar_noise = config.noise.range;
-  return fusion;
-}
-
-FeatureConfig feature_config(const SystemConfig& config) {
-  FeatureConfig features = config.features;
-  features.noise = config.noise.depth;
-  features.lidar_noise = config.noise.range;
-  return features;
-}
-
-}  // namespace
 
 Perception::Perception(const SystemConfig& config, std::unique_ptr<Segmenter> segmenter)
     : segmenter_(std::move(segmenter)),
-      fusion_(fusion_config(config)),
-      extractor_(feature_config(config)) {}
+      fusion_(with_noise(config.fusion, config.noise)),
+      extractor_(with_noise(config.features, config.noise)) {}
 
 TimedSegmentation Perception::segment(const Frame& frame) {
   assert(segmenter_thread_.is_owner());

@@ -31,4 +31,11 @@ struct SystemConfig {
   void visit(ConfigVisitor& v);
 };
 
+/// The settings of a module with the noise of the sensors.
+template <class Config>
+Config with_noise(Config config, const SensorNoise& noise) {
+  config.noise = noise;
+  return config;
+}
+
 }  // namespace mms

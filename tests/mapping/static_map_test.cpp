@@ -139,7 +139,7 @@ TEST(StaticMap, FrameWithoutPoseAddsNothing) {
 double share_shown(const DepthNoise& noise) {
   StaticMapConfig config;
   config.carving.enabled = false;
-  config.surface.noise = noise;
+  config.surface.noise.depth = noise;
   StaticMap map(config);
   for (int i = 0; i < 30; ++i) {
     const double depth = i == 0 ? 4.01 : 4.05;

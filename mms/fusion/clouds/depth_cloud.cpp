@@ -58,7 +58,7 @@ class Block {
       : stride_(Stride > 0 ? Stride : config.stride),
         min_(static_cast<float>(config.min_range)),
         max_(static_cast<float>(config.max_range)),
-        noise_(config.noise) {}
+        noise_(config.noise.depth) {}
 
   int stride() const { return Stride > 0 ? Stride : stride_; }
 

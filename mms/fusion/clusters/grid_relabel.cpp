@@ -59,7 +59,7 @@ void relabel_grid(const NodeGrid& grid, const Nodes& nodes, const GridPlanes& pl
       grid.for_each_point(u, v, [&](std::size_t i) {
         if (cloud.labels[i] == PointLabel::kInvalid) return;
         const Eigen::Vector3f& point = cloud.points[i];
-        const float sigma = config.noise.sigma(point.z());
+        const float sigma = config.noise.depth.sigma(point.z());
         const int seed = find_seed(around, nodes, point, radius + noise_factor * sigma);
         if (seed < 0) {
           if (is_unanchored && mask.raw[i] != 0) cloud.labels[i] = PointLabel::kDynamic;

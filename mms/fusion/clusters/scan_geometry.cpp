@@ -27,7 +27,7 @@ Nodes make_nodes(const MaskImage& mask, const Calibration& calibration, const Fu
                  const LabeledCloud& cloud) {
   Nodes nodes;
   nodes.points = voxel_downsample(cloud.points, static_cast<float>(config.lidar_voxel)).points;
-  nodes.sigma.assign(nodes.size(), static_cast<float>(config.lidar_noise));
+  nodes.sigma.assign(nodes.size(), static_cast<float>(config.noise.range));
   PointMask covering = project_masks(nodes.points, mask, calibration, config.stride);
   nodes.raw = std::move(covering.raw);
   nodes.dilated = std::move(covering.dilated);
@@ -98,7 +98,7 @@ void relabel_scan(const Nodes& nodes, const DynamicObjects& objects,
                   const FusionConfig& config, LabeledCloud& cloud) {
   // A node is the mean of its voxel, so its points are up to a voxel from it.
   const auto radius = static_cast<float>(config.relabel_radius + config.lidar_voxel);
-  const float on_plane = config.planes.distance_limit(static_cast<float>(config.lidar_noise));
+  const float on_plane = config.planes.distance_limit(static_cast<float>(config.noise.range));
   const DynamicNodeSearch search(nodes, objects, radius);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.labels[i] == PointLabel::kInvalid) continue;

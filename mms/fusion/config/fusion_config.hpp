@@ -4,7 +4,7 @@
 
 #include "mms/core/config_visitor.hpp"
 #include "mms/core/segmentation.hpp"
-#include "mms/geometry/depth_noise.hpp"
+#include "mms/geometry/sensor_noise.hpp"
 
 namespace mms {
 
@@ -74,11 +74,10 @@ struct FusionConfig {
   double memory = 0.5;  ///< how long an object stays dynamic without a mask [s]
 
   double lidar_max_range = 100.0;  ///< [m]
-  double lidar_noise = 0.02;       ///< one sigma of range [m]; the sensor's, not visited
   double lidar_voxel = 0.10;       ///< [m]
   double lidar_tolerance = 0.30;   ///< [m]
 
-  DepthNoise noise;  ///< of the depth camera; the sensor's, so not among the visited fields
+  SensorNoise noise{};  ///< no setting of its own: `SystemConfig::noise`
   PlaneRemoval planes;
   std::array<ObjectSize, kObjectClassCount> sizes{
       {{.length = 2.3, .width = 1.2, .depth = 1.0}, {.length = 4.0, .width = 2.5, .depth = 1.5}}};

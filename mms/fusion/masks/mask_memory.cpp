@@ -17,7 +17,7 @@ bool MaskMemory::is_still_there(const LabeledCloud& cloud, std::size_t pixel) co
   if (object_of_[pixel] < 0 || cloud.labels[pixel] == PointLabel::kInvalid) return false;
   const float z = cloud.points[pixel].z();
   const auto gap = static_cast<float>(config_.cluster_tolerance);
-  const auto noise = static_cast<float>(config_.noise_factor) * config_.noise.sigma(z);
+  const auto noise = static_cast<float>(config_.noise_factor) * config_.noise.depth.sigma(z);
   return std::abs(z - depth_[pixel]) <= gap + noise;
 }
 

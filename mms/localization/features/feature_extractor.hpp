@@ -2,7 +2,7 @@
 
 #include "mms/core/config_visitor.hpp"
 #include "mms/core/labeled_cloud.hpp"
-#include "mms/geometry/depth_noise.hpp"
+#include "mms/geometry/sensor_noise.hpp"
 #include "mms/localization/features/feature_cloud.hpp"
 
 namespace mms {
@@ -16,8 +16,7 @@ struct FeatureConfig {
   double min_incidence = 0.2;
   double scan_voxel = 0.0;
   int pyramid_levels = 3;
-  double lidar_noise = 0.02;  ///< one sigma of range [m]; the sensor's, not visited
-  DepthNoise noise;  ///< of the depth camera; the sensor's, so not among the visited fields
+  SensorNoise noise{};  ///< no setting of its own: `SystemConfig::noise`
 
   void visit(ConfigVisitor& v);
 };

@@ -60,7 +60,7 @@ struct Candidate {
 class StaticGrid {
  public:
   StaticGrid(const LabeledCloud& cloud, const FeatureConfig& config)
-      : cloud_(cloud), noise_(config.noise) {}
+      : cloud_(cloud), noise_(config.noise.depth) {}
 
   int width() const { return cloud_.width; }
   int height() const { return cloud_.height; }
@@ -133,7 +133,7 @@ std::optional<PlaneFeature> fit_plane(const StaticGrid& grid, const Candidate& c
   }
   if (fit.count() < kMinPlanePoints) return std::nullopt;
   const PlaneFit::Plane plane = fit.solve();
-  const float noise = config.noise.sigma(centre.z());
+  const float noise = config.noise.depth.sigma(centre.z());
   const Eigen::Vector3f ray = centre / centre.z();
   const float incidence = plane.normal.dot(ray);
   if (plane.thickness > kMaxThickness * noise) return std::nullopt;
@@ -160,7 +160,7 @@ SectorFeatures choose(const StaticGrid& grid, const std::vector<Candidate>& sort
     if (static_cast<int>(chosen.edges.size()) >= config.edges_per_sector) break;
     if (!c->complete) continue;
     const Eigen::Vector3f& point = *grid.at(c->x, c->y);
-    const float sigma = config.noise.sigma(point.z());
+    const float sigma = config.noise.depth.sigma(point.z());
     const float least =
         std::max(static_cast<float>(config.edge_smoothness), kEdgeSigmas * sigma / point.norm());
     if (c->smoothness < least) break;

@@ -127,7 +127,7 @@ std::optional<Analysis> analyse(const Eigen::Vector3f& point, const PointMap& ma
   const bool flat =
       plane.thickness < kMaxFlatness * plane.width && plane.width > kMinWidth * radius;
   if (flat && incidence > kMinIncidence) {
-    result.plane = PlaneFeature{point, plane.normal, static_cast<float>(config.lidar_noise)};
+    result.plane = PlaneFeature{point, plane.normal, static_cast<float>(config.noise.range)};
   }
   return result;
 }
@@ -159,7 +159,7 @@ void choose_edges(std::vector<EdgeCandidate>& candidates, const LabeledCloud& cl
     if (i > 0 && candidates[i].sector != candidates[i - 1].sector) taken = 0;
     if (taken++ >= kEdgesPerSector) continue;
     const std::size_t index = candidates[i].index;
-    edges.push_back({cloud.points[index], static_cast<float>(config.lidar_noise), times.of(index),
+    edges.push_back({cloud.points[index], static_cast<float>(config.noise.range), times.of(index),
                      static_cast<int>(index)});
   }
 }

@@ -94,7 +94,7 @@ void StaticMap::insert(const std::vector<SurfacePoint>& points,
                        const Eigen::Isometry3f& T_world_sensor) {
   const float sharp = std::min(
       1.0F,
-      noise_weight(static_cast<float>(kMaxNoiseShare * grid_.block_size()), config_.surface.noise));
+      noise_weight(static_cast<float>(kMaxNoiseShare * grid_.block_size()), config_.surface.noise.depth));
   const auto is_first_view = [&](std::uint32_t& frame) {
     return std::exchange(frame, last_frame()) <= last_view_;
   };
@@ -120,7 +120,7 @@ void StaticMap::insert(const std::vector<SurfacePoint>& points,
 std::size_t StaticMap::carve(const LabeledCloud& cloud, const Eigen::Isometry3f& T_sensor_world) {
   const CarvingConfig& carving = config_.carving;
   if (cloud.organised()) {
-    const FreeSpace free_space(cloud, carving.margin, config_.surface.noise);
+    const FreeSpace free_space(cloud, carving.margin, config_.surface.noise.depth);
     return carve(free_space, carving.ratio, T_sensor_world);
   }
   return carve(ScanSight(cloud, carving.scan_margin), carving.scan_ratio, T_sensor_world);

@@ -35,7 +35,7 @@ class Grid {
 
   /// Largest difference of inverse depth at depth `z` that noise and `max_jump` explain.
   float tolerance(float z) const {
-    const float noise = kSecondDifferenceSigmas * config_.noise.sigma(z);
+    const float noise = kSecondDifferenceSigmas * config_.noise.depth.sigma(z);
     return (static_cast<float>(config_.max_jump) + noise) / (z * z);
   }
 
@@ -147,7 +147,7 @@ std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const Surf
       if (!boundary.empty() && boundary[i] != 0) continue;
       const float tolerance = grid.tolerance(z);
       if (!grid.inside_surface(x, y, tolerance)) continue;
-      const float weight = noise_weight(config.noise.sigma(z), config.noise);
+      const float weight = noise_weight(config.noise.depth.sigma(z), config.noise.depth);
       result.push_back({cloud.points[i], grid.normal(x, y, tolerance), weight, color_of(cloud, i)});
     }
   }

@@ -5,7 +5,7 @@
 
 #include "mms/core/config_visitor.hpp"
 #include "mms/core/labeled_cloud.hpp"
-#include "mms/geometry/depth_noise.hpp"
+#include "mms/geometry/sensor_noise.hpp"
 
 namespace mms {
 
@@ -14,7 +14,7 @@ struct SurfaceConfig {
   double max_range = 1000.0;  ///< [m]
   double max_jump = 0.05;     ///< [m]
   double boundary = 0.01;     ///< share of the image's width
-  DepthNoise noise{};  ///< of the depth camera; the sensor's, so not among the visited fields
+  SensorNoise noise{};  ///< no setting of its own: `SystemConfig::noise`
 
   void visit(ConfigVisitor& v) {
     v.number({"max_depth", "m", "farthest point of a depth image that is mapped"}, max_depth,

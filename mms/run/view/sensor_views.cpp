@@ -6,16 +6,6 @@
 #include "mms/run/segmenter/segmenter_choice.hpp"
 
 namespace mms {
-namespace {
-
-FusionConfig fusion_config(const SystemConfig& config) {
-  FusionConfig fusion = config.fusion;
-  fusion.noise = config.noise.depth;
-  fusion.lidar_noise = config.noise.range;
-  return fusion;
-}
-
-}  // namespace
 
 SensorViews::SensorViews(RunRecord record, const SystemConfig& config,
                          std::vector<FrameRecord> frames)
@@ -52,7 +42,8 @@ std::shared_ptr<const SensorView> SensorViews::load(std::size_t index) {
   if (index >= frames_.size()) return nullptr;
   std::optional<Frame> frame = read(frames_[index]);
   if (!frame) return nullptr;
-  if (!fusion_ || !last_ || index != *last_ + 1) fusion_.emplace(fusion_config(config_));
+  if (!fusion_ || !last_ || index != *last_ + 1)
+    fusion_.emplace(with_noise(config_.fusion, config_.noise));
   last_ = index;
   LabeledCloud cloud = fusion_->fuse(*frame, segmenter_->segment(*frame));
   return std::make_shared<const SensorView>(
