@@ -48,6 +48,8 @@ row stop_and_go-imperfect "sim:stop_and_go?frames=60&mask_errors.enabled=true" -
 for sensor in lidar16 lidar64 livox; do
   row "warehouse_loop-$sensor" "sim:warehouse_loop?sensor=$sensor&frames=12" --threads 2
 done
+row warehouse_loop-lidar16-none "sim:warehouse_loop?sensor=lidar16&frames=12" --segmenter none \
+  --threads 2
 row warehouse_loop-lidar16-1-thread "sim:warehouse_loop?sensor=lidar16&frames=12" --threads 1
 [ -n "$data" ] || exit 0
 for recording in fr1_xyz_clip lab_crowd desk_crowd; do
