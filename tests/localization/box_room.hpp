@@ -14,8 +14,8 @@
 
 namespace mms::testing {
 
-/// The inside of an axis-parallel box in the world frame, seen from within: exact truth for
-/// everything the localisation measures.
+/// The interior of an axis-aligned box in the world frame, with exact ground truth for the
+/// localization.
 struct BoxRoom {
   Eigen::Vector3d low{-2.5, -1.5, -1.0};
   Eigen::Vector3d high{2.0, 1.2, 4.0};
@@ -26,13 +26,13 @@ struct BoxRoom {
     int axis;                ///< the face's normal is along this axis
   };
 
-  /// Where the ray from a point within leaves the room.
+  /// Intersection of a ray from a point inside with the room.
   Hit cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   /// Distance of a point on a face from the nearest of the 12 creases [m].
   double distance_to_crease(const Eigen::Vector3d& point) const;
 
-  /// Distance of any point within from the nearest face [m].
+  /// Distance of a point inside from the nearest face [m].
   double distance_to_face(const Eigen::Vector3d& point) const;
 
   /// Nearest point on the crease that `point` is closest to.
@@ -45,22 +45,22 @@ double texture(const Eigen::Vector3d& world_point);
 /// 160 x 120, 63 degrees wide.
 CameraIntrinsics box_camera();
 
-/// What a camera at that pose sees of the room: organised, static, coloured by `texture`.
+/// View of the room by a camera at that pose: organised, static, coloured by `texture`.
 /// `noise` scales the default DepthNoise; 0 is exact.
 LabeledCloud organised_cloud(const BoxRoom& room, const Eigen::Isometry3d& T_world_sensor,
                              double noise = 0.0, unsigned seed = 1);
 
-/// What a spinning LiDAR of `rings` rings at that pose measures, range noise in metres.
+/// Scan of a spinning LiDAR of `rings` rings at that pose, with range noise [m].
 LabeledCloud spinning_scan(const BoxRoom& room, const Eigen::Isometry3d& T_world_sensor, int rings,
                            double noise, unsigned seed);
 
-/// The same of a sensor that moves while it turns around once in `period` [s], with the points'
-/// times; `pose` is T_world_sensor at a time since the scan's stamp [s].
+/// The same with a sensor that moves during the scan of `period` [s], with the times of the
+/// points. `pose` is T_world_sensor at a time since the scan's stamp [s].
 LabeledCloud moving_scan(const BoxRoom& room, const std::function<Eigen::Isometry3d(double)>& pose,
                          double period, int rings, double noise, unsigned seed);
 
 /// Exact planar features of rays in all directions, `density` to a side of each of 6 cube faces,
-/// those nearer to a crease than `margin` [m] left out; exact edge features along the creases.
+/// without those nearer to a crease than `margin` [m]; exact edge features along the creases.
 FeatureCloud exact_features(const BoxRoom& room, const Eigen::Isometry3d& T_world_sensor,
                             int density = 20, double margin = 0.15);
 

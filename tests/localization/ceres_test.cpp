@@ -1,5 +1,4 @@
-// The optimum found by our Gauss-Newton against that of Ceres, which differentiates the formulas
-// itself and has its own solver.
+// The optimum of our Gauss-Newton against that of Ceres with automatic differentiation.
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
 #include <gtest/gtest.h>
@@ -14,11 +13,11 @@ namespace {
 
 using Vector3d = Eigen::Vector3d;
 
-/// Pose as Ceres sees it: angle-axis and translation, sensor to world.
+/// Pose as a parameter block of Ceres: angle-axis and translation, sensor to world.
 using Parameters = std::array<double, 6>;
 
 template <class T>
-Eigen::Matrix<T, 3, 1> moved(const T* pose, const Vector3d& point) {
+Eigen::Matrix<T, 3, 1> transformed(const T* pose, const Vector3d& point) {
   const Eigen::Matrix<T, 3, 1> p = point.cast<T>();
   Eigen::Matrix<T, 3, 1> result;
   ceres::AngleAxisRotatePoint(pose, p.data(), result.data());
@@ -30,8 +29,8 @@ struct PlaneCost {
   double sigma;
   template <class T>
   bool operator()(const T* pose, T* residual) const {
-    const Eigen::Matrix<T, 3, 1> off = moved(pose, match.point) - match.on_plane.cast<T>();
-    residual[0] = match.normal.cast<T>().dot(off) / sigma;
+    const Eigen::Matrix<T, 3, 1> offset = transformed(pose, match.point) - match.on_plane.cast<T>();
+    residual[0] = match.normal.cast<T>().dot(offset) / sigma;
     return true;
   }
 };
@@ -42,9 +41,9 @@ struct EdgeCost {
   double sigma;
   template <class T>
   bool operator()(const T* pose, T* residual) const {
-    const Eigen::Matrix<T, 3, 1> off = moved(pose, match.point) - match.on_line.cast<T>();
+    const Eigen::Matrix<T, 3, 1> offset = transformed(pose, match.point) - match.on_line.cast<T>();
     Eigen::Map<Eigen::Matrix<T, 3, 1>> result(residual);
-    result = off.cross(match.direction.cast<T>()) / T(sigma);
+    result = offset.cross(match.direction.cast<T>()) / T(sigma);
     return true;
   }
 };
@@ -66,7 +65,7 @@ Eigen::Isometry3d isometry_of(const Parameters& pose) {
   return T;
 }
 
-Eigen::Isometry3d minimised_by_ceres(const Matches& matches, const GeometricConfig& config,
+Eigen::Isometry3d minimized_by_ceres(const Matches& matches, const GeometricConfig& config,
                                      const Eigen::Isometry3d& start) {
   Parameters pose = parameters_of(start);
   ceres::Problem problem;
@@ -137,22 +136,23 @@ INSTANTIATE_TEST_SUITE_P(Registration, AgainstCeres,
                                            Case{Association::kSurface, 100.0},
                                            Case{Association::kPaper, 100.0}));
 
-TEST_P(AgainstCeres, FindsTheSamePose) {
-  // Registered again from its own result, the matches are those at the result.
-  const Eigen::Isometry3d settled = registered(registered(truth_));
-  const Eigen::Isometry3d ours = registered(settled);
-  const Matches matches = matches_at(settled);
+TEST_P(AgainstCeres, FindsSamePose) {
+  // Registration from its own result keeps the matches.
+  const Eigen::Isometry3d converged = registered(registered(truth_));
+  const Eigen::Isometry3d ours = registered(converged);
+  const Matches matches = matches_at(converged);
   ASSERT_GT(matches.planes.size(), 500U);
   ASSERT_GT(matches.edges.size(), 300U);
-  const Eigen::Isometry3d start = settled * testing::motion(0.01, 0.02, -0.01, 0.005, 0.01, 0.005);
-  const Eigen::Isometry3d theirs = minimised_by_ceres(matches, config_.geometric, start);
+  const Eigen::Isometry3d start =
+      converged * testing::motion(0.01, 0.02, -0.01, 0.005, 0.01, 0.005);
+  const Eigen::Isometry3d theirs = minimized_by_ceres(matches, config_.geometric, start);
   EXPECT_LT(testing::position_error(ours, theirs), 1e-6);
   EXPECT_LT(testing::angle_error_deg(ours, theirs) * M_PI / 180.0, 1e-6);
 }
 
-TEST_P(AgainstCeres, TheGradientVanishesAtItsOptimum) {
+TEST_P(AgainstCeres, GradientVanishesAtOptimum) {
   const Matches matches = matches_at(truth_);
-  const Eigen::Isometry3d optimum = minimised_by_ceres(matches, config_.geometric, truth_);
+  const Eigen::Isometry3d optimum = minimized_by_ceres(matches, config_.geometric, truth_);
   const auto equations = geometric_equations(matches, optimum, config_.geometric);
   NormalEquations sum = equations.planes;
   sum += equations.edges;

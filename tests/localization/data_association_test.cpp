@@ -36,13 +36,13 @@ INSTANTIATE_TEST_SUITE_P(Association, AssociatedBy,
                          ::testing::Values(Association::kPaper, Association::kSurface),
                          testing::association_name);
 
-TEST_P(AssociatedBy, MatchOnlyWithTheFaceOrCreaseAFeatureIsOn) {
+TEST_P(AssociatedBy, MatchesFeaturesWithTheirFaceOrCrease) {
   const testing::BoxRoom room;
   const LocalMaps maps = map_of(exact_features(room, kOrigin, 120), GetParam());
   const Eigen::Isometry3d truth = testing::motion(0.1, 0.05, -0.1, 0.02, 0.01, -0.02);
   const FeatureCloud frame = exact_features(room, truth, 17, kGate);
   const Matches matches = associate(frame, maps, truth, GetParam(), kGate);
-  // Of the paper's triples of points, those nearly in line fall out.
+  // The paper's association rejects nearly collinear triples of points.
   const std::size_t least = GetParam() == Association::kPaper ? 6 : 9;
   EXPECT_GT(matches.planes.size(), frame.planes.size() * least / 10);
   EXPECT_GT(matches.edges.size(), frame.edges.size() * 9 / 10);
@@ -52,13 +52,13 @@ TEST_P(AssociatedBy, MatchOnlyWithTheFaceOrCreaseAFeatureIsOn) {
     EXPECT_NEAR(m.normal.cwiseAbs().maxCoeff(), 1.0, 1e-3);
   }
   for (const EdgeMatch& m : matches.edges) {
-    const Eigen::Vector3d off = truth * m.point - m.on_line;
+    const Eigen::Vector3d offset = truth * m.point - m.on_line;
     EXPECT_NEAR(m.direction.norm(), 1.0, 1e-5);
-    EXPECT_LT((off - m.direction * m.direction.dot(off)).norm(), 1e-3);
+    EXPECT_LT((offset - m.direction * m.direction.dot(offset)).norm(), 1e-3);
   }
 }
 
-TEST_P(AssociatedBy, NothingFartherThanTheGateMatches) {
+TEST_P(AssociatedBy, RejectsMatchesBeyondGate) {
   const testing::BoxRoom room;
   const LocalMaps maps = map_of(exact_features(room, kOrigin, 40), GetParam());
   const Eigen::Isometry3d far = testing::motion(20.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -67,7 +67,7 @@ TEST_P(AssociatedBy, NothingFartherThanTheGateMatches) {
   EXPECT_TRUE(matches.edges.empty());
 }
 
-TEST(PaperAssociation, CoincidentEdgePointsAreNoLine) {
+TEST(PaperAssociation, RejectsCoincidentEdgePoints) {
   FeatureCloud map;
   map.edges = {{{1.0F, 0.0F, 2.199F}, 0.01F}, {{1.0F, 0.0F, 2.201F}, 0.01F}};  // 2 voxels
   const LocalMaps close = map_of(map, Association::kPaper);
@@ -81,7 +81,7 @@ TEST(PaperAssociation, CoincidentEdgePointsAreNoLine) {
             1U);
 }
 
-TEST(PaperAssociation, PointsInLineAreNoPlane) {
+TEST(PaperAssociation, RejectsCollinearPlanePoints) {
   const Eigen::Vector3f normal(0.0F, 0.0F, -1.0F);
   FeatureCloud map;
   for (const float x : {0.0F, 0.1F, 0.2F}) map.planes.push_back({{x, 0.0F, 2.0F}, normal, 0.01F});
@@ -95,7 +95,7 @@ TEST(PaperAssociation, PointsInLineAreNoPlane) {
             1U);
 }
 
-TEST(SurfaceAssociation, TheOtherSideOfABoardIsAnotherSurface) {
+TEST(SurfaceAssociation, RejectsOppositeNormals) {
   FeatureCloud map;
   map.planes.push_back({{0.0F, 0.0F, 2.05F}, {0.0F, 0.0F, -1.0F}, 0.01F});
   const LocalMaps maps = map_of(map, Association::kSurface);
@@ -109,14 +109,14 @@ TEST(SurfaceAssociation, TheOtherSideOfABoardIsAnotherSurface) {
   EXPECT_EQ(matched({1.0F, 0.0F, 0.0F}), 0U);
 }
 
-TEST(SurfaceAssociation, ABlobOfEdgePointsIsNoLine) {
-  FeatureCloud blob;
+TEST(SurfaceAssociation, RejectsUndirectedEdgePoints) {
+  FeatureCloud cube;
   for (const float x : {0.9F, 1.0F, 1.1F}) {
     for (const float y : {-0.1F, 0.0F, 0.1F}) {
-      for (const float z : {1.9F, 2.0F, 2.1F}) blob.edges.push_back({{x, y, z}, 0.01F});
+      for (const float z : {1.9F, 2.0F, 2.1F}) cube.edges.push_back({{x, y, z}, 0.01F});
     }
   }
-  const LocalMaps maps = map_of(blob, Association::kSurface);
+  const LocalMaps maps = map_of(cube, Association::kSurface);
   EXPECT_TRUE(associate(one_edge({1.0F, 0.0F, 2.0F}), maps, kOrigin, Association::kSurface, kGate)
                   .edges.empty());
 }

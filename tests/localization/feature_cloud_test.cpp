@@ -5,7 +5,7 @@
 namespace mms {
 namespace {
 
-TEST(MedianRange, IsOfEdgesAndPlanesTogether) {
+TEST(MedianRange, UsesEdgesAndPlanes) {
   FeatureCloud features;
   features.edges.push_back({{1.0F, 0.0F, 0.0F}, 0.01F});
   features.edges.push_back({{0.0F, -9.0F, 0.0F}, 0.01F});
@@ -17,7 +17,7 @@ TEST(MedianRange, IsZeroWithoutFeatures) {
   EXPECT_EQ(median_range(FeatureCloud{}), 0.0);
 }
 
-TEST(AutomaticVoxelSize, FollowsTheRangeWithinBounds) {
+TEST(AutomaticVoxelSize, ScalesWithRangeWithinBounds) {
   EXPECT_DOUBLE_EQ(automatic_voxel_size(10.0), 0.4);
   EXPECT_EQ(automatic_voxel_size(0.1), 0.05);
   EXPECT_EQ(automatic_voxel_size(500.0), 1.0);

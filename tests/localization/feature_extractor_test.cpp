@@ -17,14 +17,15 @@ using testing::motion;
 
 const Eigen::Isometry3d kOrigin = Eigen::Isometry3d::Identity();
 
-/// Cloud of the box camera with the depth of each pixel given; 0 for no return.
-LabeledCloud cloud_with_depth(const std::function<double(int, int, const Eigen::Vector3d&)>& z_of) {
+/// Cloud of the box camera with that depth of each pixel; 0 for no return.
+LabeledCloud cloud_with_depth(
+    const std::function<double(int, int, const Eigen::Vector3d&)>& depth_of) {
   LabeledCloud cloud = testing::organised_cloud(BoxRoom{}, kOrigin);
   const CameraModel camera(cloud.camera);
   for (int y = 0; y < cloud.height; ++y) {
     for (int x = 0; x < cloud.width; ++x) {
       const auto i = static_cast<std::size_t>(y * cloud.width + x);
-      const double z = z_of(x, y, camera.ray({x, y}));
+      const double z = depth_of(x, y, camera.ray({x, y}));
       cloud.points[i] = (z * camera.ray({x, y})).cast<float>();
       if (z > 0.0) continue;
       cloud.points[i].setConstant(NAN);
@@ -38,51 +39,53 @@ FeatureCloud extract(const LabeledCloud& cloud) {
   return FeatureExtractor(FeatureConfig{}).extract(cloud);
 }
 
-/// A camera that sees floor, two walls and their creases.
-const Eigen::Isometry3d kIntoTheCorner = motion(0.3, -0.2, 0.5, -0.25, -0.5, 0.1);
+/// Pose of a camera with floor, two walls and their creases in view.
+const Eigen::Isometry3d kTowardCorner = motion(0.3, -0.2, 0.5, -0.25, -0.5, 0.1);
 
-/// The farthest a crease can be from a point in whose neighbourhood of eq. (2) it is, on a surface
-/// that is not seen at a grazing angle [m].
-double reach_of(const EdgeFeature& edge) {
+/// Largest distance of a crease from a point with the crease in its neighborhood of eq. (2), on a
+/// surface without a grazing angle [m].
+double max_crease_distance(const EdgeFeature& edge) {
   const double window = 4.0 * std::sqrt(2.0) / testing::box_camera().fx;  // at 1 m
   return 1.5 * window * static_cast<double>(edge.point.norm());
 }
 
-TEST(OrganisedFeatures, EdgesLieAtCreasesAndPlanesOnFaces) {
+TEST(OrganisedFeatures, EdgesAreAtCreasesAndPlanesOnFaces) {
   const BoxRoom room;
-  const FeatureCloud features = extract(testing::organised_cloud(room, kIntoTheCorner));
+  const FeatureCloud features = extract(testing::organised_cloud(room, kTowardCorner));
   EXPECT_GT(features.planes.size(), 300U);
   EXPECT_GT(features.edges.size(), 20U);
   for (const EdgeFeature& edge : features.edges) {
-    EXPECT_LT(room.distance_to_crease(kIntoTheCorner * edge.point.cast<double>()), reach_of(edge));
+    EXPECT_LT(room.distance_to_crease(kTowardCorner * edge.point.cast<double>()),
+              max_crease_distance(edge));
   }
   for (const PlaneFeature& plane : features.planes) {
-    const Eigen::Vector3d p = kIntoTheCorner * plane.point.cast<double>();
+    const Eigen::Vector3d p = kTowardCorner * plane.point.cast<double>();
     // At a crease a plane may be fitted to both faces, within the noise.
     EXPECT_LT(room.distance_to_face(p), 2.0 * DepthNoise{}.sigma(plane.point.cast<double>().z()));
     EXPECT_NEAR(static_cast<double>(plane.normal.norm()), 1.0, 1e-5);
     if (room.distance_to_crease(p) < 0.4) continue;
-    const Eigen::Vector3d view = p - kIntoTheCorner.translation();
-    const Eigen::Vector3d truth = room.cast(kIntoTheCorner.translation(), view).normal;
+    const Eigen::Vector3d view = p - kTowardCorner.translation();
+    const Eigen::Vector3d truth = room.cast(kTowardCorner.translation(), view).normal;
     EXPECT_LT(room.distance_to_face(p), 1e-4);
-    EXPECT_GT(truth.dot(kIntoTheCorner.linear() * plane.normal.cast<double>()), 0.9999);
+    EXPECT_GT(truth.dot(kTowardCorner.linear() * plane.normal.cast<double>()), 0.9999);
   }
 }
 
 /// Half the camera's noise: that of the mean of a 2 x 2 block of pixels.
-TEST(OrganisedFeatures, NoiseDoesNotMakeEdges) {
+TEST(OrganisedFeatures, NoiseCausesFewFalseEdges) {
   const BoxRoom room;
-  const FeatureCloud features = extract(testing::organised_cloud(room, kIntoTheCorner, 0.5, 3));
-  const auto stray =
+  const FeatureCloud features = extract(testing::organised_cloud(room, kTowardCorner, 0.5, 3));
+  const auto false_edges =
       std::count_if(features.edges.begin(), features.edges.end(), [&](const EdgeFeature& edge) {
-        return room.distance_to_crease(kIntoTheCorner * edge.point.cast<double>()) > reach_of(edge);
+        return room.distance_to_crease(kTowardCorner * edge.point.cast<double>()) >
+               max_crease_distance(edge);
       });
-  EXPECT_LT(stray, static_cast<int>(features.edges.size() / 4));
+  EXPECT_LT(false_edges, static_cast<int>(features.edges.size() / 4));
   EXPECT_GT(features.edges.size(), 20U);
   EXPECT_GT(features.planes.size(), 300U);
 }
 
-TEST(OrganisedFeatures, SpreadOverTheView) {
+TEST(OrganisedFeatures, AreDistributedOverImage) {
   const FeatureCloud features = extract(testing::organised_cloud(BoxRoom{}, kOrigin));
   const CameraModel camera(testing::box_camera());
   std::array<int, 12> tiles{};  // 4 x 3 tiles of 40 pixels
@@ -94,11 +97,11 @@ TEST(OrganisedFeatures, SpreadOverTheView) {
   EXPECT_GT(*std::min_element(tiles.begin(), tiles.end()), 10);
 }
 
-TEST(OrganisedFeatures, OcclusionBordersAreNone) {
-  const auto board_before_wall = cloud_with_depth([](int x, int y, const Eigen::Vector3d&) {
+TEST(OrganisedFeatures, ExcludeOcclusionBorders) {
+  const auto board_and_wall = cloud_with_depth([](int x, int y, const Eigen::Vector3d&) {
     return x >= 50 && x < 110 && y >= 40 && y < 90 ? 2.0 : 4.0;
   });
-  const FeatureCloud features = extract(board_before_wall);
+  const FeatureCloud features = extract(board_and_wall);
   EXPECT_TRUE(features.edges.empty());
   ASSERT_GT(features.planes.size(), 200U);
   for (const PlaneFeature& plane : features.planes) {
@@ -108,7 +111,7 @@ TEST(OrganisedFeatures, OcclusionBordersAreNone) {
   }
 }
 
-TEST(OrganisedFeatures, BordersOfHolesAreNone) {
+TEST(OrganisedFeatures, ExcludeBordersOfHoles) {
   const auto holes = cloud_with_depth(
       [](int x, int y, const Eigen::Vector3d&) { return (x / 20 + y / 20) % 2 == 0 ? 2.0 : 0.0; });
   const FeatureCloud features = extract(holes);
@@ -116,10 +119,10 @@ TEST(OrganisedFeatures, BordersOfHolesAreNone) {
   for (const PlaneFeature& plane : features.planes) EXPECT_NEAR(plane.point.z(), 2.0F, 1e-4F);
 }
 
-TEST(OrganisedFeatures, GrazingPlanesAreNone) {
-  // A wall turned away by 55 degrees: from nearly frontal at the right to grazing at the left.
-  const double turn = 55.0 * M_PI / 180.0;
-  const Eigen::Vector3d normal(-std::sin(turn), 0.0, -std::cos(turn));
+TEST(OrganisedFeatures, ExcludeGrazingPlanes) {
+  // A wall rotated by 55 degrees: nearly frontal at the right, grazing at the left.
+  const double angle = 55.0 * M_PI / 180.0;
+  const Eigen::Vector3d normal(-std::sin(angle), 0.0, -std::cos(angle));
   const LabeledCloud wall = cloud_with_depth(
       [&](int, int, const Eigen::Vector3d& ray) { return -1.5 / normal.dot(ray); });
   const auto least_incidence = [&](double min_incidence) {
@@ -138,8 +141,8 @@ TEST(OrganisedFeatures, GrazingPlanesAreNone) {
   EXPECT_LT(least_incidence(0.0), 0.65);
 }
 
-TEST(OrganisedFeatures, DynamicPointsAndTheirBordersAreNone) {
-  LabeledCloud cloud = testing::organised_cloud(BoxRoom{}, kIntoTheCorner);
+TEST(OrganisedFeatures, ExcludeDynamicPointsAndBorders) {
+  LabeledCloud cloud = testing::organised_cloud(BoxRoom{}, kTowardCorner);
   const CameraModel camera(cloud.camera);
   for (int y = 0; y < cloud.height; ++y) {
     for (int x = 40; x < 90; ++x) {
@@ -161,7 +164,7 @@ TEST(OrganisedFeatures, DynamicPointsAndTheirBordersAreNone) {
   }
 }
 
-TEST(OrganisedFeatures, EmptyAndReturnlessCloudsHaveNone) {
+TEST(OrganisedFeatures, AreEmptyWithoutReturns) {
   for (const LabeledCloud& cloud :
        {LabeledCloud{}, cloud_with_depth([](int, int, const Eigen::Vector3d&) { return 0.0; })}) {
     const FeatureCloud features = extract(cloud);

@@ -16,7 +16,7 @@ using testing::position_error;
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 
-/// A steady drive through the room, truth at any instant.
+/// Ground truth of a trajectory with constant velocity through the room.
 Eigen::Isometry3d truth_at(Timestamp stamp) {
   const double t = stamp.seconds();
   return motion(0.3 * t, -0.1 * t, 0.2 * t, 0.05 * t, 0.2 * t, -0.1 * t);
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Odometry, ImageOdometry,
                          ::testing::Values(Association::kPaper, Association::kSurface),
                          testing::association_name);
 
-TEST_P(ImageOdometry, FollowsTheCamera) {
+TEST_P(ImageOdometry, TracksCamera) {
   for (const OdometryEstimate& estimate : image_odometry(GetParam())) {
     EXPECT_LT(error_of(estimate), 0.01);
     if (estimate.status == Status::kInitialized) continue;
@@ -58,7 +58,7 @@ TEST_P(ImageOdometry, FollowsTheCamera) {
   }
 }
 
-TEST_P(ImageOdometry, IsTheSameBitsForAnyNumberOfThreads) {
+TEST_P(ImageOdometry, SameBitsForAnyThreadCount) {
   const auto run = [&] { return image_odometry(GetParam()); };
   const auto one = testing::on_threads(1, run);
   for (const int threads : {2, 4}) {

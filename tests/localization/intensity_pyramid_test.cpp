@@ -8,7 +8,7 @@
 namespace mms {
 namespace {
 
-/// A wall 2 m away with the colour of each pixel given.
+/// A wall at 2 m with that color of each pixel.
 template <class ColorOf>
 LabeledCloud wall(const ColorOf& color_of) {
   LabeledCloud cloud;
@@ -32,7 +32,7 @@ Rgb ramp(int x, int y) {
   return {grey, grey, grey};
 }
 
-TEST(IntensityPyramid, LevelsHalveAndEndAtSixteenPixels) {
+TEST(IntensityPyramid, LevelsHalveDownToMinimumSize) {
   const auto pyramid = build_intensity_pyramid(wall(ramp), 6);
   ASSERT_EQ(pyramid.size(), 3U);  // 160 x 120, 80 x 60, 40 x 30; 20 x 15 is too small
   for (std::size_t i = 0; i < pyramid.size(); ++i) {
@@ -74,10 +74,10 @@ TEST(IntensityPyramid, OnlyStaticPixelsHaveDepth) {
   EXPECT_EQ(pyramid[0].depth(20, 20), 0.0F);
   EXPECT_NEAR(pyramid[0].depth(11, 10), 2.0F, 1e-6F);
   EXPECT_EQ(pyramid[1].depth(10, 10), 0.0F);
-  EXPECT_NEAR(pyramid[1].depth(5, 5), 2.0F, 1e-6F);  // three static pixels are left
+  EXPECT_NEAR(pyramid[1].depth(5, 5), 2.0F, 1e-6F);  // three static pixels remain
 }
 
-TEST(IntensityPyramid, WhatDynamicColoursTouchHasNoDepth) {
+TEST(IntensityPyramid, PixelsNearDynamicColorsHaveNoDepth) {
   LabeledCloud cloud = wall(ramp);
   cloud.dynamic_pixels(40, 40) = 1;
   const auto pyramid = build_intensity_pyramid(cloud, 3);
@@ -90,7 +90,7 @@ TEST(IntensityPyramid, WhatDynamicColoursTouchHasNoDepth) {
   }
 }
 
-TEST(IntensityPyramid, ABlockAtADepthEdgeTakesTheNearerSurface) {
+TEST(IntensityPyramid, BlockAtDepthEdgeTakesNearerSurface) {
   LabeledCloud cloud = wall(ramp);
   for (int y = 0; y < 120; ++y) {
     for (int x = 51; x < 160; ++x) cloud.points[static_cast<std::size_t>(160 * y + x)] *= 2.0F;

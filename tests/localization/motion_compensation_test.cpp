@@ -20,91 +20,93 @@ BoxRoom hall() {
   return {.low = {-6.0, -4.0, -1.0}, .high = {8.0, 5.0, 2.5}};
 }
 
-/// A robot's turn at 1.5 m/s and 46 degrees a second.
-Vector6d turn() {
+/// Velocity of a robot in a turn: 1.5 m/s and 46 degrees a second.
+Vector6d velocity() {
   return (Vector6d() << 1.5, 0.2, 0.0, 0.0, 0.0, 0.8).finished();
 }
 
-using Ride = Eigen::Isometry3d (*)(double seconds);
+using PoseOf = Eigen::Isometry3d (*)(double seconds);
 
-/// Starts at rest and has its speed after a second.
+/// Starts at rest and reaches its velocity after a second.
 Eigen::Isometry3d pose_at(double seconds) {
   const double t = std::max(seconds, 0.0);
-  return se3::exp(turn() * (t < 1.0 ? 0.5 * t * t : t - 0.5));
+  return se3::exp(velocity() * (t < 1.0 ? 0.5 * t * t : t - 0.5));
 }
 
 Eigen::Isometry3d pose_in_motion_at(double seconds) {
-  return se3::exp(turn() * seconds);
+  return se3::exp(velocity() * seconds);
 }
 
-LabeledCloud scan_at(double seconds, double noise = 0.0, Ride ride = pose_at) {
+LabeledCloud scan_at(double seconds, double noise = 0.0, PoseOf pose_of = pose_at) {
   return testing::moving_scan(
-      hall(), [&](double since) { return ride(seconds + since); }, kPeriod, 32, noise,
+      hall(), [&](double since) { return pose_of(seconds + since); }, kPeriod, 32, noise,
       static_cast<unsigned>(seconds / kPeriod));
 }
 
-/// Largest distance of a point, seen from `T_world_sensor`, to the hall's faces.
-double worst_of(const LabeledCloud& cloud, const Eigen::Isometry3d& T_world_sensor) {
-  double worst = 0.0;
+/// Largest distance of the points to the hall's faces, with the cloud at `T_world_sensor` [m].
+double max_face_distance(const LabeledCloud& cloud, const Eigen::Isometry3d& T_world_sensor) {
+  double max_error = 0.0;
   for (const Eigen::Vector3f& point : cloud.points) {
-    worst = std::max(worst, hall().distance_to_face(T_world_sensor * point.cast<double>()));
+    max_error = std::max(max_error, hall().distance_to_face(T_world_sensor * point.cast<double>()));
   }
-  return worst;
+  return max_error;
 }
 
-/// Worst error of the positions of a turn of 3 s [m]. @param tell  the times of the points
-double worst_of_drive(Ride ride, bool tell, double first_offset = 0.0) {
+/// Largest position error in a turn of 3 s [m]. @param with_times  with the times of the points
+double max_position_error(PoseOf pose_of, bool with_times, double first_offset = 0.0) {
   Odometry odometry({}, {});
-  double worst = 0.0;
+  double max_error = 0.0;
   for (int i = 0; i < 30; ++i) {
     const double begin = kPeriod * i;
-    LabeledCloud scan = scan_at(begin, 0.01, ride);
+    LabeledCloud scan = scan_at(begin, 0.01, pose_of);
     for (float& offset : scan.time_offset) offset += static_cast<float>(first_offset);
-    if (!tell) scan.time_offset.clear();
+    if (!with_times) scan.time_offset.clear();
     scan.stamp = Timestamp::from_seconds(1.0 + begin - first_offset);
     const auto estimate = odometry.estimate(FeatureExtractor({}).extract(scan));
     EXPECT_EQ(estimate.stamp, scan.stamp);
-    const Eigen::Isometry3d truth = ride(-first_offset).inverse() * ride(begin - first_offset);
-    worst = std::max(worst, testing::position_error(estimate.T_world_sensor.isometry(), truth));
+    const Eigen::Isometry3d truth =
+        pose_of(-first_offset).inverse() * pose_of(begin - first_offset);
+    max_error =
+        std::max(max_error, testing::position_error(estimate.T_world_sensor.isometry(), truth));
   }
-  return worst;
+  return max_error;
 }
 
-TEST(MotionCompensation, PointsOfAScanAreThoseOfItsStamp) {
+TEST(MotionCompensation, DeskewsScanToItsStamp) {
   LabeledCloud cloud = scan_at(1.5);
-  EXPECT_GT(worst_of(cloud, pose_at(1.5)), 0.15);
-  deskew(cloud, turn());
-  EXPECT_LT(worst_of(cloud, pose_at(1.5)), 5e-3);
+  EXPECT_GT(max_face_distance(cloud, pose_at(1.5)), 0.15);
+  deskew(cloud, velocity());
+  EXPECT_LT(max_face_distance(cloud, pose_at(1.5)), 5e-3);
 }
 
-TEST(MotionCompensation, FeaturesOfAScanAreThoseOfItsMiddle) {
+TEST(MotionCompensation, DeskewsFeaturesToCenterOfScan) {
   FeatureCloud features = FeatureExtractor({}).extract(scan_at(1.5));
   EXPECT_NEAR(to_seconds(features.points_offset), 0.5 * kPeriod, 1e-3);
-  deskew(features, turn());
-  const Eigen::Isometry3d middle = pose_at(1.5 + 0.5 * kPeriod);
+  deskew(features, velocity());
+  const Eigen::Isometry3d center = pose_at(1.5 + 0.5 * kPeriod);
   ASSERT_GT(features.planes.size(), 300U);
   for (const PlaneFeature& plane : features.planes) {
-    EXPECT_LT(hall().distance_to_face(middle * plane.point.cast<double>()), 5e-3);
+    EXPECT_LT(hall().distance_to_face(center * plane.point.cast<double>()), 5e-3);
   }
 }
 
-TEST(MotionCompensation, CloudsOfOneInstantStayAsTheyAre) {
+TEST(MotionCompensation, KeepsCloudsWithoutTimeOffsets) {
   LabeledCloud cloud = scan_at(1.5);
   cloud.time_offset.clear();
   const auto before = cloud.points;
-  deskew(cloud, turn());
+  deskew(cloud, velocity());
   EXPECT_EQ(cloud.points, before);
 }
 
-TEST(MotionCompensation, APoseIsThatOfTheStampWhereverInTheScanItIs) {
-  EXPECT_LT(worst_of_drive(pose_at, true), 0.03);
-  EXPECT_LT(worst_of_drive(pose_at, true, -kPeriod), 0.03);  // stamped at the last point
-  EXPECT_GT(worst_of_drive(pose_at, false), 0.06);
+TEST(MotionCompensation, EstimatesPoseAtStampAnywhereInScan) {
+  EXPECT_LT(max_position_error(pose_at, true), 0.03);
+  EXPECT_LT(max_position_error(pose_at, true, -kPeriod), 0.03);  // stamped at the last point
+  EXPECT_GT(max_position_error(pose_at, false), 0.06);
 }
 
-TEST(MotionCompensation, ARideMayBeginInMotion) {
-  EXPECT_LT(worst_of_drive(pose_in_motion_at, true), 0.03);
-  EXPECT_LT(worst_of_drive(pose_in_motion_at, true, -kPeriod), 0.03);
+TEST(MotionCompensation, TracksFromStartInMotion) {
+  EXPECT_LT(max_position_error(pose_in_motion_at, true), 0.03);
+  EXPECT_LT(max_position_error(pose_in_motion_at, true, -kPeriod), 0.03);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ Eigen::Isometry3d steady(double seconds) {
   return se3::exp(velocity * seconds);
 }
 
-TEST(MotionModel, GoesOnAsItWent) {
+TEST(MotionModel, PredictsConstantVelocity) {
   MotionModel model{MotionConfig{}};
   model.place(at(1.0), steady(0.0));
   model.measure(at(1.1), steady(0.1));
@@ -29,7 +29,7 @@ TEST(MotionModel, GoesOnAsItWent) {
   EXPECT_TRUE(model.predict(at(0.9)).T_world_sensor.isApprox(steady(-0.1), 1e-9));
 }
 
-TEST(MotionModel, SaysNothingOfItsErrorBeforeTheVelocityIsKnown) {
+TEST(MotionModel, IsUninformativeBeforeVelocityIsKnown) {
   MotionModel model{MotionConfig{}};
   model.place(at(0.0), steady(0.0));
   EXPECT_FALSE(model.predict(at(0.1)).is_informative());
@@ -37,9 +37,9 @@ TEST(MotionModel, SaysNothingOfItsErrorBeforeTheVelocityIsKnown) {
   EXPECT_TRUE(model.predict(at(0.2)).is_informative());
 }
 
-/// From rest with an acceleration of one standard deviation: where it is and where it was expected
-/// are one standard deviation apart, but for that of the measurements.
-TEST(MotionModel, TheErrorIsThatOfTheAcceleration) {
+/// From rest with an acceleration of one standard deviation, the true and the predicted position
+/// differ by one standard deviation, without that of the measurements.
+TEST(MotionModel, ErrorEqualsThatOfAcceleration) {
   MotionConfig config;
   config.acceleration = 2.0;
   MotionModel model(config);
@@ -51,20 +51,20 @@ TEST(MotionModel, TheErrorIsThatOfTheAcceleration) {
               expected.translation_sigma - 0.003, 1e-9);
 }
 
-TEST(MotionModel, AVelocityIsKnownAgainAfterFramesWithoutAPose) {
+TEST(MotionModel, RecoversVelocityAfterCoasting) {
   MotionModel model{MotionConfig{}};
   model.place(at(0.0), steady(0.0));
   model.measure(at(0.1), steady(0.1));
-  const double sure = model.predict(at(0.2)).translation_sigma;
+  const double sigma = model.predict(at(0.2)).translation_sigma;
   for (double t = 0.2; t < 0.55; t += 0.1) model.coast(at(t));
-  EXPECT_GT(model.predict(at(0.6)).translation_sigma, 5.0 * sure);
+  EXPECT_GT(model.predict(at(0.6)).translation_sigma, 5.0 * sigma);
   model.measure(at(0.6), steady(0.6));
   EXPECT_TRUE(model.predict(at(0.7)).T_world_sensor.isApprox(steady(0.7), 1e-9));
-  EXPECT_GT(model.predict(at(0.7)).translation_sigma, 2.0 * sure);
-  EXPECT_LT(model.predict(at(0.7)).translation_sigma, 5.0 * sure);
+  EXPECT_GT(model.predict(at(0.7)).translation_sigma, 2.0 * sigma);
+  EXPECT_LT(model.predict(at(0.7)).translation_sigma, 5.0 * sigma);
 }
 
-TEST(MotionModel, WithoutMeasurementsItComesToRest) {
+TEST(MotionModel, ComesToRestWhileCoasting) {
   MotionModel model{MotionConfig{}};
   model.place(at(0.0), motion(0, 0, 0, 0, 0, 0));
   model.measure(at(0.1), motion(0.1, 0, 0, 0, 0, 0));
@@ -73,20 +73,20 @@ TEST(MotionModel, WithoutMeasurementsItComesToRest) {
   EXPECT_LT(model.velocity().norm(), 1e-6);
 }
 
-TEST(MotionModel, BelievesWhatItsLimitsAllow) {
+TEST(MotionModel, AcceptsPosesWithinAccelerationLimit) {
   MotionConfig config;
   config.max_acceleration = 10.0;
   MotionModel model(config);
   model.place(at(0.0), steady(0.0));
   model.measure(at(0.1), steady(0.1));
-  const auto off_by = [](double metres) { return motion(metres, 0, 0, 0, 0, 0) * steady(0.2); };
-  EXPECT_TRUE(model.is_feasible(at(0.2), off_by(0.10)));  // 0.01 + 10/2 * 0.1 * 0.2 = 0.11
-  EXPECT_FALSE(model.is_feasible(at(0.2), off_by(0.12)));
+  const auto displaced = [](double metres) { return motion(metres, 0, 0, 0, 0, 0) * steady(0.2); };
+  EXPECT_TRUE(model.is_feasible(at(0.2), displaced(0.10)));  // 0.01 + 10/2 * 0.1 * 0.2 = 0.11
+  EXPECT_FALSE(model.is_feasible(at(0.2), displaced(0.12)));
   model.coast(at(0.2));
-  EXPECT_TRUE(model.is_feasible(at(0.3), off_by(0.30)));  // the limit is 0.31
+  EXPECT_TRUE(model.is_feasible(at(0.3), displaced(0.30)));  // the limit is 0.31
 }
 
-TEST(MotionModel, BeforeTheVelocityIsKnownSpeedIsTheLimit) {
+TEST(MotionModel, LimitsSpeedBeforeVelocityIsKnown) {
   MotionConfig config;
   config.max_speed = 2.0;
   config.max_turn_rate = 90.0;
@@ -98,7 +98,7 @@ TEST(MotionModel, BeforeTheVelocityIsKnownSpeedIsTheLimit) {
   EXPECT_FALSE(model.is_feasible(at(0.1), motion(0, 0, 0, 0, 0.17, 0)));
 }
 
-TEST(MotionModel, WithoutAccelerationsNothingIsExpected) {
+TEST(MotionModel, IsUninformativeWithoutAccelerations) {
   MotionConfig config;
   config.acceleration = 0.0;
   config.turn_acceleration = 0.0;
@@ -108,7 +108,7 @@ TEST(MotionModel, WithoutAccelerationsNothingIsExpected) {
   EXPECT_FALSE(model.predict(at(0.2)).is_informative());
 }
 
-TEST(PosePrediction, ItsGradientIsThatOfItsCost) {
+TEST(PosePrediction, GradientEqualsNumericDerivative) {
   const PosePrediction prediction{motion(1.0, 2.0, 3.0, 0.3, -0.2, 0.1), 0.02, 0.05};
   const Eigen::Isometry3d pose =
       prediction.T_world_sensor * motion(0.01, -0.02, 0.005, 0.004, 0.002, -0.003);

@@ -16,7 +16,7 @@ using testing::position_error;
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 
-/// A steady drive through the room, truth at any instant.
+/// Ground truth of a trajectory with constant velocity through the room.
 Eigen::Isometry3d truth_at(Timestamp stamp) {
   const double t = stamp.seconds();
   return motion(0.3 * t, -0.1 * t, 0.2 * t, 0.05 * t, 0.2 * t, -0.1 * t);
@@ -29,14 +29,14 @@ FeatureCloud features_at(std::int64_t milliseconds) {
   return features;
 }
 
-FeatureCloud nothing_at(std::int64_t milliseconds) {
+FeatureCloud no_features_at(std::int64_t milliseconds) {
   FeatureCloud features;
   features.stamp = Timestamp(milliseconds * kMillisecond);
   return features;
 }
 
-/// As many features as in `features_at`, but anywhere, with any normal.
-FeatureCloud nonsense_at(std::int64_t milliseconds) {
+/// As many features as in `features_at`, with random positions and normals.
+FeatureCloud random_features_at(std::int64_t milliseconds) {
   FeatureCloud features = features_at(milliseconds);
   std::mt19937 random(static_cast<unsigned>(milliseconds));
   std::uniform_real_distribution<float> any(-1.0F, 1.0F);
@@ -55,17 +55,17 @@ double error_of(const OdometryEstimate& estimate) {
   return position_error(estimate.T_world_sensor.isometry(), truth_at(estimate.stamp));
 }
 
-TEST(Odometry, TheFirstFrameIsTheOrigin) {
+TEST(Odometry, FirstFrameIsOrigin) {
   Odometry odometry({}, {});
   const auto estimate = odometry.estimate(features_at(0));
   EXPECT_EQ(estimate.status, Status::kInitialized);
   EXPECT_TRUE(estimate.T_world_sensor.isometry().isApprox(Eigen::Isometry3d::Identity()));
 }
 
-TEST(Odometry, TooFewFeaturesDoNotInitialise) {
+TEST(Odometry, DoesNotInitializeWithTooFewFeatures) {
   Odometry odometry({}, {});
-  EXPECT_EQ(odometry.estimate(nothing_at(0)).status, Status::kLost);
-  EXPECT_EQ(odometry.estimate(nothing_at(50)).status, Status::kLost);
+  EXPECT_EQ(odometry.estimate(no_features_at(0)).status, Status::kLost);
+  EXPECT_EQ(odometry.estimate(no_features_at(50)).status, Status::kLost);
   const auto first = odometry.estimate(features_at(100));
   EXPECT_EQ(first.status, Status::kInitialized);
   EXPECT_TRUE(first.T_world_sensor.isometry().isApprox(Eigen::Isometry3d::Identity()));
@@ -83,21 +83,21 @@ TEST(Odometry, TracksIrregularStamps) {
   }
 }
 
-TEST(Odometry, LosesTheWayAndFindsItAgain) {
+TEST(Odometry, RecoversAfterLoss) {
   Odometry odometry({}, {});
   std::vector<Status> statuses;
   std::vector<OdometryEstimate> estimates;
   for (int ms = 0; ms <= 1000; ms += 50) {
-    const bool blind = ms >= 500 && ms < 700;
-    estimates.push_back(odometry.estimate(blind ? nothing_at(ms) : features_at(ms)));
-    const Status expected = ms == 0     ? Status::kInitialized
-                            : blind     ? Status::kLost
-                            : ms == 700 ? Status::kRecovered
-                                        : Status::kTracking;
+    const bool has_no_features = ms >= 500 && ms < 700;
+    estimates.push_back(odometry.estimate(has_no_features ? no_features_at(ms) : features_at(ms)));
+    const Status expected = ms == 0           ? Status::kInitialized
+                            : has_no_features ? Status::kLost
+                            : ms == 700       ? Status::kRecovered
+                                              : Status::kTracking;
     EXPECT_EQ(estimates.back().status, expected) << ms;
-    EXPECT_TRUE(blind || error_of(estimates.back()) < 2e-3) << ms;
+    EXPECT_TRUE(has_no_features || error_of(estimates.back()) < 2e-3) << ms;
   }
-  // Lost, it goes on in the direction it went, ever more slowly.
+  // While lost, it continues in its direction and slows down.
   const auto step = [&](std::size_t i) {
     return position_error(estimates[i].T_world_sensor.isometry(),
                           estimates[i - 1].T_world_sensor.isometry());
@@ -107,32 +107,32 @@ TEST(Odometry, LosesTheWayAndFindsItAgain) {
   EXPECT_GT(step(12), 0.0);
 }
 
-TEST(Odometry, ALostFrameIsStillExpectedForAMoment) {
+TEST(Odometry, PredictsPoseShortlyAfterLoss) {
   Odometry odometry({}, {});
   for (int ms = 0; ms <= 500; ms += 50) odometry.estimate(features_at(ms));
-  odometry.estimate(nothing_at(550));
+  odometry.estimate(no_features_at(550));
   const Timestamp next(600 * kMillisecond);
   const auto expected = odometry.expected(next);
   ASSERT_TRUE(expected);
   EXPECT_LT(position_error(expected->isometry(), truth_at(next)), 0.02);
-  for (int ms = 600; ms <= 1500; ms += 50) odometry.estimate(nothing_at(ms));
+  for (int ms = 600; ms <= 1500; ms += 50) odometry.estimate(no_features_at(ms));
   EXPECT_FALSE(odometry.expected(Timestamp(1550 * kMillisecond)));
 }
 
-TEST(Odometry, LostFramesDoNotChangeTheMaps) {
-  Odometry blinded({}, {});
-  Odometry fooled({}, {});
+TEST(Odometry, LostFramesDoNotChangeMaps) {
+  Odometry without_features({}, {});
+  Odometry with_random_features({}, {});
   for (int ms = 0; ms <= 1000; ms += 50) {
-    const bool bad = ms >= 500 && ms < 650;
-    const auto a = blinded.estimate(bad ? nothing_at(ms) : features_at(ms));
-    const auto b = fooled.estimate(bad ? nonsense_at(ms) : features_at(ms));
+    const bool is_bad = ms >= 500 && ms < 650;
+    const auto a = without_features.estimate(is_bad ? no_features_at(ms) : features_at(ms));
+    const auto b = with_random_features.estimate(is_bad ? random_features_at(ms) : features_at(ms));
     EXPECT_EQ(a.status, b.status) << ms;
-    EXPECT_EQ(a.status == Status::kLost, bad) << ms;
+    EXPECT_EQ(a.status == Status::kLost, is_bad) << ms;
     EXPECT_EQ(a.T_world_sensor.isometry().matrix(), b.T_world_sensor.isometry().matrix()) << ms;
   }
 }
 
-TEST(Odometry, AJumpIsNotBelieved) {
+TEST(Odometry, RejectsJump) {
   OdometryConfig config;
   config.motion.max_speed = 1.0;
   Odometry odometry(config, {});
@@ -144,8 +144,8 @@ TEST(Odometry, AJumpIsNotBelieved) {
   EXPECT_EQ(odometry.estimate(jump).status, Status::kLost);
 }
 
-TEST(Odometry, AJerkIsNotBelievedOnceTheVelocityIsKnown) {
-  const auto pushed = [](double metres) {
+TEST(Odometry, RejectsExcessiveAcceleration) {
+  const auto displaced = [](double metres) {
     FeatureCloud features = testing::exact_features(
         BoxRoom{}, truth_at(Timestamp(50 * kMillisecond)) * motion(metres, 0, 0, 0, 0, 0), 16);
     features.stamp = Timestamp(100 * kMillisecond);
@@ -159,11 +159,11 @@ TEST(Odometry, AJerkIsNotBelievedOnceTheVelocityIsKnown) {
     Odometry odometry(config, {});
     odometry.estimate(features_at(0));
     odometry.estimate(features_at(50));
-    EXPECT_EQ(odometry.estimate(pushed(0.2)).status, status) << acceleration;
+    EXPECT_EQ(odometry.estimate(displaced(0.2)).status, status) << acceleration;
   }
 }
 
-TEST(Odometry, OneWallIsReportedDegenerate) {
+TEST(Odometry, SingleWallIsDegenerate) {
   const auto wall_at = [](int ms) {
     FeatureCloud features = features_at(ms);
     features.edges.clear();
@@ -181,37 +181,37 @@ TEST(Odometry, OneWallIsReportedDegenerate) {
   EXPECT_EQ(estimate.degenerate_directions, 3);
 }
 
-TEST(Odometry, DepthTakenLaterThanTheImageIsMovedBack) {
-  const auto drive = [](bool tell) {
+TEST(Odometry, CompensatesDelayedDepth) {
+  const auto run = [](bool with_offset) {
     Odometry odometry({}, {});
-    double worst = 0.0;
+    double max_error = 0.0;
     for (int ms = 0; ms <= 600; ms += 50) {
-      const int late = ms == 0 ? 0 : 10;
-      FeatureCloud features = features_at(ms + late);
+      const int delay = ms == 0 ? 0 : 10;
+      FeatureCloud features = features_at(ms + delay);
       features.stamp = Timestamp(ms * kMillisecond);
-      if (tell) features.points_offset = Duration(late * kMillisecond);
+      if (with_offset) features.points_offset = Duration(delay * kMillisecond);
       const auto estimate = odometry.estimate(features);
-      if (ms > 200) worst = std::max(worst, error_of(estimate));
+      if (ms > 200) max_error = std::max(max_error, error_of(estimate));
     }
-    return worst;
+    return max_error;
   };
-  EXPECT_GT(drive(false), 3e-3);  // 10 ms at 0.37 m/s
-  EXPECT_LT(drive(true), 1e-3);
+  EXPECT_GT(run(false), 3e-3);  // 10 ms at 0.37 m/s
+  EXPECT_LT(run(true), 1e-3);
 }
 
-TEST(Odometry, DepthNearlyAFrameLateDoesNotDiverge) {
+TEST(Odometry, DepthDelayedByNearlyAFrameDoesNotDiverge) {
   Odometry odometry({}, {});
-  double worst = 0.0;
+  double max_error = 0.0;
   for (int ms = 0; ms <= 1000; ms += 25) {
     FeatureCloud features = features_at(ms + 20);
     features.stamp = Timestamp(ms * kMillisecond);
     features.points_offset = Duration(20 * kMillisecond);
-    worst = std::max(worst, error_of(odometry.estimate(features)));
+    max_error = std::max(max_error, error_of(odometry.estimate(features)));
   }
-  EXPECT_LT(worst, 2e-2);  // 20 ms at 0.37 m/s are 7 mm; fed back, they would be metres
+  EXPECT_LT(max_error, 2e-2);  // 20 ms at 0.37 m/s are 7 mm; with feedback they would become metres
 }
 
-TEST(Odometry, EqualStampsAreSurvived) {
+TEST(Odometry, AcceptsEqualStamps) {
   Odometry odometry({}, {});
   odometry.estimate(features_at(0));
   for (int i = 0; i < 3; ++i) {

@@ -23,7 +23,7 @@ CameraIntrinsics distorted_camera() {
 
 using Pattern = std::function<double(double x, double y)>;
 
-/// A level with that luminance, exact derivatives and the same depth everywhere.
+/// A level with that luminance, its central differences and constant depth.
 IntensityLevel level_of(const Pattern& pattern, float depth) {
   const CameraIntrinsics camera = distorted_camera();
   IntensityLevel level{camera, Image<IntensitySample>(camera.width, camera.height),
@@ -38,7 +38,7 @@ IntensityLevel level_of(const Pattern& pattern, float depth) {
   return level;
 }
 
-/// Steep enough everywhere to be texture, with little curvature.
+/// Gradient large enough everywhere, with little curvature.
 double slope(double x, double y) {
   return 20.0 + 0.6 * x + 0.5 * y + 0.002 * x * x - 0.001 * x * y + 0.0015 * y * y;
 }
@@ -58,7 +58,7 @@ PhotometricState without_robustness(double bias = 0.0) {
   return {.gain = 1.0, .bias = bias, .sigma = 1e6};
 }
 
-TEST(PhotometricTerm, JacobianIsTheDerivative) {
+TEST(PhotometricTerm, JacobianEqualsNumericDerivative) {
   const IntensityLevel level = level_of(slope, 2.0F);
   const PhotometricConfig config = plain_config();
   const Eigen::Isometry3d T = motion(0.01, -0.02, 0.015, 0.01, 0.008, -0.02);
@@ -88,7 +88,7 @@ TEST(PhotometricTerm, JacobianIsTheDerivative) {
   }
 }
 
-TEST(PhotometricTerm, ResidualsVanishAtTheTruePose) {
+TEST(PhotometricTerm, ResidualsVanishAtTruePose) {
   const IntensityLevel level = level_of(waves, 2.0F);
   const Eigen::Isometry3d pose = motion(1.0, 2.0, 3.0, 0.3, 0.2, 0.1);
   const auto keyframe = make_intensity_keyframe({level}, pose, plain_config(), DepthNoise{});
@@ -99,7 +99,7 @@ TEST(PhotometricTerm, ResidualsVanishAtTheTruePose) {
   EXPECT_EQ(sum.histogram[0], static_cast<std::uint32_t>(sum.visible));
 }
 
-TEST(PhotometricTerm, GainAndBiasAreRecovered) {
+TEST(PhotometricTerm, RecoversGainAndBias) {
   const auto keyframe = make_intensity_keyframe(
       {level_of(waves, 2.0F)}, Eigen::Isometry3d::Identity(), plain_config(), DepthNoise{});
   const IntensityLevel brighter =
@@ -115,7 +115,7 @@ TEST(PhotometricTerm, GainAndBiasAreRecovered) {
   EXPECT_EQ(state.sigma, plain_config().min_sigma);
 }
 
-TEST(PhotometricTerm, SigmaIsTheSpreadOfTheResiduals) {
+TEST(PhotometricTerm, SigmaFollowsMedianResidual) {
   PhotometricEquations equations;  // |residual| evenly over 0 ... 20: median 10
   equations.visible = 2000;
   for (std::size_t bin = 0; bin < 20; ++bin) equations.histogram[bin] = 100;
@@ -127,7 +127,7 @@ TEST(PhotometricTerm, SigmaIsTheSpreadOfTheResiduals) {
   EXPECT_EQ(PhotometricEquations{}.next(before, 1.0).gain, 1.1);
 }
 
-/// Number of keyframe points that count when the left half of the view has another depth.
+/// Number of visible keyframe points when the left half of the view has another depth.
 int visible_with_left_half_at(float depth) {
   const IntensityLevel level = level_of(waves, 2.0F);
   const auto keyframe =
@@ -141,16 +141,16 @@ int visible_with_left_half_at(float depth) {
       .visible;
 }
 
-TEST(PhotometricTerm, PointsBehindSomethingNearerDoNotCount) {
+TEST(PhotometricTerm, IgnoresOccludedPoints) {
   const int all = visible_with_left_half_at(2.0F);
   const int hidden = visible_with_left_half_at(1.2F);
   EXPECT_NEAR(hidden, all / 2, all / 20);
   EXPECT_EQ(visible_with_left_half_at(0.0F), hidden);  // dynamic or no return
-  EXPECT_EQ(visible_with_left_half_at(2.8F), hidden);  // the keyframe's point has gone
+  EXPECT_EQ(visible_with_left_half_at(2.8F), hidden);  // the keyframe's surface is gone
   EXPECT_EQ(visible_with_left_half_at(2.01F), all);    // noise
 }
 
-TEST(PhotometricTerm, PointsOutsideTheImageDoNotCount) {
+TEST(PhotometricTerm, IgnoresPointsOutsideImage) {
   const IntensityLevel level = level_of(waves, 2.0F);
   const auto keyframe =
       make_intensity_keyframe({level}, Eigen::Isometry3d::Identity(), plain_config(), DepthNoise{});
@@ -164,7 +164,7 @@ TEST(PhotometricTerm, PointsOutsideTheImageDoNotCount) {
   EXPECT_NEAR(half, all / 2, all / 10);
 }
 
-TEST(IntensityKeyframe, LeavesOutDynamicPixelsAndDepthEdges) {
+TEST(IntensityKeyframe, ExcludesDynamicPixelsAndDepthEdges) {
   IntensityLevel level = level_of(waves, 2.0F);
   const CameraModel camera(level.camera);
   const auto fill = [&](int left, int right, float depth) {
@@ -187,7 +187,7 @@ TEST(IntensityKeyframe, LeavesOutDynamicPixelsAndDepthEdges) {
   }
 }
 
-TEST(IntensityKeyframe, WantsTexture) {
+TEST(IntensityKeyframe, IsEmptyWithoutTexture) {
   const IntensityLevel flat = level_of([](double, double) { return 100.0; }, 2.0F);
   const auto keyframe =
       make_intensity_keyframe({flat}, Eigen::Isometry3d::Identity(), {}, DepthNoise{});

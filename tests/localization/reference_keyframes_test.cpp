@@ -19,7 +19,7 @@ Eigen::Isometry3d at(double x) {
   return motion(x, 0, 0, 0, 0, 0);
 }
 
-TEST(ReferenceKeyframes, ANewOneNeedsDistanceOrTurn) {
+TEST(ReferenceKeyframes, NewKeyframeNeedsTranslationOrRotation) {
   PhotometricConfig config;
   config.keyframe_translation = 0.1;
   config.keyframe_parallax = 0.0;
@@ -36,7 +36,7 @@ TEST(ReferenceKeyframes, ANewOneNeedsDistanceOrTurn) {
   EXPECT_EQ(keyframes.size(), 3U);
 }
 
-TEST(ReferenceKeyframes, WhatIsFarAwayNeedsMoreDistance) {
+TEST(ReferenceKeyframes, NewKeyframeDistanceScalesWithDepth) {
   PhotometricConfig config;
   config.keyframe_translation = 0.01;
   config.keyframe_parallax = 0.1;
@@ -50,7 +50,7 @@ TEST(ReferenceKeyframes, WhatIsFarAwayNeedsMoreDistance) {
   EXPECT_EQ(keyframes.size(), 2U);
 }
 
-TEST(ReferenceKeyframes, TheNearestComeFirstAndKeepTheirPose) {
+TEST(ReferenceKeyframes, NearestComeFirstWithTheirPoses) {
   PhotometricConfig config;
   config.references = 2;
   ReferenceKeyframes keyframes(config, {});
@@ -62,7 +62,7 @@ TEST(ReferenceKeyframes, TheNearestComeFirstAndKeepTheirPose) {
   EXPECT_EQ(nearest[0]->levels.size(), 2U);
 }
 
-TEST(ReferenceKeyframes, TheFarthestGoesFirst) {
+TEST(ReferenceKeyframes, RemovesFarthestFirst) {
   PhotometricConfig config;
   config.max_keyframes = 3;
   config.references = 8;
@@ -74,7 +74,7 @@ TEST(ReferenceKeyframes, TheFarthestGoesFirst) {
   }
 }
 
-TEST(ReferenceKeyframes, WithoutImageOrSwitchedOffThereAreNone) {
+TEST(ReferenceKeyframes, EmptyWithoutImageOrWhenDisabled) {
   ReferenceKeyframes keyframes({}, {});
   keyframes.update({}, at(0.0));
   EXPECT_EQ(keyframes.size(), 0U);

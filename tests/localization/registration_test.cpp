@@ -41,14 +41,14 @@ FeatureCloud corner_of(const FeatureCloud& all, const BoxRoom& room,
 /// Planar features on the faces along the given axes only.
 FeatureCloud faces_along(const FeatureCloud& all, const Eigen::Isometry3d& T_world_sensor,
                          std::initializer_list<int> axes) {
-  FeatureCloud chosen;
+  FeatureCloud selected;
   for (const auto& f : all.planes) {
     const Eigen::Vector3d normal = T_world_sensor.linear() * f.normal.cast<double>();
     for (const int axis : axes) {
-      if (std::abs(normal(axis)) > 0.99) chosen.planes.push_back(f);
+      if (std::abs(normal(axis)) > 0.99) selected.planes.push_back(f);
     }
   }
-  return chosen;
+  return selected;
 }
 
 LocalMaps map_of(const FeatureCloud& features, Association association, double voxel = 0.2) {
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Registration, RegisteredBy,
                          ::testing::Values(Association::kPaper, Association::kSurface),
                          testing::association_name);
 
-TEST_P(RegisteredBy, RecoverAKnownMotionInACorner) {
+TEST_P(RegisteredBy, RecoversKnownMotionInCorner) {
   const BoxRoom room;
   const LocalMaps maps =
       map_of(corner_of(exact_features(room, kOrigin, 60), room, kOrigin), GetParam());
@@ -89,7 +89,7 @@ TEST_P(RegisteredBy, RecoverAKnownMotionInACorner) {
 
 /// 5 mm of noise, 30 % outliers of up to half a metre. 3000 features of 5 mm leave a standard
 /// deviation under 0.3 mm; the bounds are ten times that.
-TEST_P(RegisteredBy, NoiseAndOutliersDoLittle) {
+TEST_P(RegisteredBy, ToleratesNoiseAndOutliers) {
   const BoxRoom room;
   const Eigen::Isometry3d truth = motion(0.05, -0.03, 0.04, 0.02, -0.03, 0.01);
   for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -107,7 +107,7 @@ TEST_P(RegisteredBy, NoiseAndOutliersDoLittle) {
   }
 }
 
-TEST_P(RegisteredBy, OnePlaneLeavesThreeDirectionsToThePrediction) {
+TEST_P(RegisteredBy, SinglePlaneLeavesThreeDirectionsToPrediction) {
   const BoxRoom room;
   const auto floor = [&](const Eigen::Isometry3d& T, int density) {
     FeatureCloud all = faces_along(exact_features(room, T, density), T, {1});
@@ -122,7 +122,7 @@ TEST_P(RegisteredBy, OnePlaneLeavesThreeDirectionsToThePrediction) {
                                      config_with(GetParam()), DepthNoise{});
   EXPECT_EQ(result.degenerate_directions, 3);
   const Eigen::Isometry3d& T = result.T_world_sensor;
-  // Along the normal (y): as measured. Across, and around it: as predicted.
+  // Translation along the normal (y) is measured; the other directions are predicted.
   const Eigen::Vector3d floor_point = truth.inverse() * Eigen::Vector3d(0.0, room.high.y(), 1.0);
   EXPECT_NEAR((T * floor_point).y(), room.high.y(), 1e-3);
   EXPECT_LT((T.linear().row(1) - truth.linear().row(1)).norm(), 1e-3);
@@ -132,9 +132,9 @@ TEST_P(RegisteredBy, OnePlaneLeavesThreeDirectionsToThePrediction) {
   EXPECT_NEAR(yaw, 0.01, 1e-3);
 }
 
-TEST_P(RegisteredBy, ACorridorLeavesItsLengthToThePrediction) {
+TEST_P(RegisteredBy, CorridorLeavesLengthToPrediction) {
   const BoxRoom room;
-  // No features near the creases: planes through points of two walls would see along them.
+  // No features near creases: planes through points of two walls would constrain the length.
   const auto corridor = [&](const Eigen::Isometry3d& T, int density) {
     return faces_along(exact_features(room, T, density, 0.45), T, {0, 1});
   };
@@ -144,19 +144,19 @@ TEST_P(RegisteredBy, ACorridorLeavesItsLengthToThePrediction) {
   const auto result = register_frame(corridor(truth, 31), {maps, {}}, {prediction},
                                      config_with(GetParam()), DepthNoise{});
   EXPECT_EQ(result.degenerate_directions, 1);
-  const Eigen::Vector3d off = result.T_world_sensor.translation() - truth.translation();
+  const Eigen::Vector3d offset = result.T_world_sensor.translation() - truth.translation();
   EXPECT_NEAR(result.T_world_sensor.translation().z(), -0.06, 3e-3);
-  EXPECT_LT(off.head<2>().norm(), 3e-3);
+  EXPECT_LT(offset.head<2>().norm(), 3e-3);
   EXPECT_LT(angle_error_deg(result.T_world_sensor, truth), 0.02);
 }
 
-/// Outliers say something, all of it wrong, about the direction in which nothing else does.
-TEST_P(RegisteredBy, APredictionThatIsSureHoldsWhatOutliersWouldTakeAlong) {
+/// Outliers alone constrain the degenerate direction, wrongly.
+TEST_P(RegisteredBy, CertainPredictionLimitsOutliers) {
   const BoxRoom room;
   const auto corridor = [&](const Eigen::Isometry3d& T, int density) {
     return faces_along(exact_features(room, T, density, 0.45), T, {0, 1});
   };
-  const auto someone = [](const Eigen::Isometry3d& T, double z) {
+  const auto person = [](const Eigen::Isometry3d& T, double z) {
     FeatureCloud features;
     for (int i = 0; i < 100; ++i) {
       PlaneFeature& f = features.planes.emplace_back();
@@ -167,13 +167,13 @@ TEST_P(RegisteredBy, APredictionThatIsSureHoldsWhatOutliersWouldTakeAlong) {
     }
     return features;
   };
-  const auto together = [](FeatureCloud a, const FeatureCloud& b) {
+  const auto merged = [](FeatureCloud a, const FeatureCloud& b) {
     a.planes.insert(a.planes.end(), b.planes.begin(), b.planes.end());
     return a;
   };
-  const LocalMaps maps = map_of(together(corridor(kOrigin, 60), someone(kOrigin, 2.0)), GetParam());
+  const LocalMaps maps = map_of(merged(corridor(kOrigin, 60), person(kOrigin, 2.0)), GetParam());
   const Eigen::Isometry3d truth = motion(0.01, -0.01, 0.03, 0.0, 0.0, 0.0);
-  const FeatureCloud frame = together(corridor(truth, 31), someone(truth, 2.06));
+  const FeatureCloud frame = merged(corridor(truth, 31), person(truth, 2.06));
   const auto error_with = [&](const PosePrediction& prediction) {
     const auto result =
         register_frame(frame, {maps, {}}, prediction, config_with(GetParam()), DepthNoise{});
@@ -184,7 +184,7 @@ TEST_P(RegisteredBy, APredictionThatIsSureHoldsWhatOutliersWouldTakeAlong) {
   EXPECT_LT(error_with({near, 1e-4, 1e-4}), 0.01);
 }
 
-TEST_P(RegisteredBy, DataThatSayMoreThanThePredictionDecide) {
+TEST_P(RegisteredBy, InformativeDataOutweighPrediction) {
   const BoxRoom room;
   const LocalMaps maps = map_of(exact_features(room, kOrigin, 60), GetParam());
   const Eigen::Isometry3d truth = motion(0.05, -0.03, 0.04, 0.02, -0.03, 0.01);
@@ -194,7 +194,7 @@ TEST_P(RegisteredBy, DataThatSayMoreThanThePredictionDecide) {
   EXPECT_LT(angle_error_deg(result.T_world_sensor, truth), 0.05);
 }
 
-TEST(Registration, WithoutFeaturesThePredictionStays) {
+TEST(Registration, KeepsPredictionWithoutFeatures) {
   const LocalMaps maps = map_of(exact_features(BoxRoom{}, kOrigin), Association::kSurface);
   const Eigen::Isometry3d prediction = motion(1.0, 2.0, 3.0, 0.1, 0.2, 0.3);
   const auto result = register_frame({}, {maps, {}}, {prediction}, {}, DepthNoise{});
@@ -203,7 +203,7 @@ TEST(Registration, WithoutFeaturesThePredictionStays) {
   EXPECT_EQ(result.geometric.planes.inliers, 0);
 }
 
-TEST(Registration, AgainstEmptyMapsThePredictionStays) {
+TEST(Registration, KeepsPredictionWithEmptyMaps) {
   const LocalMaps maps(0.2, 1000);
   const auto result =
       register_frame(exact_features(BoxRoom{}, kOrigin), {maps, {}}, {kOrigin}, {}, DepthNoise{});
@@ -211,7 +211,7 @@ TEST(Registration, AgainstEmptyMapsThePredictionStays) {
   EXPECT_TRUE(result.T_world_sensor.isApprox(kOrigin));
 }
 
-TEST(Registration, InformationGrowsWithTheFeatures) {
+TEST(Registration, InformationGrowsWithFeatures) {
   const BoxRoom room;
   const LocalMaps maps = map_of(exact_features(room, kOrigin, 60), Association::kSurface);
   const auto information = [&](int density) {

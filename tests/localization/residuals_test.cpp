@@ -35,7 +35,7 @@ Eigen::Isometry3d perturbed(const Eigen::Isometry3d& T, int k, double step) {
 }
 
 /// Eq. (3) as printed: |(p - a) x (p - b)| / |a - b|.
-TEST(PointToLine, NormIsTheQuotientOfEquation3) {
+TEST(PointToLine, NormEqualsEquation3) {
   Random random;
   for (int i = 0; i < 200; ++i) {
     const Eigen::Isometry3d T = random.pose();
@@ -50,7 +50,7 @@ TEST(PointToLine, NormIsTheQuotientOfEquation3) {
 }
 
 /// Eq. (4) as printed: (p - a) . ((a - b) x (a - c)) / |(a - b) x (a - c)|.
-TEST(PointToPlane, IsTheQuotientOfEquation4) {
+TEST(PointToPlane, EqualsEquation4) {
   Random random;
   for (int i = 0; i < 200; ++i) {
     const Eigen::Isometry3d T = random.pose();
@@ -62,7 +62,7 @@ TEST(PointToPlane, IsTheQuotientOfEquation4) {
   }
 }
 
-TEST(PointToPlane, JacobianIsTheDerivative) {
+TEST(PointToPlane, JacobianEqualsNumericDerivative) {
   Random random;
   for (int i = 0; i < 100; ++i) {
     const Eigen::Isometry3d T = random.pose();
@@ -81,7 +81,7 @@ TEST(PointToPlane, JacobianIsTheDerivative) {
   }
 }
 
-TEST(PointToLine, JacobianIsTheDerivative) {
+TEST(PointToLine, JacobianEqualsNumericDerivative) {
   Random random;
   for (int i = 0; i < 100; ++i) {
     const Eigen::Isometry3d T = random.pose();
@@ -100,7 +100,7 @@ TEST(PointToLine, JacobianIsTheDerivative) {
   }
 }
 
-TEST(Residuals, VanishOnTheLineAndOnThePlane) {
+TEST(Residuals, VanishOnLineAndPlane) {
   const Eigen::Isometry3d T = Random().pose();
   const Eigen::Vector3d point(1.0, 2.0, 3.0);
   const Eigen::Vector3d direction = Eigen::Vector3d(1.0, -2.0, 0.5).normalized();

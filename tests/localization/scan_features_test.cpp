@@ -23,7 +23,7 @@ FeatureCloud features_of(const LabeledCloud& scan) {
   return FeatureExtractor(FeatureConfig{}).extract(scan);
 }
 
-TEST(ScanFeatures, EdgesLieAtCreasesAndPlanesOnFaces) {
+TEST(ScanFeatures, EdgesAreAtCreasesAndPlanesOnFaces) {
   const BoxRoom room = hall();
   const FeatureCloud features =
       features_of(testing::spinning_scan(room, Eigen::Isometry3d::Identity(), 48, 0.0, 1));
@@ -44,7 +44,7 @@ TEST(ScanFeatures, EdgesLieAtCreasesAndPlanesOnFaces) {
   }
 }
 
-TEST(ScanFeatures, OnlyStaticPointsCount) {
+TEST(ScanFeatures, UseOnlyStaticPoints) {
   const BoxRoom room = hall();
   LabeledCloud scan = testing::spinning_scan(room, Eigen::Isometry3d::Identity(), 32, 0.0, 1);
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
@@ -66,7 +66,7 @@ TEST(ScanFeatures, OnlyStaticPointsCount) {
   }
 }
 
-TEST(ScanFeatures, TheOrderOfThePointsDoesNotMatterMuch) {
+TEST(ScanFeatures, AreNearlyIndependentOfPointOrder) {
   LabeledCloud scan = testing::spinning_scan(hall(), Eigen::Isometry3d::Identity(), 32, 0.01, 1);
   const auto count = features_of(scan).planes.size();
   std::mt19937 random(1);
@@ -76,7 +76,7 @@ TEST(ScanFeatures, TheOrderOfThePointsDoesNotMatterMuch) {
               0.1 * static_cast<double>(count));
 }
 
-TEST(ScanOdometry, FollowsADriveThroughTheHall) {
+TEST(ScanOdometry, TracksSensorThroughHall) {
   const BoxRoom room = hall();
   Odometry odometry(OdometryConfig{}, DepthNoise{});
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();

@@ -20,7 +20,7 @@ TEST(SurfaceMap, MeanIsWeightedByInverseVariance) {
   EXPECT_NEAR(surface->sigma, 1.0F / std::sqrt(1e4F + 2.5e3F), 1e-6F);
 }
 
-TEST(SurfaceMap, PointsAndNormalsAreMovedIntoTheWorld) {
+TEST(SurfaceMap, TransformsPointsAndNormalsToWorld) {
   SurfaceMap map(1.0, 100);
   const Eigen::Isometry3d T = testing::motion(3.0, -2.0, 1.0, 0.0, M_PI / 2.0, 0.0);
   map.insert({{{0.1F, 0.2F, 2.0F}, kFront, 0.01F}}, T);
@@ -31,7 +31,7 @@ TEST(SurfaceMap, PointsAndNormalsAreMovedIntoTheWorld) {
   EXPECT_TRUE(surface->normal.isApprox(Eigen::Vector3f(-1.0F, 0.0F, 0.0F), 1e-5F));
 }
 
-TEST(SurfaceMap, TakesTheNearestMeanWithAFittingNormal) {
+TEST(SurfaceMap, MatchesNearestMeanWithSimilarNormal) {
   SurfaceMap map(1.0, 100);
   map.insert({{{0.5F, 0.5F, 0.9F}, kFront, 0.01F},
               {{0.5F, 0.5F, 1.6F}, kFront, 0.01F},
@@ -44,7 +44,7 @@ TEST(SurfaceMap, TakesTheNearestMeanWithAFittingNormal) {
   EXPECT_FALSE(map.match({0.5F, 0.5F, 4.5F}, kFront));
 }
 
-TEST(SurfaceMap, ACornerIsNotAveragedIntoOneSurface) {
+TEST(SurfaceMap, DoesNotAverageCornerIntoOneSurface) {
   SurfaceMap map(1.0, 100);
   map.insert({{{0.5F, 0.5F, 0.9F}, kFront, 0.01F}, {{0.1F, 0.5F, 0.5F}, {1, 0, 0}, 0.01F}},
              kOrigin);
@@ -54,7 +54,7 @@ TEST(SurfaceMap, ACornerIsNotAveragedIntoOneSurface) {
   EXPECT_FLOAT_EQ(surface->mean.x(), 0.5F);
 }
 
-TEST(LocalMaps, ForgetWhatIsFarInAllMaps) {
+TEST(LocalMaps, RemoveDistantFeaturesFromAllMaps) {
   for (const Association association : {Association::kPaper, Association::kSurface}) {
     LocalMaps maps(0.2, 100000);
     maps.insert(exact_features(testing::BoxRoom{}, kOrigin), kOrigin, association);
