@@ -18,7 +18,7 @@ Points transformed(const Points& points, const Eigen::Isometry3d& transform) {
 
 class AlignmentOfSeed : public testing::TestWithParam<unsigned> {};
 
-TEST_P(AlignmentOfSeed, RecoversTheTransform) {
+TEST_P(AlignmentOfSeed, RecoversTransform) {
   std::mt19937 random(GetParam());
   std::uniform_real_distribution<double> uniform(-5.0, 5.0);
   Points source;
@@ -29,7 +29,7 @@ TEST_P(AlignmentOfSeed, RecoversTheTransform) {
   EXPECT_TRUE(found.isApprox(truth, 1e-9)) << found.matrix() << "\n\n" << truth.matrix();
 }
 
-TEST_P(AlignmentOfSeed, NoOtherTransformNearbyFitsNoisyPointsBetter) {
+TEST_P(AlignmentOfSeed, IsLocalOptimumWithNoise) {
   std::mt19937 random(GetParam());
   std::normal_distribution<double> normal;
   Points source;
@@ -51,7 +51,7 @@ TEST_P(AlignmentOfSeed, NoOtherTransformNearbyFitsNoisyPointsBetter) {
   }
 }
 
-TEST_P(AlignmentOfSeed, PosesOfASensorThatHardlyMovesTellTheirTransform) {
+TEST_P(AlignmentOfSeed, AlignsPosesOfStaticSensor) {
   std::mt19937 random(GetParam());
   const Eigen::Isometry3d truth = test::random_isometry(random, 10.0, 1.8);
   std::vector<Eigen::Isometry3d> source;
@@ -66,17 +66,17 @@ TEST_P(AlignmentOfSeed, PosesOfASensorThatHardlyMovesTellTheirTransform) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AlignmentOfSeed, testing::Range(0U, 20U));
 
-TEST(Alignment, IsARotationForMirroredAndFlatPoints) {
+TEST(Alignment, IsRotationForMirroredPlanarPoints) {
   const Points flat = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {3, 1, 0}};
   Points mirrored = flat;
   for (Eigen::Vector3d& point : mirrored) point.x() = -point.x();
   EXPECT_NEAR(align_points(flat, mirrored).linear().determinant(), 1.0, 1e-12);
 }
 
-TEST(Alignment, OfOnePlaceIsTheTranslation) {
-  const Points here(4, Eigen::Vector3d(1, 2, 3));
-  const Points there(4, Eigen::Vector3d(5, 5, 5));
-  EXPECT_TRUE((align_points(here, there) * here[0]).isApprox(there[0], 1e-12));
+TEST(Alignment, CoincidentPointsGiveTranslation) {
+  const Points source(4, Eigen::Vector3d(1, 2, 3));
+  const Points target(4, Eigen::Vector3d(5, 5, 5));
+  EXPECT_TRUE((align_points(source, target) * source[0]).isApprox(target[0], 1e-12));
 }
 
 TEST(Alignment, NeedsThreePairs) {
@@ -85,7 +85,7 @@ TEST(Alignment, NeedsThreePairs) {
   EXPECT_THROW(align_points(Points(3, Eigen::Vector3d::Zero()), two), DataError);
 }
 
-TEST(Alignment, OfPosesNeedsPairs) {
+TEST(Alignment, PosesNeedPairs) {
   const std::vector<Eigen::Isometry3d> one(1, Eigen::Isometry3d::Identity());
   EXPECT_THROW(align_poses({}, {}), DataError);
   EXPECT_THROW(align_poses(one, {}), DataError);

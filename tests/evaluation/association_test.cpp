@@ -15,7 +15,7 @@ Trajectory at_milliseconds(const std::vector<int>& stamps) {
   return trajectory;
 }
 
-void make_nan(StampedPose& pose) {
+void set_nan(StampedPose& pose) {
   Eigen::Isometry3d broken = Eigen::Isometry3d::Identity();
   broken.translation().y() = std::numeric_limits<double>::quiet_NaN();
   pose.T_world_sensor = Transform<World, Sensor>(broken);
@@ -23,7 +23,7 @@ void make_nan(StampedPose& pose) {
 
 using Matches = std::vector<PoseMatch>;
 
-TEST(Association, TakesTheNearestWithinTheTolerance) {
+TEST(Association, MatchesNearestWithinTolerance) {
   const auto matches = match_by_stamp(at_milliseconds({0, 30, 60, 200}),
                                       at_milliseconds({14, 16, 61, 150, 220}), kTolerance);
   EXPECT_EQ(matches, (Matches{{0, 0}, {1, 1}, {2, 2}, {3, 4}}));
@@ -34,13 +34,13 @@ TEST(Association, ToleranceIsInclusive) {
   EXPECT_TRUE(match_by_stamp(at_milliseconds({0}), at_milliseconds({21}), kTolerance).empty());
 }
 
-TEST(Association, MatchesAReferencePoseOnlyOnceToTheNearest) {
+TEST(Association, MatchesReferencePoseOnceToNearest) {
   const auto matches =
       match_by_stamp(at_milliseconds({100}), at_milliseconds({95, 101, 108}), kTolerance);
   EXPECT_EQ(matches, (Matches{{0, 1}}));
 }
 
-TEST(Association, OfDuplicatedStampsTheFirstIsMatched) {
+TEST(Association, MatchesFirstOfDuplicatedStamps) {
   const auto matches =
       match_by_stamp(at_milliseconds({100, 100}), at_milliseconds({100, 100}), kTolerance);
   ASSERT_EQ(matches.size(), 1U);
@@ -53,20 +53,20 @@ TEST(Association, NeedsNoOrder) {
   EXPECT_EQ(matches, (Matches{{1, 2}, {2, 0}, {0, 1}}));
 }
 
-TEST(Association, IgnoresPosesThatAreNotFinite) {
+TEST(Association, IgnoresNonFinitePoses) {
   Trajectory reference = at_milliseconds({0, 10});
-  make_nan(reference[0]);
+  set_nan(reference[0]);
   EXPECT_EQ(match_by_stamp(reference, at_milliseconds({0}), kTolerance), (Matches{{1, 0}}));
   EXPECT_EQ(match_by_index(reference, reference), (Matches{{1, 1}}));
 }
 
-TEST(Association, OfNothingIsNothing) {
+TEST(Association, EmptyTrajectoriesGiveNoMatches) {
   EXPECT_TRUE(match_by_stamp({}, at_milliseconds({0}), kTolerance).empty());
   EXPECT_TRUE(match_by_stamp(at_milliseconds({0}), {}, kTolerance).empty());
   EXPECT_TRUE(match_by_index({}, at_milliseconds({0})).empty());
 }
 
-TEST(Association, ByIndexStopsAtTheShorter) {
+TEST(Association, IndexMatchingStopsAtShorterTrajectory) {
   EXPECT_EQ(match_by_index(at_milliseconds({0, 1, 2}), at_milliseconds({7, 8})).size(), 2U);
 }
 

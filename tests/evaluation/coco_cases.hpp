@@ -19,7 +19,7 @@ inline Rle box(int x, int y, int w, int h, int size = 100) {
   return encode_rle(mask);
 }
 
-/// Images 1 to `images` of `size` x `size` px, the class 1 "person" and nothing else yet.
+/// Images 1 to `images` of `size` x `size` px, with the class 1 "person", without objects.
 inline CocoDataset empty_truth(int images, int size = 100) {
   CocoDataset truth;
   for (int id = 1; id <= images; ++id) truth.images.push_back({id, "", size, size});
@@ -33,16 +33,16 @@ inline CocoAnnotation& add_person(CocoDataset& truth, std::int64_t image, const 
   return truth.annotations.emplace_back(coco_annotation(id, image, 1, mask));
 }
 
-constexpr double kTolerance = 1e-9;  // within this the numbers are pycocotools'
+constexpr double kTolerance = 1e-9;  // of the numbers of pycocotools
 
-/// Expects the first of the twelve numbers to be as wanted, NaN where they are.
-inline void expect_scores(const SegmentationScores& found, const std::vector<double>& wanted) {
+/// Expects the first of the twelve numbers, including NaN.
+inline void expect_scores(const SegmentationScores& found, const std::vector<double>& expected) {
   const std::vector<MetricValue> values = metric_values(found);
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (std::isnan(wanted[i])) {
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (std::isnan(expected[i])) {
       EXPECT_TRUE(std::isnan(values[i].value)) << values[i].key;
     } else {
-      EXPECT_NEAR(values[i].value, wanted[i], kTolerance) << values[i].key;
+      EXPECT_NEAR(values[i].value, expected[i], kTolerance) << values[i].key;
     }
   }
 }

@@ -26,7 +26,7 @@ TEST(MapError, CountsKeptStaticAndRemovedDynamicPoints) {
   EXPECT_DOUBLE_EQ(error.HA, 2.0 * 75.0 * 50.0 / 125.0);
 }
 
-TEST(MapError, LeavesOutDynamicPointsNextToStaticOnes) {
+TEST(MapError, ExcludesDynamicPointsNearStaticPoints) {
   const Points floor = {{0, 0, 0}, {1, 0, 0}};
   const Points person = {{0, 0, 0.03F}, {0, 0, 1.0F}};
   const MapError error = evaluate_map(floor, person, floor);
@@ -35,7 +35,7 @@ TEST(MapError, LeavesOutDynamicPointsNextToStaticOnes) {
   EXPECT_DOUBLE_EQ(error.DA, 100.0);
 }
 
-TEST(MapError, OfAnEmptyMapIsNothingKeptAllRemoved) {
+TEST(MapError, EmptyMapHasZeroSaAndFullDa) {
   const MapError error = evaluate_map({{0, 0, 0}}, {{1, 0, 0}}, {});
   EXPECT_DOUBLE_EQ(error.SA, 0.0);
   EXPECT_DOUBLE_EQ(error.DA, 100.0);
@@ -43,22 +43,22 @@ TEST(MapError, OfAnEmptyMapIsNothingKeptAllRemoved) {
   EXPECT_DOUBLE_EQ(error.HA, 0.0);
 }
 
-TEST(MapError, WithoutDynamicPointsHasNoDynamicAccuracy) {
+TEST(MapError, DaIsNanWithoutDynamicPoints) {
   const MapError error = evaluate_map({{0, 0, 0}}, {}, {{0, 0, 0}});
   EXPECT_DOUBLE_EQ(error.SA, 100.0);
   EXPECT_TRUE(std::isnan(error.DA));
   EXPECT_EQ(to_json(metric_values(error)), R"({"SA":100.0,"DA":null,"AA":null,"HA":null})");
 }
 
-TEST(MapError, IgnoresBrokenPoints) {
-  const Points broken = {{kNaN, 0, 0}, {0, INFINITY, 0}, {3e30F, 0, 0}, {0, 0, 0}};
-  const MapError error = evaluate_map(broken, broken, broken);
+TEST(MapError, IgnoresInvalidPoints) {
+  const Points invalid = {{kNaN, 0, 0}, {0, INFINITY, 0}, {3e30F, 0, 0}, {0, 0, 0}};
+  const MapError error = evaluate_map(invalid, invalid, invalid);
   EXPECT_EQ(error.static_points, 1U);
   EXPECT_EQ(error.ambiguous_points, 1U);
   EXPECT_DOUBLE_EQ(error.SA, 100.0);
 }
 
-TEST(MapError, AgreesWithComparingAllPoints) {
+TEST(MapError, EqualsBruteForce) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> uniform(-0.5F, 0.5F);
   const auto cloud = [&](int count) {
@@ -78,7 +78,7 @@ TEST(MapError, AgreesWithComparingAllPoints) {
   EXPECT_DOUBLE_EQ(evaluate_map(truth, {}, map).SA, 100.0 * static_cast<double>(kept) / 500.0);
 }
 
-TEST(MapError, NeedsATruthAndASaneRadius) {
+TEST(MapError, RejectsEmptyTruthAndInvalidRadius) {
   EXPECT_THROW(evaluate_map({}, {}, {{0, 0, 0}}), DataError);
   EXPECT_THROW(evaluate_map({{0, 0, 0}}, {}, {}, 0.0), DataError);
   EXPECT_THROW(evaluate_map({{0, 0, 0}}, {}, {}, std::nan("")), DataError);

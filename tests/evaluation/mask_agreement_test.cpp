@@ -15,7 +15,7 @@ LabeledCloud cloud_of(const std::vector<PointLabel>& labels) {
   return cloud;
 }
 
-TEST(MaskAgreement, CountsPointsWithDepth) {
+TEST(MaskAgreement, CountsOnlyPointsWithDepth) {
   constexpr auto kStatic = PointLabel::kStatic;
   constexpr auto kDynamic = PointLabel::kDynamic;
   constexpr auto kInvalid = PointLabel::kInvalid;
@@ -32,7 +32,7 @@ TEST(MaskAgreement, CountsPointsWithDepth) {
   EXPECT_NEAR(agreement.precision(), 4.0 / 5.0, 1e-12);
 }
 
-TEST(MaskAgreement, APointStandsForABlockOfPixels) {
+TEST(MaskAgreement, PointCoversBlockOfPixels) {
   Image<std::uint8_t> mask(4, 2);
   mask(1, 1) = 1;
   MaskAgreement agreement;
@@ -41,7 +41,7 @@ TEST(MaskAgreement, APointStandsForABlockOfPixels) {
   EXPECT_EQ(agreement.extra, 1);
 }
 
-TEST(MaskAgreement, IsNotANumberWithoutMasks) {
+TEST(MaskAgreement, IsNanWithoutMasks) {
   MaskAgreement agreement;
   agreement.add({}, cloud_of({PointLabel::kStatic}));
   EXPECT_TRUE(std::isnan(agreement.recall()));

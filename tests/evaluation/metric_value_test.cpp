@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-TEST(MetricValue, NumbersHaveTheWantedPlaces) {
+TEST(MetricValue, FormatsGivenDecimals) {
   EXPECT_EQ(to_fixed(1.23456, 2), "1.23");
   EXPECT_EQ(to_fixed(12.0, 0), "12");
   EXPECT_EQ(to_fixed(std::nan(""), 3), "n/a");

@@ -24,7 +24,7 @@ RunMetrics sample() {
   return metrics;
 }
 
-TEST(Metrics, JsonHasExactlyTheContractsKeys) {
+TEST(Metrics, JsonHasExactlyDocumentedKeys) {
   EXPECT_EQ(to_json(sample()), R"({
   "frames": 120,
   "frames_skipped": 2,
@@ -60,7 +60,7 @@ TEST(Metrics, JsonHasExactlyTheContractsKeys) {
 )");
 }
 
-TEST(Metrics, TruthAddsTrajectoryAndDrift) {
+TEST(Metrics, GroundTruthAddsTrajectoryAndDrift) {
   RunMetrics metrics = sample();
   metrics.trajectory = TrajectoryError{.matched = 5, .poses = 6};
   metrics.drift = Drift{6, 1.0, 2.0};
@@ -68,11 +68,11 @@ TEST(Metrics, TruthAddsTrajectoryAndDrift) {
   EXPECT_NE(json.find("\"trajectory\": {\n    \"matched\": 5"), std::string::npos) << json;
   EXPECT_NE(json.find("\"drift\": {\n    \"poses\": 6"), std::string::npos) << json;
   EXPECT_EQ(metric_values(metrics).size(), metric_values(sample()).size() + 10);
-  metrics.stood_still = false;  // the distance from the start is no error then
+  metrics.stood_still = false;  // the distance from the start is no error
   EXPECT_EQ(metric_values(metrics).size(), metric_values(sample()).size() + 8);
 }
 
-TEST(Metrics, TheTrueMapAddsItsCleanness) {
+TEST(Metrics, GroundTruthMapAddsMapError) {
   RunMetrics metrics = sample();
   metrics.map = MapError{.SA = 99.0, .DA = 50.0, .AA = 70.4, .HA = 66.4};
   const std::string json = to_json(metrics);
@@ -81,13 +81,13 @@ TEST(Metrics, TheTrueMapAddsItsCleanness) {
   EXPECT_EQ(metric_values(metrics).size(), metric_values(sample()).size() + 3);
 }
 
-TEST(Metrics, QuoteStageNames) {
+TEST(Metrics, EscapesStageNames) {
   RunMetrics metrics = sample();
   metrics.stages = {{"a \"b\"", {}}};
   EXPECT_NE(to_json(metrics).find(R"("a \"b\"")"), std::string::npos);
 }
 
-TEST(Metrics, TimeStatisticsAreMeanAndNearestRanks) {
+TEST(Metrics, TimeStatisticsUseNearestRank) {
   std::vector<double> times(200, 10.0);
   times[7] = 50.0;
   times[8] = 60.0;
@@ -98,13 +98,13 @@ TEST(Metrics, TimeStatisticsAreMeanAndNearestRanks) {
   EXPECT_EQ(statistics.p99, 50.0);
 }
 
-TEST(Metrics, OfARunWithoutFramesAreNullNotBroken) {
+TEST(Metrics, AreNullWithoutFrames) {
   RunMetrics metrics;
   metrics.ms_per_frame = time_statistics({});
   EXPECT_NE(to_json(metrics).find("\"mean\": null"), std::string::npos);
 }
 
-TEST(Metrics, AreWrittenToAFile) {
+TEST(Metrics, WritesFile) {
   const auto path = std::filesystem::temp_directory_path() / "mms_metrics_test.json";
   write_metrics(path, sample());
   std::ifstream file(path);

@@ -19,8 +19,8 @@ const Range kSmall = {0, 1024};
 const Range kMedium = {1024, 9216};
 const Range kLarge = {9216, 1e10};
 
-/// What is asked for: one class, threshold, range and number of results.
-struct Question {
+/// One class, threshold, range and number of results.
+struct Query {
   int category;
   double threshold;
   Range range;
@@ -39,7 +39,7 @@ struct Found {
   bool ignored = false;
 };
 
-struct Answer {
+struct Scores {
   double precision = -1.0;
   double recall = -1.0;
 };
@@ -48,12 +48,12 @@ double naive_iou(const Rle& detection, const CocoAnnotation& object) {
   const Image<std::uint8_t> d = decode_rle(detection);
   const Image<std::uint8_t> g = decode_rle(object.segmentation);
   int both = 0;
-  int either = 0;
+  int any = 0;
   for (std::size_t i = 0; i < d.size(); ++i) {
     if (d[i] != 0 && g[i] != 0) ++both;
-    if (d[i] != 0 || (g[i] != 0 && !object.iscrowd)) ++either;
+    if (d[i] != 0 || (g[i] != 0 && !object.iscrowd)) ++any;
   }
-  return both == 0 ? 0.0 : static_cast<double>(both) / either;
+  return both == 0 ? 0.0 : static_cast<double>(both) / any;
 }
 
 bool outside(double area, const Range& range) {
@@ -64,9 +64,9 @@ bool higher(const Found& a, const Found& b) {
   return a.result.score > b.result.score;
 }
 
-void match(std::vector<Found>& found, std::vector<Truth>& truth, const Question& question) {
+void match(std::vector<Found>& found, std::vector<Truth>& truth, const Query& query) {
   for (Found& d : found) {
-    double iou = std::min(question.threshold, 1 - 1e-10);
+    double iou = std::min(query.threshold, 1 - 1e-10);
     int m = -1;
     for (int g = 0; g < static_cast<int>(truth.size()); ++g) {
       const Truth& object = truth[static_cast<std::size_t>(g)];
@@ -82,17 +82,16 @@ void match(std::vector<Found>& found, std::vector<Truth>& truth, const Question&
       d.ignored = truth[static_cast<std::size_t>(m)].ignored;
       truth[static_cast<std::size_t>(m)].matched = true;
     } else {
-      d.ignored = outside(static_cast<double>(rle_area(d.result.segmentation)), question.range);
+      d.ignored = outside(static_cast<double>(rle_area(d.result.segmentation)), query.range);
     }
   }
 }
 
-std::vector<Truth> truth_of(const CocoDataset& dataset, std::int64_t image,
-                            const Question& question) {
+std::vector<Truth> truth_of(const CocoDataset& dataset, std::int64_t image, const Query& query) {
   std::vector<Truth> truth;
   for (const CocoAnnotation& object : dataset.annotations) {
-    if (object.image_id != image || object.category_id != question.category) continue;
-    truth.push_back({object, object.iscrowd || outside(object.area, question.range)});
+    if (object.image_id != image || object.category_id != query.category) continue;
+    truth.push_back({object, object.iscrowd || outside(object.area, query.range)});
   }
   std::stable_sort(truth.begin(), truth.end(),
                    [](const Truth& a, const Truth& b) { return !a.ignored && b.ignored; });
@@ -100,10 +99,10 @@ std::vector<Truth> truth_of(const CocoDataset& dataset, std::int64_t image,
 }
 
 std::vector<Found> found_in(const std::vector<CocoResult>& results, std::int64_t image,
-                            const Question& question) {
+                            const Query& query) {
   std::vector<Found> found;
   for (const CocoResult& result : results) {
-    if (result.image_id == image && result.category_id == question.category) {
+    if (result.image_id == image && result.category_id == query.category) {
       found.push_back({result});
     }
   }
@@ -112,7 +111,7 @@ std::vector<Found> found_in(const std::vector<CocoResult>& results, std::int64_t
   return found;
 }
 
-Answer accumulate(const std::vector<Found>& found, int objects) {
+Scores accumulate(const std::vector<Found>& found, int objects) {
   std::vector<double> rc;
   std::vector<double> pr;
   double tp = 0;
@@ -132,17 +131,17 @@ Answer accumulate(const std::vector<Found>& found, int objects) {
   return {sum / 101, rc.empty() ? 0.0 : rc.back()};
 }
 
-Answer answer(const CocoDataset& dataset, const std::vector<CocoResult>& results,
-              const Question& question) {
+Scores evaluate(const CocoDataset& dataset, const std::vector<CocoResult>& results,
+                const Query& query) {
   std::set<std::int64_t> images;
   for (const CocoImage& image : dataset.images) images.insert(image.id);
   std::vector<Found> all;
   int objects = 0;
   for (const std::int64_t image : images) {
-    std::vector<Truth> truth = truth_of(dataset, image, question);
-    std::vector<Found> found = found_in(results, image, question);
-    match(found, truth, question);
-    if (found.size() > question.max_results) found.resize(question.max_results);
+    std::vector<Truth> truth = truth_of(dataset, image, query);
+    std::vector<Found> found = found_in(results, image, query);
+    match(found, truth, query);
+    if (found.size() > query.max_results) found.resize(query.max_results);
     all.insert(all.end(), found.begin(), found.end());
     for (const Truth& object : truth) objects += object.ignored ? 0 : 1;
   }
@@ -154,14 +153,14 @@ Answer answer(const CocoDataset& dataset, const std::vector<CocoResult>& results
 }  // namespace
 
 SegmentationScores naive_scores(const CocoDataset& truth, const std::vector<CocoResult>& results) {
-  const auto mean = [&](double Answer::*number, const std::vector<double>& thresholds,
+  const auto mean = [&](double Scores::*number, const std::vector<double>& thresholds,
                         const Range& range, std::size_t max_results) {
     double sum = 0;
     double count = 0;
     for (const CocoCategory& category : truth.categories) {
       for (const double threshold : thresholds) {
         const double value =
-            answer(truth, results, {category.id, threshold, range, max_results}).*number;
+            evaluate(truth, results, {category.id, threshold, range, max_results}).*number;
         if (value < 0) continue;
         sum += value;
         ++count;
@@ -169,8 +168,8 @@ SegmentationScores naive_scores(const CocoDataset& truth, const std::vector<Coco
     }
     return sum / count;
   };
-  const auto precision = &Answer::precision;
-  const auto recall = &Answer::recall;
+  const auto precision = &Scores::precision;
+  const auto recall = &Scores::recall;
   return {.ap = mean(precision, kThresholds, kAll, 100),
           .ap50 = mean(precision, {0.5}, kAll, 100),
           .ap75 = mean(precision, {0.75}, kAll, 100),

@@ -7,8 +7,8 @@
 
 namespace mms::test {
 
-/// COCO's evaluation of all classes and images once more, written down as pycocotools has it: pixel
-/// by pixel, array by array, with nothing left out or kept for later.
+/// COCO's evaluation of all classes and images in the order of pycocotools, pixel by pixel, without
+/// any optimization.
 SegmentationScores naive_scores(const CocoDataset& truth, const std::vector<CocoResult>& results);
 
 }  // namespace mms::test

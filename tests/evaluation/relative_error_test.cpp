@@ -22,7 +22,7 @@ std::vector<double> line(int count, double step) {
   return positions;
 }
 
-TEST(RelativeError, OfAScaledPathIsTheExcessPerDelta) {
+TEST(RelativeError, ScaledPathGivesExcessPerDelta) {
   const Trajectory truth = test::along_x(line(51, 0.10));
   const Trajectory estimate = test::along_x(line(51, 0.11));
   const RelativeError second = evaluate(truth, estimate, 1.0, DeltaUnit::kSeconds);
@@ -34,7 +34,7 @@ TEST(RelativeError, OfAScaledPathIsTheExcessPerDelta) {
   EXPECT_NEAR(frames.trans_rmse_m, 5 * 0.01, 1e-12);
 }
 
-TEST(RelativeError, PathPairsAreOfTheEstimatesPath) {
+TEST(RelativeError, MeterDeltaFollowsEstimatedPath) {
   const Trajectory truth = test::along_x(line(61, 0.2));
   const Trajectory estimate = test::along_x(line(61, 0.25));
   // Ends at 1, 2, ... 15 m of the estimate: 14 pairs of four steps.
@@ -43,21 +43,22 @@ TEST(RelativeError, PathPairsAreOfTheEstimatesPath) {
   EXPECT_NEAR(error.trans_rmse_m, 4 * 0.05, 1e-12);
 }
 
-TEST(RelativeError, OfATurningDriftIsItsAngle) {
+TEST(RelativeError, RotationDriftGivesAngle) {
   constexpr double kDegreesPerFrame = 0.3;
-  Vector6d turn = Vector6d::Zero();
-  turn[4] = kDegreesPerFrame * std::numbers::pi / 180.0;
+  Vector6d rotation = Vector6d::Zero();
+  rotation[4] = kDegreesPerFrame * std::numbers::pi / 180.0;
   const Trajectory truth = test::along_x(line(30, 0.0));
   Trajectory estimate = truth;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
-    estimate[i].T_world_sensor = Transform<World, Sensor>(se3::exp(static_cast<double>(i) * turn));
+    estimate[i].T_world_sensor =
+        Transform<World, Sensor>(se3::exp(static_cast<double>(i) * rotation));
   }
   const RelativeError error = evaluate(truth, estimate, 1.0, DeltaUnit::kSeconds);
   EXPECT_NEAR(error.rot_rmse_deg, 10 * kDegreesPerFrame, 1e-9);
   EXPECT_NEAR(error.trans_rmse_m, 0.0, 1e-12);
 }
 
-TEST(RelativeError, NoPairSpansAGapInTime) {
+TEST(RelativeError, NoPairSpansTimeGap) {
   Trajectory truth = test::along_x(line(20, 0.1));
   for (std::size_t i = 10; i < truth.size(); ++i) {
     truth[i].stamp = truth[i].stamp + std::chrono::seconds(60);
@@ -65,7 +66,7 @@ TEST(RelativeError, NoPairSpansAGapInTime) {
   EXPECT_EQ(evaluate(truth, truth, 0.5, DeltaUnit::kSeconds).pairs, 10U);
 }
 
-TEST(RelativeError, IsNanWhereThePathIsShorterThanDelta) {
+TEST(RelativeError, IsNanForPathShorterThanDelta) {
   const Trajectory truth = test::along_x(line(5, 0.1));
   for (const DeltaUnit unit : {DeltaUnit::kSeconds, DeltaUnit::kMeters, DeltaUnit::kFrames}) {
     const RelativeError error = evaluate(truth, truth, 10.0, unit);

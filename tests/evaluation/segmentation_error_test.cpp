@@ -24,7 +24,7 @@ SegmentationScores scores(const CocoDataset& truth, const Results& results) {
 
 const double kNone = std::nan("");
 
-TEST(SegmentationError, OfTheTruthItselfIsOne) {
+TEST(SegmentationError, IsOneForGroundTruth) {
   CocoDataset truth = empty_truth(3);
   const std::vector<Rle> masks = {box(3, 4, 10, 10), box(10, 0, 50, 60), box(0, 0, 100, 99)};
   Results results;
@@ -36,7 +36,7 @@ TEST(SegmentationError, OfTheTruthItselfIsOne) {
   expect_scores(scores(truth, results), std::vector<double>(12, 1.0));
 }
 
-TEST(SegmentationError, OneOfTwoMissed) {
+TEST(SegmentationError, HalfRecallForOneMiss) {
   CocoDataset truth = empty_truth(1);
   add_person(truth, 1, box(0, 0, 10, 10));
   add_person(truth, 1, box(50, 0, 40, 50));
@@ -45,7 +45,7 @@ TEST(SegmentationError, OneOfTwoMissed) {
                 {half, half, half, 1.0, 0.0, kNone, 0.5, 0.5, 0.5, 1.0, 0.0, kNone});
 }
 
-TEST(SegmentationError, AFalseAlarmCountsWhereItsScoreIsHigher) {
+TEST(SegmentationError, FalseAlarmCountsOnlyWithHigherScore) {
   CocoDataset truth = empty_truth(1);
   add_person(truth, 1, box(0, 0, 10, 10));
   const auto with_alarm = [&](double score) {
@@ -57,7 +57,7 @@ TEST(SegmentationError, AFalseAlarmCountsWhereItsScoreIsHigher) {
   EXPECT_NEAR(with_alarm(0.6).ar10, 1.0, kTolerance);
 }
 
-TEST(SegmentationError, TheSecondOnOneObjectIsAFalseAlarm) {
+TEST(SegmentationError, DuplicateDetectionIsFalseAlarm) {
   CocoDataset truth = empty_truth(1);
   add_person(truth, 1, box(0, 0, 10, 10));
   add_person(truth, 1, box(50, 0, 10, 10));
@@ -67,19 +67,19 @@ TEST(SegmentationError, TheSecondOnOneObjectIsAFalseAlarm) {
   EXPECT_NEAR(scores(truth, results).ap, (51.0 + 50.0 * 2.0 / 3.0) / 101.0, kTolerance);
 }
 
-TEST(SegmentationError, OverlapsAtAThresholdAreHits) {
+TEST(SegmentationError, OverlapAtThresholdIsHit) {
   CocoDataset truth = empty_truth(1);
   add_person(truth, 1, box(0, 0, 100, 1));
   for (int i = 0; i < 10; ++i) {  // 50 of 100 px, 55 of 100 px, ...
-    const auto at = scores(truth, {{1, 1, 0.9, box(0, 0, 50 + 5 * i, 1)}});
-    EXPECT_NEAR(at.ap, 0.1 * (i + 1), kTolerance);
-    EXPECT_NEAR(at.ap75, i < 5 ? 0.0 : 1.0, kTolerance);
+    const auto exact = scores(truth, {{1, 1, 0.9, box(0, 0, 50 + 5 * i, 1)}});
+    EXPECT_NEAR(exact.ap, 0.1 * (i + 1), kTolerance);
+    EXPECT_NEAR(exact.ap75, i < 5 ? 0.0 : 1.0, kTolerance);
     const auto below = scores(truth, {{1, 1, 0.9, box(0, 0, 49 + 5 * i, 1)}});
     EXPECT_NEAR(below.ap, 0.1 * i, kTolerance);
   }
 }
 
-TEST(SegmentationError, WhatLiesInACrowdIsIgnored) {
+TEST(SegmentationError, IgnoresDetectionsInCrowd) {
   CocoDataset truth = empty_truth(1);
   add_person(truth, 1, box(0, 0, 60, 100)).iscrowd = true;
   const Results in_crowd = {{1, 1, 0.9, box(0, 0, 10, 10)}, {1, 1, 0.8, box(20, 0, 10, 10)}};
@@ -88,18 +88,18 @@ TEST(SegmentationError, WhatLiesInACrowdIsIgnored) {
   Results results = in_crowd;
   results.push_back({1, 1, 0.7, box(70, 0, 10, 10)});
   EXPECT_NEAR(scores(truth, results).ap, 1.0, kTolerance);
-  results.push_back({1, 1, 0.95, box(54, 40, 10, 10)});  // at 0.60 of it inside
+  results.push_back({1, 1, 0.95, box(54, 40, 10, 10)});  // 60 % of it inside
   EXPECT_NEAR(scores(truth, results).ap, (3 * 1.0 + 7 * 0.5) / 10.0, kTolerance);
 }
 
-TEST(SegmentationError, SizesAtTheBorderAreOfBothRanges) {
+TEST(SegmentationError, SizeAtBorderIsInBothRanges) {
   CocoDataset truth = empty_truth(1);
   add_person(truth, 1, box(0, 0, 32, 32));
   const auto found = scores(truth, {{1, 1, 0.9, box(0, 0, 32, 32)}});
   expect_scores(found, {1.0, 1.0, 1.0, 1.0, 1.0, kNone, 1.0, 1.0, 1.0, 1.0, 1.0, kNone});
 }
 
-TEST(SegmentationError, TheSizeOfAnObjectIsItsAnnotations) {
+TEST(SegmentationError, UsesAnnotatedArea) {
   CocoDataset truth = empty_truth(1);
   add_person(truth, 1, box(0, 0, 30, 30)).area = 5000.0;
   const auto found = scores(truth, {{1, 1, 0.9, box(0, 0, 30, 30)}});
@@ -107,7 +107,7 @@ TEST(SegmentationError, TheSizeOfAnObjectIsItsAnnotations) {
   EXPECT_NEAR(found.ap_medium, 1.0, kTolerance);
 }
 
-TEST(SegmentationError, FalseAlarmsOfAnotherSizeAreIgnored) {
+TEST(SegmentationError, IgnoresFalseAlarmsOfOtherSize) {
   CocoDataset truth = empty_truth(1);
   add_person(truth, 1, box(0, 0, 10, 10));
   const auto found =
@@ -116,7 +116,7 @@ TEST(SegmentationError, FalseAlarmsOfAnotherSizeAreIgnored) {
   EXPECT_NEAR(found.ap_small, 1.0, kTolerance);
 }
 
-TEST(SegmentationError, EqualScoresCountByImageThenByTheList) {
+TEST(SegmentationError, EqualScoresAreOrderedByImageThenList) {
   CocoDataset truth = empty_truth(2);
   add_person(truth, 2, box(0, 0, 10, 10));
   const CocoResult hit = {2, 1, 0.5, box(0, 0, 10, 10)};
@@ -127,7 +127,7 @@ TEST(SegmentationError, EqualScoresCountByImageThenByTheList) {
   EXPECT_NEAR(scores(truth, {alarm_beside, hit}).ap, 0.5, kTolerance);
 }
 
-TEST(SegmentationError, LooksAtTheHundredBestOfAnImage) {
+TEST(SegmentationError, UsesHundredBestPerImage) {
   CocoDataset truth = empty_truth(1);
   add_person(truth, 1, box(0, 0, 10, 10));
   Results results(99, CocoResult{1, 1, 0.9, box(50, 50, 10, 10)});
@@ -137,15 +137,15 @@ TEST(SegmentationError, LooksAtTheHundredBestOfAnImage) {
   EXPECT_NEAR(scores(truth, results).ap, 0.0, kTolerance);
 }
 
-TEST(SegmentationError, IsTheMeanOverTheClassesThatAreThere) {
+TEST(SegmentationError, IsMeanOverClassesWithObjects) {
   CocoDataset truth = empty_truth(1);
   truth.categories = {{3, "ghost"}, {2, "agv"}, {1, "person"}};
   add_person(truth, 1, box(0, 0, 10, 10));
   add_person(truth, 1, box(50, 0, 10, 10)).category_id = 2;
   const Results results = {{1, 1, 0.9, box(0, 0, 10, 10)},
                            {1, 2, 0.9, box(0, 0, 10, 10)},
-                           {1, 3, 0.9, box(0, 0, 10, 10)},    // nothing is a ghost
-                           {1, 99, 0.9, box(0, 0, 10, 10)}};  // a class that truth does not know
+                           {1, 3, 0.9, box(0, 0, 10, 10)},    // no object is a ghost
+                           {1, 99, 0.9, box(0, 0, 10, 10)}};  // a class without a category
   const SegmentationErrors errors = segmentation_error(truth, results);
   EXPECT_EQ(errors.results, 3U);
   EXPECT_EQ(errors.objects, 2U);
@@ -158,7 +158,7 @@ TEST(SegmentationError, IsTheMeanOverTheClassesThatAreThere) {
   EXPECT_NEAR(errors.all.ap, 0.5, kTolerance);
 }
 
-TEST(SegmentationError, OneClassAndOneSplitAlone) {
+TEST(SegmentationError, SelectsClassAndSplit) {
   CocoDataset truth = empty_truth(2);
   truth.images[0].split = "train";
   truth.images[1].split = "holdout";
@@ -177,12 +177,12 @@ TEST(SegmentationError, OneClassAndOneSplitAlone) {
   EXPECT_NEAR(segmentation_error(truth, results, {.split = "train"}).all.ap, 0.0, kTolerance);
 }
 
-TEST(SegmentationError, OfNothingIsNotDefined) {
+TEST(SegmentationError, IsNanWithoutObjects) {
   EXPECT_TRUE(std::isnan(scores({}, {}).ap));
   EXPECT_TRUE(std::isnan(scores(empty_truth(1), {{1, 1, 0.5, box(0, 0, 1, 1)}}).ar100));
 }
 
-std::string fault_of(const CocoDataset& truth, const Results& results,
+std::string error_of(const CocoDataset& truth, const Results& results,
                      const SegmentationErrorOptions& options = {}) {
   try {
     segmentation_error(truth, results, options);
@@ -192,28 +192,28 @@ std::string fault_of(const CocoDataset& truth, const Results& results,
   return "";
 }
 
-TEST(SegmentationError, FaultsSayWhatIsWrongAndWhatIsRight) {
+TEST(SegmentationError, ErrorsNameProblemAndExpectation) {
   CocoDataset truth = empty_truth(1);
   truth.categories.push_back({2, "agv"});
-  const CocoResult good = {1, 1, 0.5, box(0, 0, 1, 1)};
-  EXPECT_EQ(fault_of(truth, {good, {7, 1, 0.5, box(0, 0, 1, 1)}},
+  const CocoResult valid = {1, 1, 0.5, box(0, 0, 1, 1)};
+  EXPECT_EQ(error_of(truth, {valid, {7, 1, 0.5, box(0, 0, 1, 1)}},
                      {.truth_name = "a.json", .results_name = "b.json"}),
             "b.json: [1].image_id: is 7, there is no such image (the images are those of a.json)");
-  EXPECT_EQ(fault_of(truth, {{1, 1, 0.5, box(0, 0, 1, 1, 50)}}),
+  EXPECT_EQ(error_of(truth, {{1, 1, 0.5, box(0, 0, 1, 1, 50)}}),
             "results: [0].segmentation: is of 50 x 50 px, its image 1 of 100 x 100 px (masks have "
             "to be of the size of the image in truth)");
-  EXPECT_EQ(fault_of(truth, {{1, 1, kNone, box(0, 0, 1, 1)}}),
+  EXPECT_EQ(error_of(truth, {{1, 1, kNone, box(0, 0, 1, 1)}}),
             "results: [0].score: is no number (expected 0 to 1)");
-  EXPECT_EQ(fault_of(truth, {good}, {.category = "cat"}),
+  EXPECT_EQ(error_of(truth, {valid}, {.category = "cat"}),
             "truth: has no class 'cat' (its classes are: agv, person)");
-  EXPECT_EQ(fault_of(truth, {good}, {.split = "holdout"}),
+  EXPECT_EQ(error_of(truth, {valid}, {.split = "holdout"}),
             "truth: has no images of the split 'holdout' (its splits are: none)");
   truth.images[0].split = "train";
-  EXPECT_EQ(fault_of(truth, {good}, {.split = "holdout"}),
+  EXPECT_EQ(error_of(truth, {valid}, {.split = "holdout"}),
             "truth: has no images of the split 'holdout' (its splits are: train)");
 }
 
-TEST(SegmentationError, JsonHasTheContractsKeysInOrder) {
+TEST(SegmentationError, JsonHasDocumentedKeysInOrder) {
   SegmentationErrors errors;
   errors.all.ap50 = 1.0 / 3.0;
   errors.per_class = {{"person", {.ap = kNone}}};
@@ -224,7 +224,7 @@ TEST(SegmentationError, JsonHasTheContractsKeysInOrder) {
             R"("AR1":0.0,"AR10":0.0,"AR100":0.0,"ARs":0.0,"ARm":0.0,"ARl":0.0}}})");
 }
 
-TEST(SegmentationError, TheTableHasALineAClassAndOneForAll) {
+TEST(SegmentationError, TableHasLinePerClassAndTotal) {
   SegmentationErrors errors;
   errors.per_class = {{"person", {.ap = kNone, .ap50 = 0.25}}};
   const std::string zeros =
@@ -240,7 +240,7 @@ TEST(SegmentationError, TheTableHasALineAClassAndOneForAll) {
 }
 
 TEST(SegmentationError, IsFast) {
-  // Thirty thousand results on five thousand images, each a dozen runs or more.
+  // 30,000 results on 5,000 images, each with a dozen runs or more.
   CocoDataset truth = empty_truth(5000);
   Results results;
   for (int image = 1; image <= 5000; ++image) {

@@ -23,7 +23,7 @@ std::vector<double> numbers(const SegmentationScores& scores) {
   return numbers;
 }
 
-/// Truth and results of boxes with bites taken out, of all sizes, with crowds and equal scores.
+/// Truth and results of boxes of all sizes with rectangles cut out, with crowds and equal scores.
 class RandomScene {
  public:
   RandomScene(unsigned seed, int size) : random_(seed), size_(size), truth_(empty_truth(4, size)) {
@@ -33,10 +33,10 @@ class RandomScene {
 
   CocoDataset truth(int objects) {
     for (int i = 0; i < objects; ++i) {
-      CocoAnnotation& object = add_person(truth_, upto(3) + 1, mask());
-      object.category_id = upto(1) == 0 ? 1 : 5;
-      object.iscrowd = upto(5) == 0;
-      object.area *= 0.1 * (upto(4) + 8);
+      CocoAnnotation& object = add_person(truth_, random_upto(3) + 1, mask());
+      object.category_id = random_upto(1) == 0 ? 1 : 5;
+      object.iscrowd = random_upto(5) == 0;
+      object.area *= 0.1 * (random_upto(4) + 8);
     }
     return truth_;
   }
@@ -44,13 +44,15 @@ class RandomScene {
   Results results(int count) {
     Results results;
     for (int i = 0; i < count; ++i) {
-      CocoResult result = {upto(3) + 1, upto(9) == 0 ? 9 : 1, 0.1 * upto(10), mask()};
-      if (upto(4) != 0) {  // one of the objects, nearly
+      CocoResult result = {random_upto(3) + 1, random_upto(9) == 0 ? 9 : 1, 0.1 * random_upto(10),
+                           mask()};
+      if (random_upto(4) != 0) {  // nearly equal to one of the objects
         const auto last = static_cast<int>(truth_.annotations.size()) - 1;
-        const CocoAnnotation& object = truth_.annotations[static_cast<std::size_t>(upto(last))];
+        const CocoAnnotation& object =
+            truth_.annotations[static_cast<std::size_t>(random_upto(last))];
         result.image_id = object.image_id;
         result.category_id = object.category_id;
-        result.segmentation = bitten(decode_rle(object.segmentation));
+        result.segmentation = with_cutout(decode_rle(object.segmentation));
       }
       results.push_back(result);
     }
@@ -58,21 +60,21 @@ class RandomScene {
   }
 
  private:
-  int upto(int last) { return std::uniform_int_distribution(0, last)(random_); }
+  int random_upto(int last) { return std::uniform_int_distribution(0, last)(random_); }
 
   Rle mask() {
-    const int w = upto(size_);
-    const int h = upto(size_);
-    const Rle whole = box(upto(size_ - w), upto(size_ - h), w, h, size_);
-    return bitten(decode_rle(whole));
+    const int w = random_upto(size_);
+    const int h = random_upto(size_);
+    const Rle whole = box(random_upto(size_ - w), random_upto(size_ - h), w, h, size_);
+    return with_cutout(decode_rle(whole));
   }
 
-  Rle bitten(Image<std::uint8_t> mask) {
-    const int x = upto(size_ - 1);
-    const int y = upto(size_ - 1);
-    const int bite = upto(size_ / 3);
-    for (int v = y; v < std::min(size_, y + bite); ++v) {
-      for (int u = x; u < std::min(size_, x + bite); ++u) mask(u, v) = 0;
+  Rle with_cutout(Image<std::uint8_t> mask) {
+    const int x = random_upto(size_ - 1);
+    const int y = random_upto(size_ - 1);
+    const int cutout = random_upto(size_ / 3);
+    for (int v = y; v < std::min(size_, y + cutout); ++v) {
+      for (int u = x; u < std::min(size_, x + cutout); ++u) mask(u, v) = 0;
     }
     return encode_rle(mask);
   }
@@ -91,7 +93,7 @@ void expect_as_naive(unsigned seed, int size, int objects, int count) {
                 numbers(test::naive_scores(truth, results)));
 }
 
-TEST(SegmentationReference, IsThatOfTheNaiveReference) {
+TEST(SegmentationReference, EqualsNaiveReference) {
   for (unsigned seed = 0; seed < 4; ++seed) expect_as_naive(seed, 110, 12, 30);
   for (unsigned seed = 10; seed < 30; ++seed) expect_as_naive(seed, 12, 20, 60);
   expect_as_naive(50, 12, 100, 1200);  // more than a hundred of a class and image
@@ -101,7 +103,7 @@ TEST(SegmentationReference, IsThatOfTheNaiveReference) {
 class SegmentationGold : public testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(folder_)) GTEST_SKIP() << folder_ << " is not there";
+    if (!std::filesystem::exists(folder_)) GTEST_SKIP() << folder_ << " does not exist";
   }
 
   SegmentationErrors errors(const SegmentationErrorOptions& options = {}) const {

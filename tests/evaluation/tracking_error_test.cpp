@@ -14,10 +14,11 @@ Timestamp stamp(int frame) {
   return Timestamp(1'000'000'000 + frame * 33'333'333LL);
 }
 
-ObjectBox object(int id, const Eigen::Vector3d& at, const Eigen::Vector3d& velocity = {1, 0, 0}) {
+ObjectBox object(int id, const Eigen::Vector3d& center,
+                 const Eigen::Vector3d& velocity = {1, 0, 0}) {
   ObjectBox box;
   box.id = id;
-  box.T_world_box.translation() = at;
+  box.T_world_box.translation() = center;
   box.size = {0.5, 0.5, 1.7};
   box.velocity = velocity;
   box.moving = velocity.norm() > 0.05;
@@ -25,13 +26,13 @@ ObjectBox object(int id, const Eigen::Vector3d& at, const Eigen::Vector3d& veloc
 }
 
 /// A sensor at the origin.
-Trajectory still_sensor() {
+Trajectory static_sensor() {
   Trajectory poses;
   for (int i = 0; i < kFrames; ++i) poses.push_back({stamp(i), {}});
   return poses;
 }
 
-/// Two who walk side by side, 2 m apart, five metres ahead.
+/// Two persons who walk side by side, 2 m apart, at about 5 m.
 ObjectHistory two_walkers() {
   ObjectHistory history;
   for (int i = 0; i < kFrames; ++i) {
@@ -41,8 +42,8 @@ ObjectHistory two_walkers() {
   return history;
 }
 
-TEST(TrackingError, IsNothingForTheTruthItself) {
-  const TrackingError error = evaluate_tracking(two_walkers(), two_walkers(), still_sensor());
+TEST(TrackingError, IsZeroForGroundTruth) {
+  const TrackingError error = evaluate_tracking(two_walkers(), two_walkers(), static_sensor());
   EXPECT_EQ(error.objects, 2 * kFrames);
   EXPECT_EQ(error.idf1, 1.0);
   EXPECT_EQ(error.recall, 1.0);
@@ -54,7 +55,7 @@ TEST(TrackingError, IsNothingForTheTruthItself) {
   EXPECT_TRUE(std::isnan(error.motion_state_delay_max));
 }
 
-TEST(TrackingError, MeasuresOffsetAndVelocity) {
+TEST(TrackingError, MeasuresCenterAndVelocityError) {
   ObjectHistory tracks = two_walkers();
   for (ObjectFrame& frame : tracks) {
     for (ObjectBox& box : frame.objects) {
@@ -62,53 +63,53 @@ TEST(TrackingError, MeasuresOffsetAndVelocity) {
       box.velocity.y() += 0.2;
     }
   }
-  const TrackingError error = evaluate_tracking(two_walkers(), tracks, still_sensor());
+  const TrackingError error = evaluate_tracking(two_walkers(), tracks, static_sensor());
   EXPECT_NEAR(error.center_mean, 0.2, 1e-12);
   EXPECT_NEAR(error.velocity_rmse, 0.2, 1e-12);
 }
 
-TEST(TrackingError, AnIdThatChangesHalfWayHalvesTheIdentity) {
+TEST(TrackingError, IdChangeReducesIdf1) {
   ObjectHistory tracks = two_walkers();
   for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i].objects[0].id = i < 45 ? 7 : 8;
-  const TrackingError error = evaluate_tracking(two_walkers(), tracks, still_sensor());
+  const TrackingError error = evaluate_tracking(two_walkers(), tracks, static_sensor());
   EXPECT_EQ(error.id_switches, 1);
   // 45 + 90 of 180 boxes on both sides belong to a pair of ids.
   EXPECT_NEAR(error.idf1, 135.0 / 180.0, 1e-12);
   EXPECT_EQ(error.recall, 1.0);
 }
 
-TEST(TrackingError, TwoThatSwapIdsAreTwoSwitches) {
+TEST(TrackingError, SwappedIdsAreTwoSwitches) {
   ObjectHistory tracks = two_walkers();
   for (std::size_t i = 60; i < tracks.size(); ++i) {
     std::swap(tracks[i].objects[0].id, tracks[i].objects[1].id);
   }
-  const TrackingError error = evaluate_tracking(two_walkers(), tracks, still_sensor());
+  const TrackingError error = evaluate_tracking(two_walkers(), tracks, static_sensor());
   EXPECT_EQ(error.id_switches, 2);
   EXPECT_NEAR(error.idf1, 60.0 / 90.0, 1e-12);
 }
 
-TEST(TrackingError, CountsWhatIsMissedAndWhatIsOnNothing) {
+TEST(TrackingError, CountsMissesAndFalseDiscoveries) {
   ObjectHistory tracks = two_walkers();
   for (ObjectFrame& frame : tracks) frame.objects[1] = object(9, {-3, 0, 4});
-  const TrackingError error = evaluate_tracking(two_walkers(), tracks, still_sensor());
+  const TrackingError error = evaluate_tracking(two_walkers(), tracks, static_sensor());
   EXPECT_NEAR(error.recall, 0.5, 1e-12);
   EXPECT_NEAR(error.false_discovery_rate, 0.5, 1e-12);
   EXPECT_NEAR(error.idf1, 0.5, 1e-12);
 }
 
-TEST(TrackingError, LeavesOutWhatIsFarOrHidden) {
+TEST(TrackingError, ExcludesDistantAndHiddenObjects) {
   ObjectHistory truth = two_walkers();
   for (ObjectFrame& frame : truth) {
     frame.objects[1].visible = 0.1;
     frame.objects.push_back(object(2, {0, 0, 12}));
   }
-  const TrackingError error = evaluate_tracking(truth, two_walkers(), still_sensor());
+  const TrackingError error = evaluate_tracking(truth, two_walkers(), static_sensor());
   EXPECT_EQ(error.objects, kFrames);
   EXPECT_EQ(error.recall, 1.0);
-  EXPECT_EQ(error.false_discovery_rate, 0.0);  // the track on the hidden one is excused
+  EXPECT_EQ(error.false_discovery_rate, 0.0);  // the track of the hidden object is ignored
 }
 
-TEST(TrackingError, LeavesTheTrackOfAHiddenOneToHim) {
+TEST(TrackingError, TrackOfHiddenObjectMatchesNoOther) {
   ObjectHistory truth = two_walkers();
   ObjectHistory tracks = two_walkers();
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -116,43 +117,43 @@ TEST(TrackingError, LeavesTheTrackOfAHiddenOneToHim) {
     truth[i].objects[1].visible = 0.1;
     tracks[i].objects = {truth[i].objects[1]};
   }
-  const TrackingError error = evaluate_tracking(truth, tracks, still_sensor());
+  const TrackingError error = evaluate_tracking(truth, tracks, static_sensor());
   EXPECT_EQ(error.objects, kFrames);
-  EXPECT_EQ(error.recall, 0.0);  // though the track is less than a metre away
+  EXPECT_EQ(error.recall, 0.0);  // although the track is less than a metre away
   EXPECT_EQ(error.idf1, 0.0);
   EXPECT_TRUE(std::isnan(error.false_discovery_rate));
   EXPECT_TRUE(std::isnan(error.center_mean));
 }
 
-TEST(TrackingError, MeasuresWhenAStopIsRecognised) {
+TEST(TrackingError, MeasuresDelayOfDetectedStop) {
   ObjectHistory truth;
   ObjectHistory tracks;
   for (int i = 0; i < kFrames; ++i) {
     const Eigen::Vector3d velocity(i < 30 ? 1.0 : 0.0, 0, 0);
-    const Eigen::Vector3d at(std::min(i, 30) * kPeriod, 0, 5);
-    truth.push_back({stamp(i), {object(0, at, velocity)}});
-    tracks.push_back({stamp(i), {object(4, at, velocity)}});
+    const Eigen::Vector3d center(std::min(i, 30) * kPeriod, 0, 5);
+    truth.push_back({stamp(i), {object(0, center, velocity)}});
+    tracks.push_back({stamp(i), {object(4, center, velocity)}});
     tracks.back().objects[0].moving = i < 45;
   }
-  TrackingError error = evaluate_tracking(truth, tracks, still_sensor());
+  TrackingError error = evaluate_tracking(truth, tracks, static_sensor());
   EXPECT_EQ(error.motion_state_changes, 1);
   EXPECT_NEAR(error.motion_state_delay_max, 15 * kPeriod, 1e-6);
 
   for (ObjectFrame& frame : tracks) frame.objects[0].moving = true;
-  truth.back().objects[0].visible = 0.0;  // seen for nearly two seconds after the stop
-  error = evaluate_tracking(truth, tracks, still_sensor());
+  truth.back().objects[0].visible = 0.0;  // visible for nearly two seconds after the stop
+  error = evaluate_tracking(truth, tracks, static_sensor());
   EXPECT_EQ(error.motion_state_changes, 1);
   EXPECT_NEAR(error.motion_state_delay_max, 58 * kPeriod, 1e-6);
 }
 
-TEST(TrackingError, WithoutAnythingIsNotANumber) {
+TEST(TrackingError, IsNanWithoutObjects) {
   const TrackingError error = evaluate_tracking({}, {}, {});
   EXPECT_EQ(error.objects, 0);
   EXPECT_TRUE(std::isnan(error.idf1));
   EXPECT_TRUE(std::isnan(error.center_mean));
 }
 
-TEST(TransformedHistory, MovesBoxesAndTurnsVelocities) {
+TEST(TransformedHistory, TransformsBoxesAndVelocities) {
   const Eigen::Isometry3d T(Eigen::Translation3d(1, 2, 3) *
                             Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()));
   const ObjectHistory moved = transformed({{stamp(0), {object(0, {1, 0, 0})}}}, T);

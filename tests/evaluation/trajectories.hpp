@@ -28,7 +28,7 @@ inline Trajectory random_walk(std::mt19937& random, int count) {
   return trajectory;
 }
 
-/// The trajectory seen from another world: `T_other_world` in front of every pose.
+/// The trajectory in another world frame: `T_other_world` before every pose.
 inline Trajectory moved(const Trajectory& trajectory, const Eigen::Isometry3d& T_other_world) {
   Trajectory result = trajectory;
   for (StampedPose& pose : result) {

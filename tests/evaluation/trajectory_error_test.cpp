@@ -20,7 +20,7 @@ std::string message_of(const Trajectory& reference, const Trajectory& estimate) 
   return "";
 }
 
-TEST(TrajectoryError, OfTheSamePathInAnotherWorldIsZero) {
+TEST(TrajectoryError, IsZeroInAnotherWorldFrame) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     std::mt19937 random(seed);
     const Trajectory truth = test::random_walk(random, 50);
@@ -34,7 +34,7 @@ TEST(TrajectoryError, OfTheSamePathInAnotherWorldIsZero) {
 }
 
 TEST(TrajectoryError, AteOfKnownOffsets) {
-  // Offsets of +-d across a long square have no rotation and no mean, so alignment leaves them.
+  // Offsets of +-d normal to a large square have no rotation and no mean: alignment keeps them.
   Trajectory truth;
   Trajectory estimate;
   const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
@@ -54,7 +54,7 @@ TEST(TrajectoryError, AteOfKnownOffsets) {
   EXPECT_NEAR(error.ate_max_m, 0.1, 1e-12);
 }
 
-TEST(TrajectoryError, TooFewMatchesSayTheNumbersAndTheStamps) {
+TEST(TrajectoryError, TooFewMatchesNameCountsAndStamps) {
   const Trajectory reference = test::along_x({0, 1, 2, 3});
   Trajectory estimate = reference;
   for (StampedPose& pose : estimate) pose.stamp = pose.stamp + std::chrono::hours(1);
@@ -65,7 +65,7 @@ TEST(TrajectoryError, TooFewMatchesSayTheNumbersAndTheStamps) {
   EXPECT_NE(message.find("3600.300000000"), std::string::npos) << message;
 }
 
-TEST(TrajectoryError, EmptyTrajectoriesAreADataError) {
+TEST(TrajectoryError, RejectsEmptyTrajectories) {
   EXPECT_NE(message_of({}, {}), "");
 }
 
@@ -76,7 +76,7 @@ TEST(TrajectoryError, CountsUnmatchedPoses) {
   EXPECT_EQ(error.poses, 6U);
 }
 
-TEST(TrajectoryError, JsonHasTheContractsKeysInOrder) {
+TEST(TrajectoryError, JsonHasDocumentedKeysInOrder) {
   EXPECT_EQ(to_json(metric_values(TrajectoryError{.matched = 2, .poses = 3})),
             R"({"matched":2,"poses":3,"ate_rmse_m":0.0,"ate_mean_m":0.0,"ate_median_m":0.0,)"
             R"("ate_max_m":0.0,"rpe_trans_rmse_m":0.0,"rpe_rot_rmse_deg":0.0})");
@@ -86,7 +86,7 @@ TEST(TrajectoryError, JsonHasTheContractsKeysInOrder) {
 class Gold : public testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(folder_)) GTEST_SKIP() << folder_ << " is not there";
+    if (!std::filesystem::exists(folder_)) GTEST_SKIP() << folder_ << " does not exist";
   }
 
   Trajectory read(const std::string& name) const { return read_trajectory(folder_ / name); }

@@ -16,7 +16,7 @@ TEST(Html, EscapesMarkup) {
   EXPECT_EQ(escape_html("<b a=\"x\" b='y'>&"), "&lt;b a=&quot;x&quot; b=&#39;y&#39;&gt;&amp;");
 }
 
-TEST(Html, KeepsUtf8AndReplacesWhatIsNone) {
+TEST(Html, KeepsUtf8AndReplacesInvalidBytes) {
   EXPECT_EQ(escape_html("L\xC3\xA4ufer \xE2\x82\xAC"), "L\xC3\xA4ufer \xE2\x82\xAC");
   EXPECT_EQ(escape_html("\xFFx\xC3"), "\xEF\xBF\xBDx\xEF\xBF\xBD");
   EXPECT_EQ(escape_html(std::string_view("a\0b\n", 4)),
@@ -24,7 +24,7 @@ TEST(Html, KeepsUtf8AndReplacesWhatIsNone) {
             "b\n");
 }
 
-TEST(Html, Base64IsThatOfRfc4648) {
+TEST(Html, Base64EqualsRfc4648) {
   EXPECT_EQ(base64_of(""), "");
   EXPECT_EQ(base64_of("f"), "Zg==");
   EXPECT_EQ(base64_of("fo"), "Zm8=");

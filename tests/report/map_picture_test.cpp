@@ -20,7 +20,7 @@ using Points = std::vector<Eigen::Vector3f>;
 using Colors = std::vector<Rgb>;
 
 /// Mean pixel of a colour.
-Eigen::Vector2d place_of(const Image<Rgb>& picture, const Rgb& color) {
+Eigen::Vector2d pixel_of(const Image<Rgb>& picture, const Rgb& color) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int count = 0;
   for (int y = 0; y < picture.height(); ++y) {
@@ -48,12 +48,12 @@ TEST(ViewAxes, AreRightHandedAndUnit) {
   }
 }
 
-TEST(MapPicture, FromAboveACameraWorldHasXRightAndZUp) {
+TEST(MapPicture, TopViewHasXRightAndZUp) {
   const Points points = {{0, 0, 0}, {2, 0, 0}, {0, 0, 1}};
   const auto picture = draw_map(points, Colors{kRed, kGreen, kBlue}, kSmall);
-  const auto origin = place_of(picture, kRed);
-  const auto right = place_of(picture, kGreen);
-  const auto forward = place_of(picture, kBlue);
+  const auto origin = pixel_of(picture, kRed);
+  const auto right = pixel_of(picture, kGreen);
+  const auto forward = pixel_of(picture, kBlue);
   EXPECT_GT(right.x(), origin.x() + 50);
   EXPECT_NEAR(right.y(), origin.y(), 1.0);
   EXPECT_NEAR(forward.x(), origin.x(), 1.0);
@@ -62,32 +62,32 @@ TEST(MapPicture, FromAboveACameraWorldHasXRightAndZUp) {
   EXPECT_NEAR(right.x() - origin.x(), 2.0 * (origin.y() - forward.y()), 3.0);
 }
 
-TEST(MapPicture, FromAboveTheHigherPointHidesTheLower) {
+TEST(MapPicture, TopViewShowsHigherPoint) {
   const Points camera_world = {{0, 1, 0}, {0, -1, 0}};
   const auto picture = draw_map(camera_world, Colors{kRed, kGreen}, kSmall);
-  EXPECT_TRUE(std::isnan(place_of(picture, kRed).x()));
-  EXPECT_FALSE(std::isnan(place_of(picture, kGreen).x()));
+  EXPECT_TRUE(std::isnan(pixel_of(picture, kRed).x()));
+  EXPECT_FALSE(std::isnan(pixel_of(picture, kGreen).x()));
 }
 
-TEST(MapPicture, LeavesOutTheCeiling) {
+TEST(MapPicture, ExcludesCeiling) {
   MapPictureOptions options = kSmall;
   options.max_height = 0.5;
   const auto picture = draw_map(Points{{0, 1, 0}, {0, -1, 0}}, Colors{kRed, kGreen}, options);
-  EXPECT_TRUE(std::isnan(place_of(picture, kGreen).x()));
+  EXPECT_TRUE(std::isnan(pixel_of(picture, kGreen).x()));
 }
 
-TEST(MapPicture, FromTheFrontTheNearerPointHidesTheFartherAndNothingIsBehind) {
+TEST(MapPicture, FrontViewShowsNearestPointInFront) {
   MapPictureOptions options = kSmall;
   options.viewpoint = Viewpoint::kFront;
   options.up = UpAxis::kPositiveZ;
   const Points points = {{5, 0, 0}, {2, 0, 0}, {-2, 0, 0}};
   const auto picture = draw_map(points, Colors{kRed, kGreen, kBlue}, options);
-  EXPECT_TRUE(std::isnan(place_of(picture, kRed).x()));
-  EXPECT_FALSE(std::isnan(place_of(picture, kGreen).x()));
-  EXPECT_TRUE(std::isnan(place_of(picture, kBlue).x()));
+  EXPECT_TRUE(std::isnan(pixel_of(picture, kRed).x()));
+  EXPECT_FALSE(std::isnan(pixel_of(picture, kGreen).x()));
+  EXPECT_TRUE(std::isnan(pixel_of(picture, kBlue).x()));
 }
 
-TEST(MapPicture, AFewStraysDoNotShrinkTheRest) {
+TEST(MapPicture, OutliersDoNotChangeScale) {
   Points points = {{1000, 0, 1000}};
   for (int i = 0; i < 400; ++i) points.emplace_back(0.01F * static_cast<float>(i), 0, 0);
   Colors colors(points.size(), kGreen);
@@ -95,25 +95,25 @@ TEST(MapPicture, AFewStraysDoNotShrinkTheRest) {
   EXPECT_FALSE(picture(10, 45) == picture(0, 0));
 }
 
-TEST(MapPicture, WithoutColorsIsColoredByHeight) {
+TEST(MapPicture, ColorsByHeightWithoutColors) {
   const auto picture = draw_map(Points{{0, 1, 0}, {1, -1, 0}}, {}, kSmall);
-  Colors seen;
+  Colors colors;
   for (const Rgb& pixel : picture.pixels()) {
-    if (std::find(seen.begin(), seen.end(), pixel) == seen.end()) seen.push_back(pixel);
+    if (std::find(colors.begin(), colors.end(), pixel) == colors.end()) colors.push_back(pixel);
   }
-  EXPECT_EQ(seen.size(), 3U);
+  EXPECT_EQ(colors.size(), 3U);
 }
 
-TEST(MapPicture, OfNothingIsTheBackground) {
-  const Points broken = {{std::nanf(""), 0, 0}};
-  for (const Points& points : {Points{}, broken}) {
+TEST(MapPicture, IsBackgroundWithoutPoints) {
+  const Points invalid = {{std::nanf(""), 0, 0}};
+  for (const Points& points : {Points{}, invalid}) {
     const auto picture = draw_map(points, {}, kSmall);
     EXPECT_EQ(picture.width(), 120);
     for (const Rgb& pixel : picture.pixels()) EXPECT_EQ(pixel, picture(0, 0));
   }
 }
 
-TEST(MapPicture, RefusesOddSizes) {
+TEST(MapPicture, RejectsInvalidSizes) {
   EXPECT_THROW(draw_map(Points{{0, 0, 0}}, Colors(2), kSmall), DataError);
   EXPECT_THROW(draw_map({}, {}, {.width = 0, .height = 10}), DataError);
 }

@@ -17,7 +17,7 @@ TEST(PlainTable, TextHasAlignedColumns) {
             "smaller is better\n");
 }
 
-TEST(PlainTable, HtmlIsEscaped) {
+TEST(PlainTable, EscapesHtml) {
   const std::string html = html_of(kTable);
   EXPECT_NE(html.find("<td>a &lt; b</td><td>0.9</td>"), std::string::npos) << html;
   EXPECT_NE(html.find("<th>method</th><th>cm</th>"), std::string::npos);

@@ -16,7 +16,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-TEST(PlotAxis, TicksAreRoundAndInside) {
+TEST(PlotAxis, TicksAreRoundAndInRange) {
   EXPECT_EQ(ticks({0.0, 10.0}, 2.2), (Values{0, 2, 4, 6, 8, 10}));
   const Values small = ticks({-0.012, 0.011}, 0.005);
   EXPECT_NEAR(small.front(), -0.010, 1e-12);
@@ -25,7 +25,7 @@ TEST(PlotAxis, TicksAreRoundAndInside) {
   EXPECT_EQ(tick_label(2000.0, Values{0, 2000}), "2000");
 }
 
-TEST(PlotAxis, RangeIgnoresWhatCannotBeShown) {
+TEST(PlotAxis, RangeIgnoresExtremeAndNonFiniteValues) {
   const std::vector<Values> series = {{1.0, NAN, INFINITY}, {3.0, 1e300}};
   const auto range = range_of(series, 0.0);
   ASSERT_TRUE(range);
@@ -34,7 +34,7 @@ TEST(PlotAxis, RangeIgnoresWhatCannotBeShown) {
   EXPECT_FALSE(range_of(std::vector<Values>{{NAN}}, 0.0));
 }
 
-TEST(PlotAxis, AConstantGetsRoom) {
+TEST(PlotAxis, ConstantGetsMargin) {
   for (const double value : {0.0, -3.0, 1e-12, 1e8}) {
     const auto range = range_of(std::vector<Values>{{value, value}}, 0.04);
     ASSERT_TRUE(range);
@@ -43,14 +43,14 @@ TEST(PlotAxis, AConstantGetsRoom) {
   }
 }
 
-TEST(SvgPlot, SaysWhenThereIsNothing) {
+TEST(SvgPlot, ShowsNoDataWithoutValues) {
   SvgPlot plot({.title = "t"});
   EXPECT_NE(plot.render().find("no data"), std::string::npos);
   plot.add_line("a", 0, {NAN}, {1.0});
   EXPECT_NE(plot.render().find("no data"), std::string::npos);
 }
 
-TEST(SvgPlot, EscapesItsTexts) {
+TEST(SvgPlot, EscapesTexts) {
   SvgPlot plot({.title = "<t>", .x_label = "<x>", .y_label = "<y>"});
   plot.add_line("<script>", 0, {0, 1}, {0, 1});
   plot.add_line("<b>", 0, {0, 1}, {1, 0});
@@ -60,7 +60,7 @@ TEST(SvgPlot, EscapesItsTexts) {
   }
 }
 
-TEST(SvgPlot, NanBreaksTheLine) {
+TEST(SvgPlot, NanBreaksLine) {
   SvgPlot plot({});
   plot.add_line("a", 0, {0, 1, 2, 3, 4}, {0, 1, NAN, 1, 0});
   const std::string svg = plot.render();
@@ -70,7 +70,7 @@ TEST(SvgPlot, NanBreaksTheLine) {
   EXPECT_EQ(svg.find("n/a"), std::string::npos);
 }
 
-TEST(SvgPlot, ThinsLongSeriesButKeepsTheirPeaks) {
+TEST(SvgPlot, DownsamplesLongSeriesAndKeepsPeaks) {
   Values x;
   Values y;
   for (int i = 0; i < 100'000; ++i) {
@@ -85,7 +85,7 @@ TEST(SvgPlot, ThinsLongSeriesButKeepsTheirPeaks) {
   EXPECT_NE(svg.find(",19.6"), std::string::npos);
 }
 
-TEST(SvgPlot, BandsCloseAndMarkersShow) {
+TEST(SvgPlot, DrawsClosedBandsAndMarkers) {
   SvgPlot plot({});
   plot.add_band("b", 9, {0, 1}, {0, 0}, {1, 2});
   plot.add_marker("m", 2, 0.5, 0.5);

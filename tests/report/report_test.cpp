@@ -51,7 +51,7 @@ TEST(Report, HasEverySection) {
   }
 }
 
-TEST(Report, NeedsNothingFromOutside) {
+TEST(Report, HasNoExternalReferences) {
   const std::string html = report_html(sample(20));
   for (const char* part : {"http", "<script", "<link", "@import", "url("}) {
     EXPECT_FALSE(contains(html, part)) << part;
@@ -68,8 +68,8 @@ TEST(Report, EscapesEveryText) {
   EXPECT_TRUE(contains(html, "warehouse &lt;1&gt; &amp; &quot;2&quot;"));
 }
 
-TEST(Report, AlignsTruthFromAnotherWorld) {
-  // Truth is the estimate in another world, so the aligned curves coincide.
+TEST(Report, AlignsGroundTruthOfOtherWorld) {
+  // The truth is the estimate in another world, so the aligned curves coincide.
   const std::string html = report_html(sample(20));
   const auto path = [&](std::size_t from) {
     const auto begin = html.find("d=\"M", html.find("class=\"line", from));
@@ -79,7 +79,7 @@ TEST(Report, AlignsTruthFromAnotherWorld) {
   EXPECT_EQ(path(first), path(first + 5));
 }
 
-TEST(Report, WithoutTruthShowsTheDistanceFromTheFirstPose) {
+TEST(Report, ShowsDistanceFromFirstPoseWithoutTruth) {
   RunReport report = sample(20);
   for (ReportFrame& frame : report.frames) frame.truth_position.reset();
   const std::string html = report_html(report);
@@ -87,22 +87,22 @@ TEST(Report, WithoutTruthShowsTheDistanceFromTheFirstPose) {
   EXPECT_FALSE(contains(html, "truth, aligned"));
 }
 
-TEST(Report, OfNoFrames) {
+TEST(Report, HandlesRunWithoutFrames) {
   const std::string html = report_html({});
   EXPECT_TRUE(contains(html, "no frames were processed"));
   EXPECT_TRUE(contains(html, "</html>"));
 }
 
-TEST(Report, OfOneFrame) {
+TEST(Report, HandlesSingleFrame) {
   EXPECT_TRUE(contains(report_html(sample(1)), "1 frame over"));
 }
 
-TEST(Report, OfBrokenNumbers) {
+TEST(Report, HandlesNonFiniteNumbers) {
   RunReport report = sample(10);
-  Eigen::Isometry3d broken = Eigen::Isometry3d::Identity();
-  broken.translation().setConstant(std::nan(""));
+  Eigen::Isometry3d invalid = Eigen::Isometry3d::Identity();
+  invalid.translation().setConstant(std::nan(""));
   for (const std::size_t i : {0U, 4U, 5U}) {
-    report.frames[i].T_world_sensor = Transform<World, Sensor>(broken);
+    report.frames[i].T_world_sensor = Transform<World, Sensor>(invalid);
   }
   report.frames[2].stage_ms = {std::nan("")};
   report.frames[3].stage_ms.clear();
@@ -113,11 +113,11 @@ TEST(Report, OfBrokenNumbers) {
   EXPECT_FALSE(contains(html, "inf,"));
 }
 
-TEST(Report, OfTenThousandFramesStaysSmall) {
+TEST(Report, StaysSmallForTenThousandFrames) {
   EXPECT_LT(report_html(sample(10'000)).size(), 400'000U);
 }
 
-TEST(Report, IsWrittenToAFile) {
+TEST(Report, WritesFile) {
   const auto path = std::filesystem::temp_directory_path() / "mms_report_test.html";
   write_report_html(path, sample(3));
   std::ifstream file(path);
