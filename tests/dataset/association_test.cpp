@@ -19,28 +19,28 @@ Pairs associate_20ms(const std::vector<Timestamp>& a, const std::vector<Timestam
   return associate(a, b, std::chrono::milliseconds(20));
 }
 
-TEST(Association, TakesTheNearest) {
+TEST(Association, MatchesNearest) {
   EXPECT_EQ(associate_20ms(milliseconds({0, 100, 200}), milliseconds({95, 5, 110})),
             (Pairs{{0, 1}, {1, 0}}));
 }
 
-TEST(Association, TheLimitIsInclusive) {
+TEST(Association, LimitIsInclusive) {
   EXPECT_EQ(associate_20ms(milliseconds({0, 100}), milliseconds({20, 121})), (Pairs{{0, 0}}));
 }
 
-TEST(Association, EachStampIsUsedOnceNearestPairsFirst) {
-  // 10 is nearer to 12 than 0 is; 0 is left with nothing.
+TEST(Association, UsesStampsOnceNearestPairsFirst) {
+  // 10 is nearer to 12 than 0; 0 has no match.
   EXPECT_EQ(associate_20ms(milliseconds({0, 10}), milliseconds({12})), (Pairs{{1, 0}}));
-  // 15 goes to 14, so that 0 takes the farther -10.
+  // 15 matches 14, so 0 matches the more distant -10.
   EXPECT_EQ(associate_20ms(milliseconds({0, 15}), milliseconds({14, -10})),
             (Pairs{{0, 1}, {1, 0}}));
 }
 
-TEST(Association, EqualDifferencesGoToTheEarlierStamp) {
+TEST(Association, EqualDifferencesMatchEarlierStamp) {
   EXPECT_EQ(associate_20ms(milliseconds({10, 0}), milliseconds({5})), (Pairs{{1, 0}}));
 }
 
-TEST(Association, NothingMatchesNothing) {
+TEST(Association, EmptyListsGiveNoPairs) {
   EXPECT_TRUE(associate_20ms({}, milliseconds({1})).empty());
   EXPECT_TRUE(associate_20ms(milliseconds({1}), {}).empty());
 }

@@ -55,7 +55,7 @@ class BagSources : public ::testing::Test {
   Playback play(const SourceOptions& options = {}) {
     return Playback(open_dataset(path_, options));
   }
-  std::string fault(const SourceOptions& options = {}) {
+  std::string error(const SourceOptions& options = {}) {
     return message_of<DataError>([&] { open_dataset(path_, options); });
   }
 
@@ -64,7 +64,7 @@ class BagSources : public ::testing::Test {
   std::unique_ptr<BagWriter> bag_;
 };
 
-TEST_F(BagSources, MatchesImagesByTheirHeaders) {
+TEST_F(BagSources, MatchesImagesByHeaderStamps) {
   camera_info();
   for (const int t : {0, 100, 200, 300}) color(t, static_cast<std::uint8_t>(t / 10));
   for (const int t : {12, 95, 190, 340}) depth(t, 1.0F + static_cast<float>(t) / 1000.0F);
@@ -81,7 +81,7 @@ TEST_F(BagSources, MatchesImagesByTheirHeaders) {
   EXPECT_TRUE(any_has(played.source->describe(), "depth topic: /depth/image"));
 }
 
-TEST_F(BagSources, SkipGoesByTheIndex) {
+TEST_F(BagSources, SkipsByIndex) {
   camera_info();
   for (int i = 0; i < 10; ++i) color(100 * i, static_cast<std::uint8_t>(i));
   for (int i = 0; i < 10; ++i) depth(100 * i);
@@ -91,7 +91,7 @@ TEST_F(BagSources, SkipGoesByTheIndex) {
   EXPECT_EQ(source->next()->color(0, 0).r, 7);
 }
 
-TEST_F(BagSources, WithoutStampsTheTimeOfTheRecordingCounts) {
+TEST_F(BagSources, UsesRecordTimeWithoutHeaderStamps) {
   camera_info();
   msg::Header none;
   bag_->write("/rgb/image", at(100), image_message(none, Image<Rgb>(kWidth, kHeight)));
@@ -100,14 +100,14 @@ TEST_F(BagSources, WithoutStampsTheTimeOfTheRecordingCounts) {
   EXPECT_EQ(play().names(), "5.100000000");
 }
 
-TEST_F(BagSources, DamagedFramesAreSkippedAndNamed) {
+TEST_F(BagSources, SkipsAndReportsDamagedFrames) {
   camera_info();
   for (const int t : {0, 100, 200}) depth(t);
   color(0);
   write("/rgb/image", image_message(header(100), Image<Rgb>(4, 3)));
-  msg::Image torn = image_message(header(200), Image<Rgb>(kWidth, kHeight));
-  torn.data.resize(5);
-  write("/rgb/image", torn);
+  msg::Image truncated = image_message(header(200), Image<Rgb>(kWidth, kHeight));
+  truncated.data.resize(5);
+  write("/rgb/image", truncated);
   finish();
   const Playback played = play();
   EXPECT_EQ(played.frames.size(), 1U);
@@ -118,7 +118,7 @@ TEST_F(BagSources, DamagedFramesAreSkippedAndNamed) {
   expect_in("/rgb/image message 2: has 5 bytes", played.warnings[1]);
 }
 
-TEST_F(BagSources, CompressedImages) {
+TEST_F(BagSources, ReadsCompressedImages) {
   camera_info();
   const Image<std::uint16_t> raw(kWidth, kHeight, 1250);
   write("/rgb/image/compressed",
@@ -131,7 +131,7 @@ TEST_F(BagSources, CompressedImages) {
   EXPECT_EQ(played.frames[0].depth(3, 3), 1.25F);
 }
 
-TEST_F(BagSources, MasksAndTruth) {
+TEST_F(BagSources, ReadsMasksAndGroundTruth) {
   camera_info();
   color(0);
   depth(0);
@@ -148,7 +148,7 @@ TEST_F(BagSources, MasksAndTruth) {
   EXPECT_FALSE(play({.load_masks = false}).source->has_masks());
 }
 
-TEST_F(BagSources, TruthOfTransforms) {
+TEST_F(BagSources, ReadsGroundTruthFromTransforms) {
   camera_info();
   color(0);
   depth(0);
@@ -166,7 +166,7 @@ TEST_F(BagSources, TruthOfTransforms) {
   EXPECT_NEAR(played.source->ground_truth()[1].T_world_sensor.translation().x(), 11.5, 1e-12);
 }
 
-TEST_F(BagSources, CloudsWithACamera) {
+TEST_F(BagSources, ReadsCloudsWithCamera) {
   camera_info();
   LidarScan scan;
   scan.points = {{1, 2, 3}, {4, 5, 6}};
@@ -190,43 +190,43 @@ TEST_F(BagSources, CloudsWithACamera) {
   expect_in("/points message 2: has no points", played.warnings[0]);
 }
 
-TEST_F(BagSources, ACalibrationBesideTheBagTakesThePlaceOfCameraInfo) {
+TEST_F(BagSources, CalibrationFileReplacesCameraInfo) {
   color(0);
   depth(0);
   finish();
   expect_in(
       "has no sensor_msgs/CameraInfo for /rgb/image; it has /depth/image sensor_msgs/Image (1)",
-      fault());
-  expect_in("put the camera into a.calibration.yaml", fault());
+      error());
+  expect_in("put the camera into a.calibration.yaml", error());
   folder_.write("a.calibration.yaml", kCalibration);
   EXPECT_EQ(play().frames.size(), 1U);
 }
 
-TEST_F(BagSources, WhatIsMissingIsOneErrorWithTheTopics) {
+TEST_F(BagSources, ErrorListsMissingDataAndTopics) {
   color(0);
   finish();
-  expect_in("has neither colour images with depth nor point clouds; it has /rgb/image", fault());
+  expect_in("has neither colour images with depth nor point clouds; it has /rgb/image", error());
   bag_ = std::make_unique<BagWriter>(path_);
   finish();
-  expect_in("a.bag: is empty: it has no topics", fault());
+  expect_in("a.bag: is empty: it has no topics", error());
   bag_ = std::make_unique<BagWriter>(path_);
   camera_info();
   color(0);
   depth(500);
   finish();
   expect_in("no two have stamps within 0.02 s of each other (they begin at 5.000000000 and 5.5",
-            fault());
+            error());
   expect_in("has a mask for none of the frames", [&] {
     bag_ = std::make_unique<BagWriter>(path_);
     camera_info();
     color(0);
     depth(0);
     finish();
-    return fault({.masks = folder_.path()});
+    return error({.masks = folder_.path()});
   }());
 }
 
-TEST_F(BagSources, TopicsAreOnlyOfBags) {
+TEST_F(BagSources, RejectsTopicsForFolders) {
   finish();
   write_tum(folder_, 1);
   expect_in("is no bag, so it has no topics", message_of<DataError>([&] {
@@ -259,7 +259,7 @@ void record(const std::filesystem::path& from, FrameRecorder& recorder) {
   recorder.finish(source->ground_truth());
 }
 
-TEST_F(BagSources, RecordingsTurnIntoBagsAndBackWithoutLoss) {
+TEST_F(BagSources, ConvertsToBagAndBackWithoutLoss) {
   for (const std::string sensor : {"d435", "l515", "kinect", "lidar16"}) {
     const std::string scene = "sim:crowd?frames=3&width=64&sensor=" + sensor;
     const auto bag = folder_.path() / (sensor + ".bag");

@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
 
-/// Topics whose image encodings stand behind their names: "/camera/depth=16UC1".
+/// Topics of a bag, with the encodings of their images.
 struct Topics {
   Topics& add(const std::string& name, const std::string& type, const std::string& encoding = "",
               std::size_t count = 10) {
@@ -32,7 +32,7 @@ struct Topics {
     };
     return choose_topics(list, given, encoding_of, "x.bag");
   }
-  std::string fault(const BagTopicNames& given = {}) const {
+  std::string error(const BagTopicNames& given = {}) const {
     return message_of<DataError>([&] { choose(given); });
   }
 
@@ -40,7 +40,7 @@ struct Topics {
   std::vector<std::string> encodings;
 };
 
-TEST(BagTopics, OfARealSense) {
+TEST(BagTopics, ChoosesTopicsOfRealSense) {
   const BagTopicNames chosen = Topics()
                                    .image("/camera/infra1/image_rect_raw", "mono8")
                                    .image("/camera/depth/image_rect_raw", "16UC1")
@@ -56,7 +56,7 @@ TEST(BagTopics, OfARealSense) {
   EXPECT_EQ(chosen.cloud, "");
 }
 
-TEST(BagTopics, OfTheTumBenchmark) {
+TEST(BagTopics, ChoosesTopicsOfTumBenchmark) {
   const BagTopicNames chosen = Topics()
                                    .camera_info("/camera/depth/camera_info")
                                    .image("/camera/depth/image", "32FC1")
@@ -71,7 +71,7 @@ TEST(BagTopics, OfTheTumBenchmark) {
   EXPECT_EQ(chosen.truth, "");
 }
 
-TEST(BagTopics, OfCompressedImages) {
+TEST(BagTopics, ChoosesCompressedImages) {
   const BagTopicNames chosen =
       Topics()
           .add("/cam/depth_registered/image_raw/compressedDepth", "sensor_msgs/CompressedImage")
@@ -84,7 +84,7 @@ TEST(BagTopics, OfCompressedImages) {
   EXPECT_EQ(chosen.depth, "/cam/depth_registered/image_raw/compressedDepth");
 }
 
-TEST(BagTopics, OfLidarsWithACameraAndTruth) {
+TEST(BagTopics, ChoosesLidarWithCameraAndGroundTruth) {
   const BagTopicNames chosen = Topics()
                                    .add("/odom", "nav_msgs/Odometry")
                                    .add("/vicon/robot/pose", "geometry_msgs/PoseStamped")
@@ -99,14 +99,14 @@ TEST(BagTopics, OfLidarsWithACameraAndTruth) {
   EXPECT_EQ(chosen.camera_info, "");
 }
 
-TEST(BagTopics, MasksAreNoColourImages) {
+TEST(BagTopics, DoesNotUseMasksAsColor) {
   const BagTopicNames chosen =
       Topics().image("/mask", "mono8").image("/image", "mono8").image("/depth", "16UC1").choose();
   EXPECT_EQ(chosen.color, "/image");
   EXPECT_EQ(chosen.mask, "/mask");
 }
 
-TEST(BagTopics, GivenOnesComeFirst) {
+TEST(BagTopics, GivenTopicsHavePriority) {
   const Topics topics = Topics()
                             .image("/a/rgb", "rgb8")
                             .image("/b/grey", "mono8")
@@ -122,18 +122,18 @@ TEST(BagTopics, GivenOnesComeFirst) {
   EXPECT_EQ(topics.choose({.cloud = "/points"}).depth, "");
 }
 
-TEST(BagTopics, FaultsListTheTopics) {
+TEST(BagTopics, ErrorsListTopics) {
   const Topics topics = Topics().image("/rgb", "rgb8").add("/scan", "sensor_msgs/LaserScan");
-  const std::string missing = topics.fault();
+  const std::string missing = topics.error();
   expect_in("x.bag: has neither colour images with depth nor point clouds", missing);
   expect_in("it has /rgb sensor_msgs/Image (10), /scan sensor_msgs/LaserScan (10)", missing);
   expect_in("--topic-depth is /none, which is not there; it has /rgb",
-            topics.fault({.depth = "/none"}));
+            topics.error({.depth = "/none"}));
   expect_in("--topic-depth is /scan, which is sensor_msgs/LaserScan, expected sensor_msgs/Image or",
-            topics.fault({.depth = "/scan"}));
-  expect_in("it has no topics", Topics().fault());
+            topics.error({.depth = "/scan"}));
+  expect_in("it has no topics", Topics().error());
   expect_in("/depth, which has no messages",
-            Topics().add("/depth", "sensor_msgs/Image", "16UC1", 0).fault({.depth = "/depth"}));
+            Topics().add("/depth", "sensor_msgs/Image", "16UC1", 0).error({.depth = "/depth"}));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(FolderRgbd, ReadsFramesAndPoses) {
   EXPECT_EQ(played.source->ground_truth()[1].T_world_sensor.translation().x(), 0.5);
 }
 
-TEST(FolderRgbd, DefaultsToSevenScenesCamera) {
+TEST(FolderRgbd, UsesSevenScenesCameraByDefault) {
   const TempFolder folder;
   write_frame(folder, "frame-000000", 2000);
   const auto lines = open_dataset(folder.path())->describe();
@@ -39,7 +39,7 @@ TEST(FolderRgbd, DefaultsToSevenScenesCamera) {
   EXPECT_TRUE(any_has(lines, "640x480"));
 }
 
-TEST(FolderRgbd, MissingDepthAndLostPosesAreNamed) {
+TEST(FolderRgbd, SkipsAndReportsMissingDepthAndPoses) {
   const TempFolder folder;
   folder.write("calibration.yaml", kCalibration);
   write_frame(folder, "a", 1000);

@@ -9,12 +9,12 @@ namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
 
-/// A frame whose person shows only the first `pixels` of its pixels.
+/// A frame with only the first `pixels` pixels of the person visible.
 SimulatedFrame frame_with(int pixels, double occlusion = 0.0) {
-  SimulatedFrame frame = hand_made_frame(0, small_sensor());
-  int left = pixels;
+  SimulatedFrame frame = synthetic_frame(0, small_sensor());
+  int remaining = pixels;
   for (std::uint8_t& value : frame.exact.object.pixels()) {
-    if (value != 0 && left-- <= 0) value = 0;
+    if (value != 0 && remaining-- <= 0) value = 0;
   }
   frame.objects[0].pixels = pixels;
   frame.objects[0].occlusion = occlusion;
@@ -23,8 +23,8 @@ SimulatedFrame frame_with(int pixels, double occlusion = 0.0) {
 
 TEST(InstanceAnnotations, HaveImagesObjectsAndCategories) {
   CocoDataset dataset = empty_annotations();
-  annotate(dataset, hand_made_frame(0, small_sensor()), 1, "rgb/a.jpg");
-  annotate(dataset, hand_made_frame(1, small_sensor()), 2, "rgb/b.jpg");
+  annotate(dataset, synthetic_frame(0, small_sensor()), 1, "rgb/a.jpg");
+  annotate(dataset, synthetic_frame(1, small_sensor()), 2, "rgb/b.jpg");
   ASSERT_EQ(dataset.categories.size(), 2U);
   EXPECT_EQ(dataset.categories[0].name, "person");
   EXPECT_EQ(dataset.categories[1].name, "agv");
@@ -40,7 +40,7 @@ TEST(InstanceAnnotations, HaveImagesObjectsAndCategories) {
   EXPECT_FALSE(person.iscrowd);
 }
 
-TEST(InstanceAnnotations, SmallAndHiddenObjectsAreMarkedOrLeftOut) {
+TEST(InstanceAnnotations, MarksOrOmitsSmallAndHiddenObjects) {
   const auto annotations = [](const SimulatedFrame& frame) {
     CocoDataset dataset = empty_annotations();
     annotate(dataset, frame, 1, "a.jpg");

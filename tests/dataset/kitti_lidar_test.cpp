@@ -28,7 +28,7 @@ TEST(KittiLidar, ReadsScansAndPoses) {
   EXPECT_EQ(played.source->ground_truth()[1].T_world_sensor.translation().x(), 7.0);
 }
 
-TEST(KittiLidar, PosesAreTakenToTheScanner) {
+TEST(KittiLidar, TransformsPosesToLidar) {
   const TempFolder folder;
   folder.write("velodyne/0.bin", kPoint);
   folder.write("poses.txt", "1 0 0 7 0 1 0 0 0 0 1 0\n");
@@ -37,7 +37,7 @@ TEST(KittiLidar, PosesAreTakenToTheScanner) {
   EXPECT_EQ(source->ground_truth()[0].T_world_sensor.translation().x(), 7.5);
 }
 
-TEST(KittiLidar, StampsFromTimes) {
+TEST(KittiLidar, ReadsStampsFromTimes) {
   const TempFolder folder;
   folder.write("velodyne/0.bin", kPoint);
   folder.write("velodyne/1.bin", kPoint);
@@ -48,7 +48,7 @@ TEST(KittiLidar, StampsFromTimes) {
             message_of<DataError>([&] { open_dataset(folder.path()); }));
 }
 
-TEST(KittiLidar, EmptyAndTruncatedScansAreSkipped) {
+TEST(KittiLidar, SkipsEmptyAndTruncatedScans) {
   const TempFolder folder;
   folder.write("0.bin", "");
   folder.write("1.bin", "12345");
@@ -66,7 +66,7 @@ void write_scans_with_camera(const TempFolder& folder) {
   folder.write("calibration.yaml", kCalibration);
 }
 
-TEST(KittiLidar, ReadsWhatLiesBesideTheScans) {
+TEST(KittiLidar, ReadsImagesMasksAndPointTimes) {
   const TempFolder folder;
   write_scans_with_camera(folder);
   write_color(folder.path() / "image_2/0.png", 77);
@@ -88,7 +88,7 @@ TEST(KittiLidar, ReadsWhatLiesBesideTheScans) {
   EXPECT_TRUE(any_has(facts, "times of the points: 1 of 2 scans"));
 }
 
-TEST(KittiLidar, MasksAreReadWhenWanted) {
+TEST(KittiLidar, ReadsMasksOnlyWhenEnabled) {
   const TempFolder folder;
   write_scans_with_camera(folder);
   std::filesystem::create_directories(folder.path() / "masks");
@@ -101,7 +101,7 @@ TEST(KittiLidar, MasksAreReadWhenWanted) {
             }));
 }
 
-TEST(KittiLidar, WithoutACameraImagesAreNotUsed) {
+TEST(KittiLidar, IgnoresImagesWithoutCamera) {
   const TempFolder folder;
   folder.write("velodyne/0.bin", kPoint);
   write_color(folder.path() / "image_2/0.png");
@@ -110,7 +110,7 @@ TEST(KittiLidar, WithoutACameraImagesAreNotUsed) {
   EXPECT_TRUE(any_has(played.source->describe(), "images: not used"));
 }
 
-TEST(KittiLidar, CompanionsThatDoNotFitDamageTheFrame) {
+TEST(KittiLidar, SkipsFramesWithInconsistentFiles) {
   const TempFolder folder;
   write_scans_with_camera(folder);
   folder.write("point_times/0.bin", std::string(8, '\0'));
@@ -122,7 +122,7 @@ TEST(KittiLidar, CompanionsThatDoNotFitDamageTheFrame) {
   EXPECT_TRUE(any_has(played.warnings, "is 3x3 pixels, the calibration says 8x6"));
 }
 
-TEST(KittiLidar, ReadsTheSharedScans) {
+TEST(KittiLidar, ReadsSharedScans) {
   const std::filesystem::path shared =
       std::filesystem::path(MMS_SOURCE_DIR) / "../shared/data/lidar/kitti00_6scans";
   if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";

@@ -10,32 +10,32 @@ namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
 
-std::string fault_of(const std::filesystem::path& path) {
+std::string error_of(const std::filesystem::path& path) {
   const std::string message = message_of<DataError>([&] { open_dataset(path); });
   expect_in(path.string() + ": ", message);
   EXPECT_EQ(message.find('\n'), std::string::npos);
   return message;
 }
 
-TEST(OpenDataset, SaysWhatWasFoundAndWhatIsWanted) {
+TEST(OpenDataset, ErrorNamesFoundAndExpectedFiles) {
   const TempFolder folder;
-  expect_in("is empty: no recording (expected rgb.txt and depth.txt", fault_of(folder.path()));
+  expect_in("is empty: no recording (expected rgb.txt and depth.txt", error_of(folder.path()));
   for (const char* name : {"a", "b", "c", "d", "e", "f"}) folder.write(name, "");
-  expect_in("has a, b, c, d and 2 more: no recording", fault_of(folder.path()));
-  expect_in("there is no such recording", fault_of(folder.path() / "missing"));
-  expect_in("is a file, a recording is a folder", fault_of(folder.path() / "a"));
+  expect_in("has a, b, c, d and 2 more: no recording", error_of(folder.path()));
+  expect_in("there is no such recording", error_of(folder.path() / "missing"));
+  expect_in("is a file, a recording is a folder", error_of(folder.path() / "a"));
 }
 
-TEST(OpenDataset, FindsARecordingOneFolderFurtherDown) {
+TEST(OpenDataset, SuggestsRecordingInSubfolder) {
   const TempFolder folder;
   folder.write("seq/rgb.txt", "");
-  expect_in("did you mean " + (folder.path() / "seq").string() + "?", fault_of(folder.path()));
+  expect_in("did you mean " + (folder.path() / "seq").string() + "?", error_of(folder.path()));
 }
 
-TEST(OpenDataset, AVelodyneFolderWithoutScansIsAFault) {
+TEST(OpenDataset, RejectsVelodyneFolderWithoutScans) {
   const TempFolder folder;
   std::filesystem::create_directories(folder.path() / "velodyne");
-  expect_in("has no *.bin scans", fault_of(folder.path()));
+  expect_in("has no *.bin scans", error_of(folder.path()));
 }
 
 TEST(OpenDataset, OpensSimulations) {

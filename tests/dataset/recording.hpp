@@ -47,7 +47,7 @@ inline void write_tum(const TempFolder& folder, int count) {
   folder.write("calibration.yaml", kCalibration);
 }
 
-/// Everything a source gives, warnings included.
+/// All frames and warnings of a source.
 struct Playback {
   explicit Playback(std::unique_ptr<FrameSource> opened) : source(std::move(opened)) {
     source->on_warning([this](const std::string& message) { warnings.push_back(message); });
@@ -65,7 +65,7 @@ struct Playback {
   std::vector<Frame> frames;
 };
 
-/// Whether one of the lines has `part` in it.
+/// Whether a line contains `part`.
 inline bool any_has(const std::vector<std::string>& lines, const std::string& part) {
   for (const std::string& line : lines) {
     if (line.find(part) != std::string::npos) return true;

@@ -6,7 +6,7 @@
 
 namespace mms::testing {
 
-/// Expects two frames to be the same, to the bit.
+/// Expects two frames to be equal to the bit.
 inline void expect_same_frame(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.index, b.index);
   EXPECT_EQ(a.stamp, b.stamp);

@@ -27,7 +27,7 @@ SceneConfig small_scene(const char* sensor) {
 
 class SceneSourceOf : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(SceneSourceOf, PlayingIsTheSameAsPlayingTheRecording) {
+TEST_P(SceneSourceOf, EqualsItsRecording) {
   const TempFolder folder;
   const SceneConfig config = small_scene(GetParam());
   SimulatedScene scene(config);
@@ -55,7 +55,7 @@ TEST_P(SceneSourceOf, PlayingIsTheSameAsPlayingTheRecording) {
 
 INSTANTIATE_TEST_SUITE_P(Sensors, SceneSourceOf, ::testing::Values("d435", "lidar16"));
 
-TEST(SceneSource, IsOpenedByItsAddress) {
+TEST(SceneSource, OpensByAddress) {
   const Playback played(
       open_dataset("sim:crowd?frames=1&width=64&sensor=kinect&seed=3&mask_errors.enabled=true"));
   ASSERT_EQ(played.frames.size(), 1U);
@@ -66,14 +66,14 @@ TEST(SceneSource, IsOpenedByItsAddress) {
   EXPECT_TRUE(any_has(facts, "masks: with errors"));
 }
 
-TEST(SceneSource, WithoutMasksThereAreNone) {
+TEST(SceneSource, HasNoMasksWhenDisabled) {
   const auto source =
       open_dataset("sim:crowd?frames=1&width=64", {.masks = {}, .load_masks = false});
   EXPECT_FALSE(source->has_masks());
   EXPECT_TRUE(source->next()->mask.empty());
 }
 
-TEST(SceneSource, KeepsItsTrueMapOnlyWhereItIsWanted) {
+TEST(SceneSource, KeepsGroundTruthMapOnlyWhenEnabled) {
   const auto map_after_a_frame = [](const SourceOptions& options) {
     const auto source = open_dataset("sim:crowd?frames=1&width=64", options);
     source->next();
@@ -83,7 +83,7 @@ TEST(SceneSource, KeepsItsTrueMapOnlyWhereItIsWanted) {
   EXPECT_FALSE(map_after_a_frame({.masks = {}, .load_masks = true, .map_truth = false}));
 }
 
-TEST(SceneSource, TheRecordingEndsWhenAsked) {
+TEST(SceneSource, RecordingStopsOnRequest) {
   const TempFolder folder;
   SimulatedScene scene(small_scene("d435"));
   WriteOptions options;
@@ -93,13 +93,13 @@ TEST(SceneSource, TheRecordingEndsWhenAsked) {
   EXPECT_EQ(open_dataset(folder.path())->size(), 1U);
 }
 
-TEST(SceneSource, SaysWhatIsWrongWithItsAddress) {
-  const auto fault = [](const char* address) {
+TEST(SceneSource, ErrorsExplainInvalidAddress) {
+  const auto error = [](const char* address) {
     return message_of<DataError>([&] { open_dataset(address); });
   };
-  expect_in("did you mean 'sim:crowd'?", fault("sim:crwd"));
-  expect_in("sensor cannot be 'd345' (did you mean 'd435'?)", fault("sim:crowd?sensor=d345"));
-  expect_in("did you mean 'mask_errors.enabled'?", fault("sim:crowd?mask_errors.enabld=true"));
+  expect_in("did you mean 'sim:crowd'?", error("sim:crwd"));
+  expect_in("sensor cannot be 'd345' (did you mean 'd435'?)", error("sim:crowd?sensor=d345"));
+  expect_in("did you mean 'mask_errors.enabled'?", error("sim:crowd?mask_errors.enabld=true"));
 }
 
 }  // namespace

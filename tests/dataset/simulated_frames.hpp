@@ -19,9 +19,9 @@ inline SensorPreset small_sensor(bool lidar = false) {
   return sensor;
 }
 
-/// Frame `index` at 10 Hz, by hand: a wall 2 m ahead and before its left half a person 1 m ahead,
-/// measured 1 cm too far, with no return from the uppermost row.
-inline SimulatedFrame hand_made_frame(int index, const SensorPreset& sensor) {
+/// Frame `index` at 10 Hz: a wall at 2 m and a person at 1 m in front of its left half. The
+/// measured depth is 1 cm too large, and the top row has no return.
+inline SimulatedFrame synthetic_frame(int index, const SensorPreset& sensor) {
   const CameraIntrinsics& camera = sensor.color.intrinsics;
   auto calibration = std::make_shared<Calibration>();
   calibration->camera = camera;
@@ -60,19 +60,19 @@ inline SimulatedFrame hand_made_frame(int index, const SensorPreset& sensor) {
   person.visible = {0.0, 0.0, camera.width / 2.0, 1.0 * camera.height};
   person.amodal = {-4.0, 0.0, 4.0 + camera.width / 2.0, 1.0 * camera.height};
   person.pixels = camera.width / 2 * camera.height;
-  ObjectTruth behind;  // the camera, so out of view
-  behind.id = 2;
-  behind.object_class = ObjectClass::kAgv;
-  behind.kind = "forklift";
-  simulated.objects = {person, behind};
+  ObjectTruth vehicle;  // behind the camera
+  vehicle.id = 2;
+  vehicle.object_class = ObjectClass::kAgv;
+  vehicle.kind = "forklift";
+  simulated.objects = {person, vehicle};
   return simulated;
 }
 
-/// Its pose: 10 cm to the right a frame.
-inline StampedPose hand_made_pose(int index, const SensorPreset& sensor) {
+/// Pose of that frame; it moves 10 cm to the right per frame.
+inline StampedPose synthetic_pose(int index, const SensorPreset& sensor) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation().x() = 0.1 * index;
-  return {hand_made_frame(index, sensor).frame.stamp, Transform<World, Sensor>(pose)};
+  return {synthetic_frame(index, sensor).frame.stamp, Transform<World, Sensor>(pose)};
 }
 
 }  // namespace mms::testing

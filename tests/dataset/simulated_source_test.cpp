@@ -18,7 +18,7 @@ std::string message_of(const std::string& address) {
   return "no error";
 }
 
-TEST(SimulatedSource, GivesItsFramesAndTheirTruth) {
+TEST(SimulatedSource, ReturnsFramesAndGroundTruth) {
   const auto source = open_simulated(kSmall);
   EXPECT_EQ(source->size(), 3U);
   ASSERT_EQ(source->ground_truth().size(), 3U);
@@ -41,7 +41,7 @@ TEST(SimulatedSource, SkipsWithoutRendering) {
   EXPECT_FALSE(source->next());
 }
 
-TEST(SimulatedSource, LeavesMasksOutWhenAsked) {
+TEST(SimulatedSource, OmitsMasksWhenDisabled) {
   SourceOptions options;
   options.load_masks = false;
   EXPECT_TRUE(open_simulated(kSmall, options)->next()->mask.empty());
@@ -56,7 +56,7 @@ TEST(SimulatedSource, DefaultsNeedNoQuery) {
   EXPECT_EQ(open_simulated("sim:static?noise=false")->size(), 450U);
 }
 
-TEST(SimulatedSource, SaysWhatIsWrong) {
+TEST(SimulatedSource, ErrorsExplainInvalidAddress) {
   EXPECT_NE(message_of("sim:moon").find("sim:warehouse_loop"), std::string::npos);
   EXPECT_NE(message_of("sim:crowd?sed=1").find("did you mean 'seed'?"), std::string::npos);
   EXPECT_NE(message_of("sim:crowd?colour=1").find("known are seed, duration, frames, hz"),

@@ -26,7 +26,7 @@ using namespace testing;  // NOLINT: helpers of the tests
 void write_frames(const fs::path& folder, const SensorPreset& sensor, int count) {
   SimulationWriter writer(folder, {}, sensor);
   for (int i = 0; i < count; ++i) {
-    writer.add(hand_made_frame(i, sensor), hand_made_pose(i, sensor));
+    writer.add(synthetic_frame(i, sensor), synthetic_pose(i, sensor));
   }
   writer.finish();
 }
@@ -37,7 +37,7 @@ void expect_playback(const fs::path& folder, const SensorPreset& sensor, std::si
   ASSERT_EQ(played.frames.size(), count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto index = static_cast<int>(i);
-    expect_same_frame(played.frames[i], as_recorded(hand_made_frame(index, sensor), {}, sensor));
+    expect_same_frame(played.frames[i], as_recorded(synthetic_frame(index, sensor), {}, sensor));
     ASSERT_EQ(played.source->ground_truth().size(), count);
     const StampedPose& pose = played.source->ground_truth()[i];
     EXPECT_EQ(pose.stamp, played.frames[i].stamp);
@@ -45,13 +45,13 @@ void expect_playback(const fs::path& folder, const SensorPreset& sensor, std::si
   }
 }
 
-TEST(SimulationWriter, ADepthCamerasRecordingPlaysBack) {
+TEST(SimulationWriter, DepthCameraRecordingPlaysBack) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(), 3);
   expect_playback(folder.path(), small_sensor(), 3);
 }
 
-TEST(SimulationWriter, ALidarsRecordingPlaysBack) {
+TEST(SimulationWriter, LidarRecordingPlaysBack) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(true), 3);
   expect_playback(folder.path(), small_sensor(true), 3);
@@ -59,14 +59,14 @@ TEST(SimulationWriter, ALidarsRecordingPlaysBack) {
   EXPECT_EQ(read_trajectory_tum(folder.path() / "groundtruth.txt").size(), 3U);
 }
 
-TEST(SimulationWriter, InstancesAreKeptBesideTheMasks) {
+TEST(SimulationWriter, WritesInstancesBesideMasks) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(), 1);
   EXPECT_EQ(read_mask(folder.path() / "instances/0.000000001.png")(0, 0), 1 + kObjectId);
   EXPECT_EQ(read_mask(folder.path() / "masks/0.000000001.png")(0, 0), 1);
 }
 
-TEST(SimulationWriter, ObjectsHaveAllTheirTruth) {
+TEST(SimulationWriter, WritesGroundTruthOfObjects) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(), 2);
   const auto json = nlohmann::json::parse(read_file(folder.path() / "objects_truth.json"));
@@ -85,7 +85,7 @@ TEST(SimulationWriter, ObjectsHaveAllTheirTruth) {
   EXPECT_EQ(json["frames"][0]["objects"][1]["kind"], "forklift");
 }
 
-TEST(SimulationWriter, AnnotationsNameTheImages) {
+TEST(SimulationWriter, AnnotationsNameImages) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(), 2);
   const CocoDataset dataset = read_coco(folder.path() / "instances.json");
@@ -96,7 +96,7 @@ TEST(SimulationWriter, AnnotationsNameTheImages) {
   }
 }
 
-TEST(SimulationWriter, TheTrueMapComesWithTheLastFrame) {
+TEST(SimulationWriter, GroundTruthMapComesWithLastFrame) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(), 2);
   const auto source = open_dataset(folder.path());
@@ -114,7 +114,7 @@ TEST(SimulationWriter, TheTrueMapComesWithTheLastFrame) {
   EXPECT_TRUE(any_has(source->describe(), "map truth: map_truth.ply"));
 }
 
-TEST(SimulationWriter, ATrueMapWithoutLabelsIsAFault) {
+TEST(SimulationWriter, RejectsGroundTruthMapWithoutLabels) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(), 1);
   write_ply(folder.path() / "map_truth.ply", {{{1.0F, 2.0F, 3.0F}}, {}, {}, {}, {}});
@@ -124,7 +124,7 @@ TEST(SimulationWriter, ATrueMapWithoutLabelsIsAFault) {
             message_of<DataError>([&] { source->map_truth(); }));
 }
 
-TEST(SimulationWriter, ReplacesAnEarlierSimulation) {
+TEST(SimulationWriter, ReplacesEarlierSimulation) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(), 3);
   folder.write("notes.txt", "mine");
@@ -134,12 +134,12 @@ TEST(SimulationWriter, ReplacesAnEarlierSimulation) {
   expect_playback(folder.path(), small_sensor(true), 2);
 }
 
-TEST(SimulationWriter, LeavesOtherFoldersAlone) {
+TEST(SimulationWriter, KeepsOtherFolders) {
   const TempFolder folder;
   folder.write("holiday.jpg", "x");
   expect_in("is not empty (it has holiday.jpg) and no earlier simulation (choose a new folder",
             message_of<FileError>([&] { write_frames(folder.path(), small_sensor(), 1); }));
-  folder.write("mine/scene.yaml", "seed: 3\n");  // someone's own marks no recording
+  folder.write("mine/scene.yaml", "seed: 3\n");  // a file of the user does not mark a recording
   expect_in("it has scene.yaml", message_of<FileError>([&] {
               write_frames(folder.path() / "mine", small_sensor(), 1);
             }));
@@ -148,7 +148,7 @@ TEST(SimulationWriter, LeavesOtherFoldersAlone) {
             }));
 }
 
-TEST(SimulationWriter, TheSceneCanBeReadAgain) {
+TEST(SimulationWriter, SceneConfigRoundTrips) {
   const TempFolder folder;
   SceneConfig config;
   config.seed = 77;
@@ -160,7 +160,7 @@ TEST(SimulationWriter, TheSceneCanBeReadAgain) {
   EXPECT_TRUE(read.mask_errors.enabled);
 }
 
-TEST(SimulationWriter, WithoutFramesThereIsNoRecording) {
+TEST(SimulationWriter, RejectsRecordingWithoutFrames) {
   const TempFolder folder;
   expect_in("the recording has no frames",
             message_of<DataError>([&] { write_frames(folder.path(), small_sensor(), 0); }));

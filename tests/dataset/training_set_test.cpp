@@ -20,7 +20,7 @@ TrainingSetOptions options_for(int images, std::uint64_t seed = 5) {
   return options;
 }
 
-TEST(TrainingSet, HasImagesAndTheirAnnotations) {
+TEST(TrainingSet, WritesImagesAndAnnotations) {
   const TempFolder folder;
   const WrittenTrainingSet written = write_training_set(folder.path() / "set", options_for(2));
   EXPECT_EQ(written.images, 2);
@@ -34,7 +34,7 @@ TEST(TrainingSet, HasImagesAndTheirAnnotations) {
   }
 }
 
-TEST(TrainingSet, GoesOnWhereItWasLeft) {
+TEST(TrainingSet, ResumesInterruptedWriting) {
   const TempFolder folder;
   TrainingSetOptions options = options_for(2);
   options.progress = [](int done, int) { return done < 1; };
@@ -48,7 +48,7 @@ TEST(TrainingSet, GoesOnWhereItWasLeft) {
   }
 }
 
-TEST(TrainingSet, SaysWhatIsInItsWay) {
+TEST(TrainingSet, ErrorsNameConflicts) {
   const TempFolder folder;
   write_training_set(folder.path() / "set", options_for(1));
   expect_in(

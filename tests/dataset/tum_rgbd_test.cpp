@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
 
-std::string fault_of(const TempFolder& folder, const SourceOptions& options = {}) {
+std::string error_of(const TempFolder& folder, const SourceOptions& options = {}) {
   return message_of<DataError>([&] { open_dataset(folder.path(), options); });
 }
 
@@ -46,7 +46,7 @@ TEST(TumRgbd, DescribesItself) {
   }
 }
 
-TEST(TumRgbd, SkipPassesOverFrames) {
+TEST(TumRgbd, SkipsFrames) {
   const TempFolder folder;
   write_tum(folder, 4);
   const auto source = open_dataset(folder.path());
@@ -57,7 +57,7 @@ TEST(TumRgbd, SkipPassesOverFrames) {
   EXPECT_EQ(source->skipped(), 0U);
 }
 
-TEST(TumRgbd, AssociationsInEitherOrder) {
+TEST(TumRgbd, ReadsAssociationsInEitherOrder) {
   const TempFolder folder;
   write_tum(folder, 2);
   std::filesystem::remove(folder.path() / "depth.txt");
@@ -69,7 +69,7 @@ TEST(TumRgbd, AssociationsInEitherOrder) {
   EXPECT_EQ(played.frames[0].stamp, Timestamp(5'000'000'000));
 }
 
-TEST(TumRgbd, DamagedFramesAreSkippedAndNamed) {
+TEST(TumRgbd, SkipsAndReportsDamagedFrames) {
   const TempFolder folder;
   write_tum(folder, 7);
   const auto color = [&](int i) { return folder.path() / "rgb" / file_of(i); };
@@ -84,7 +84,7 @@ TEST(TumRgbd, DamagedFramesAreSkippedAndNamed) {
   EXPECT_EQ(played.frames[0].index, 6);
   EXPECT_EQ(played.source->skipped(), 6U);
   ASSERT_EQ(played.warnings.size(), 6U);
-  const char* faults[] = {"no such file",
+  const char* errors[] = {"no such file",
                           "truncated PNG",
                           "is empty",
                           "is 4x3 pixels, the calib",
@@ -92,11 +92,11 @@ TEST(TumRgbd, DamagedFramesAreSkippedAndNamed) {
                           "16-bit depth PNG"};
   for (std::size_t i = 0; i < 6; ++i) {
     expect_in(std::string("frame f").append(std::to_string(i)) + " skipped: ", played.warnings[i]);
-    expect_in(faults[i], played.warnings[i]);
+    expect_in(errors[i], played.warnings[i]);
   }
 }
 
-TEST(TumRgbd, ARecordingOfDamagedFramesGivesNone) {
+TEST(TumRgbd, ReturnsNoFramesWhenAllAreDamaged) {
   const TempFolder folder;
   write_tum(folder, 3);
   std::filesystem::remove_all(folder.path() / "depth");
@@ -105,7 +105,7 @@ TEST(TumRgbd, ARecordingOfDamagedFramesGivesNone) {
   EXPECT_EQ(played.source->skipped(), played.source->size());
 }
 
-TEST(TumRgbd, DepthWithoutReturnsIsOrdinary) {
+TEST(TumRgbd, AcceptsDepthWithoutReturns) {
   const TempFolder folder;
   write_tum(folder, 1);
   write_depth(folder.path() / "depth/f0.png", 0);
@@ -114,7 +114,7 @@ TEST(TumRgbd, DepthWithoutReturnsIsOrdinary) {
   EXPECT_EQ(played.frames[0].depth(0, 0), 0.0F);
 }
 
-TEST(TumRgbd, DuplicateStampsKeepTheFirst) {
+TEST(TumRgbd, KeepsFirstOfDuplicateStamps) {
   const TempFolder folder;
   write_tum(folder, 3);
   folder.write("rgb.txt", "5.0 rgb/f0.png\n5.0 rgb/f1.png\n5.2 rgb/f2.png\n");
@@ -123,7 +123,7 @@ TEST(TumRgbd, DuplicateStampsKeepTheFirst) {
   EXPECT_TRUE(any_has(played.warnings, "rgb.txt:2: line left out, its stamp was there before"));
 }
 
-TEST(TumRgbd, StampsGoingBackAreSkippedAndCounted) {
+TEST(TumRgbd, SkipsAndCountsDecreasingStamps) {
   const TempFolder folder;
   write_tum(folder, 3);
   folder.write("rgb.txt", "5.1 rgb/f1.png\n5.0 rgb/f0.png\n5.2 rgb/f2.png\n");
@@ -134,7 +134,7 @@ TEST(TumRgbd, StampsGoingBackAreSkippedAndCounted) {
       any_has(played.warnings, "frame f0 skipped: its stamp 5.000000000 is not later than"));
 }
 
-TEST(TumRgbd, DamagedLinesAreLeftOut) {
+TEST(TumRgbd, SkipsDamagedLines) {
   const TempFolder folder;
   write_tum(folder, 2);
   folder.write("rgb.txt", "5.0 rgb/f0.png\nx rgb/f1.png\n5.1\n5.1 rgb/f1.png\n");
@@ -144,7 +144,7 @@ TEST(TumRgbd, DamagedLinesAreLeftOut) {
       any_has(played.warnings, "rgb.txt:2: line left out, expected 'stamp path' (2 such lines)"));
 }
 
-TEST(TumRgbd, MasksAreReadAndMissingOnesNamedOnce) {
+TEST(TumRgbd, ReadsMasksAndReportsMissingOnce) {
   const TempFolder folder;
   write_tum(folder, 3);
   std::filesystem::create_directories(folder.path() / "masks");
@@ -162,53 +162,53 @@ TEST(TumRgbd, MasksAreReadAndMissingOnesNamedOnce) {
             "f0 f1 f2");
 }
 
-TEST(TumRgbd, AnotherFolderOfMasks) {
+TEST(TumRgbd, ReadsMasksFromOtherFolder) {
   const TempFolder folder;
   write_tum(folder, 1);
   std::filesystem::create_directories(folder.path() / "other");
   const SourceOptions options{.masks = folder.path() / "other"};
-  expect_in("has a mask for none of the frames", fault_of(folder, options));
+  expect_in("has a mask for none of the frames", error_of(folder, options));
   write_png(options.masks / "f0.png", Image<std::uint8_t>(kWidth, kHeight, 1));
   EXPECT_EQ(Playback(open_dataset(folder.path(), options)).frames[0].mask(0, 0), 1);
 }
 
-TEST(TumRgbd, MissingListsAreNamed) {
+TEST(TumRgbd, ErrorsNameMissingLists) {
   const TempFolder folder;
   write_tum(folder, 1);
   std::filesystem::remove(folder.path() / "depth.txt");
-  expect_in("is a TUM-layout sequence, but depth.txt is missing", fault_of(folder));
+  expect_in("is a TUM-layout sequence, but depth.txt is missing", error_of(folder));
   std::filesystem::remove(folder.path() / "rgb.txt");
-  expect_in("rgb.txt and depth.txt are missing", fault_of(folder));
+  expect_in("rgb.txt and depth.txt are missing", error_of(folder));
   folder.write("depth.txt", "1 depth/f0.png\n");
-  expect_in("but rgb.txt is missing", fault_of(folder));
+  expect_in("but rgb.txt is missing", error_of(folder));
 }
 
-TEST(TumRgbd, ListsWithoutMatchesAreFaults) {
+TEST(TumRgbd, RejectsListsWithoutMatches) {
   const TempFolder folder;
   write_tum(folder, 1);
   folder.write("depth.txt", "9.0 depth/f0.png\n");
-  expect_in("of 1 colour and 1 depth images no two have stamps within 0.02 s", fault_of(folder));
+  expect_in("of 1 colour and 1 depth images no two have stamps within 0.02 s", error_of(folder));
   folder.write("depth.txt", "# nothing\n");
-  expect_in("depth.txt: lists no images", fault_of(folder));
+  expect_in("depth.txt: lists no images", error_of(folder));
 }
 
-TEST(TumRgbd, WithoutCalibrationItSaysWhatToAdd) {
+TEST(TumRgbd, ErrorExplainsMissingCalibration) {
   const TempFolder folder;
   write_tum(folder, 1);
   std::filesystem::remove(folder.path() / "calibration.yaml");
-  expect_in("add calibration.yaml with fx, fy, cx, cy, width, height", fault_of(folder));
+  expect_in("add calibration.yaml with fx, fy, cx, cy, width, height", error_of(folder));
   folder.write("calibration.yaml", "fx: [oops\n");
   message_of<ConfigError>([&] { open_dataset(folder.path()); });
 }
 
-TEST(TumRgbd, GarbledTruthNamesItsLine) {
+TEST(TumRgbd, ErrorNamesLineOfDamagedGroundTruth) {
   const TempFolder folder;
   write_tum(folder, 1);
   folder.write("groundtruth.txt", "5.0 1 2 3 0 0 0 1\n5.1 1 2\n");
-  expect_in("groundtruth.txt:2: 3 columns, expected 8", fault_of(folder));
+  expect_in("groundtruth.txt:2: 3 columns, expected 8", error_of(folder));
 }
 
-TEST(TumCalibration, IsKnownByTheFoldersName) {
+TEST(TumCalibration, IsDerivedFromFolderName) {
   EXPECT_EQ(tum_default_calibration("/d/rgbd_dataset_freiburg1_xyz")->camera->fx, 517.3);
   EXPECT_EQ(tum_default_calibration("/d/FR2_desk/")->camera->fx, 520.9);
   EXPECT_EQ(tum_default_calibration("fr3_walking")->camera->distortion, (std::array<double, 5>{}));
@@ -216,7 +216,7 @@ TEST(TumCalibration, IsKnownByTheFoldersName) {
   EXPECT_FALSE(tum_default_calibration("/fr1/kitchen"));
 }
 
-TEST(TumRgbd, ReadsTheSharedRecordings) {
+TEST(TumRgbd, ReadsSharedRecordings) {
   const std::filesystem::path shared =
       std::filesystem::path(MMS_SOURCE_DIR) / "../shared/data/rgbd";
   if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";

@@ -19,7 +19,7 @@ Timestamp at(int milliseconds) {
   return Timestamp(1'000'000 * std::int64_t{milliseconds});
 }
 
-/// Adds and takes by milliseconds.
+/// A FrameAssembler with stamps in milliseconds.
 class Assembly {
  public:
   explicit Assembly(Sensor sensor) : assembler(sensor) {
@@ -36,7 +36,7 @@ class Assembly {
     assembler.add_cloud(at(t), scan);
   }
 
-  /// "100+5": stamp and depth offset of all frames there are.
+  /// "100+5": stamp and depth offset of all available frames.
   std::string frames() {
     std::string text;
     while (const auto frame = assembler.next()) {
@@ -51,7 +51,7 @@ class Assembly {
   FrameAssembler assembler;
 };
 
-TEST(FrameAssembler, PairsImagesInWhateverOrderTheyCome) {
+TEST(FrameAssembler, PairsImagesInAnyOrder) {
   Assembly a(Sensor::kDepth);
   a.color(100);
   EXPECT_EQ(a.frames(), "");
@@ -62,16 +62,16 @@ TEST(FrameAssembler, PairsImagesInWhateverOrderTheyCome) {
   EXPECT_EQ(a.frames(), "200+3");
 }
 
-TEST(FrameAssembler, WaitsForTheNearest) {
+TEST(FrameAssembler, WaitsForNearestStamp) {
   Assembly a(Sensor::kDepth);
   a.color(100);
   a.depth(88);
-  EXPECT_EQ(a.frames(), "") << "one that comes later may be nearer";
+  EXPECT_EQ(a.frames(), "") << "a later image may be nearer";
   a.depth(107);
   EXPECT_EQ(a.frames(), "100+7");
 }
 
-TEST(FrameAssembler, ImagesWithoutAPartnerGo) {
+TEST(FrameAssembler, DropsUnmatchedImages) {
   Assembly a(Sensor::kDepth);
   a.color(100);
   a.color(200);
@@ -80,7 +80,7 @@ TEST(FrameAssembler, ImagesWithoutAPartnerGo) {
   EXPECT_EQ(a.assembler.unmatched(), 1U);
 }
 
-TEST(FrameAssembler, AnImageIsUsedOnce) {
+TEST(FrameAssembler, UsesImagesOnce) {
   Assembly a(Sensor::kDepth);
   a.depth(100);
   a.color(98);
@@ -90,7 +90,7 @@ TEST(FrameAssembler, AnImageIsUsedOnce) {
   EXPECT_EQ(a.assembler.unmatched(), 1U);
 }
 
-TEST(FrameAssembler, StampsThatGoBackAreLeftOut) {
+TEST(FrameAssembler, IgnoresDecreasingStamps) {
   Assembly a(Sensor::kDepth);
   a.color(100);
   a.color(100);
@@ -99,21 +99,21 @@ TEST(FrameAssembler, StampsThatGoBackAreLeftOut) {
   EXPECT_EQ(a.frames(), "100+0");
 }
 
-TEST(FrameAssembler, CloudsAloneAndWithImages) {
-  Assembly alone(Sensor::kCloud);
-  alone.cloud(100);
-  EXPECT_EQ(alone.frames(), "100alone");
-  Assembly with(Sensor::kCloudWithCamera);
-  with.assembler.set_extrinsics({});
-  with.cloud(100);
-  EXPECT_EQ(with.frames(), "") << "its image may come";
-  with.color(130);
-  EXPECT_EQ(with.frames(), "100with image");
-  for (const int t : {200, 300, 400}) with.cloud(t);
-  EXPECT_EQ(with.frames(), "200alone") << "a camera that fails does not stop the LiDAR";
+TEST(FrameAssembler, AssemblesCloudsWithAndWithoutImages) {
+  Assembly cloud_only(Sensor::kCloud);
+  cloud_only.cloud(100);
+  EXPECT_EQ(cloud_only.frames(), "100alone");
+  Assembly with_camera(Sensor::kCloudWithCamera);
+  with_camera.assembler.set_extrinsics({});
+  with_camera.cloud(100);
+  EXPECT_EQ(with_camera.frames(), "") << "its image may follow";
+  with_camera.color(130);
+  EXPECT_EQ(with_camera.frames(), "100with image");
+  for (const int t : {200, 300, 400}) with_camera.cloud(t);
+  EXPECT_EQ(with_camera.frames(), "200alone") << "a camera that fails does not stop the LiDAR";
 }
 
-TEST(FrameAssembler, CloudsWithImagesWaitForTheExtrinsics) {
+TEST(FrameAssembler, CloudsWithImagesWaitForExtrinsics) {
   Assembly a(Sensor::kCloudWithCamera);
   for (const int t : {100, 200, 300, 400}) {
     a.cloud(t);
@@ -125,7 +125,7 @@ TEST(FrameAssembler, CloudsWithImagesWaitForTheExtrinsics) {
   EXPECT_EQ(a.frames(), "100with image 200with image 300with image 400with image");
 }
 
-TEST(FrameAssembler, DepthThatIsNotRegisteredIsAFault) {
+TEST(FrameAssembler, RejectsUnregisteredDepth) {
   Assembly a(Sensor::kDepth);
   a.color(100);
   a.assembler.add_depth(at(100), Image<float>(8, 8));
@@ -133,20 +133,20 @@ TEST(FrameAssembler, DepthThatIsNotRegisteredIsAFault) {
             message_of<DataError>([&] { a.assembler.next(); }));
   a.color(200);
   a.depth(200);
-  EXPECT_EQ(a.frames(), "200+0") << "it goes on with the next one";
+  EXPECT_EQ(a.frames(), "200+0") << "it continues with the next one";
 }
 
-TEST(FrameAssembler, ReportsWhatIsMissing) {
+TEST(FrameAssembler, ReportsMissingInputs) {
   FrameAssembler none(Sensor::kDepth);
   EXPECT_EQ(none.report(1.0),
             "colour images: none arrive; camera_info: none arrived; depth images: none arrive");
-  Assembly apart(Sensor::kDepth);
+  Assembly unmatched(Sensor::kDepth);
   for (int t = 0; t < 1000; t += 100) {
-    apart.color(t);
-    apart.depth(t + 350);
+    unmatched.color(t);
+    unmatched.depth(t + 350);
   }
-  EXPECT_EQ(apart.frames().find("0+"), std::string::npos);
-  expect_in("colour images: 5.0 a second", apart.assembler.report(2.0));
+  EXPECT_EQ(unmatched.frames().find("0+"), std::string::npos);
+  expect_in("colour images: 5.0 a second", unmatched.assembler.report(2.0));
   EXPECT_EQ(FrameAssembler(Sensor::kCloud).report(1.0), "clouds: none arrive");
 }
 

@@ -11,7 +11,7 @@ Frame frame_of(int index) {
   return frame;
 }
 
-TEST(FrameQueue, TheOldestGoes) {
+TEST(FrameQueue, DropsOldestFrame) {
   FrameQueue queue(2);
   for (const int i : {0, 1, 2}) queue.push(frame_of(i));
   EXPECT_EQ(queue.dropped(), 1U);
@@ -19,7 +19,7 @@ TEST(FrameQueue, TheOldestGoes) {
   EXPECT_EQ(queue.pop()->index, 2);
 }
 
-TEST(FrameQueue, AnInterruptEndsOnePop) {
+TEST(FrameQueue, InterruptEndsOnePop) {
   FrameQueue queue(2);
   queue.push(frame_of(0));
   queue.interrupt();

@@ -10,13 +10,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLong = 20s;  // longer than any test takes
+constexpr auto kLong = 20s;  // longer than any test
 
 Segmentation masks_of(int width) {
   return {width, 1, {}};
 }
 
-TEST(MaskExchange, MasksGoToTheFrameTheyBelongTo) {
+TEST(MaskExchange, ReturnsMasksOfTheirFrame) {
   MaskExchange exchange(kLong, kLong);
   for (const int t : {1, 2, 3}) exchange.sent(Timestamp(t));
   for (const int t : {1, 2, 3}) exchange.received(Timestamp(t), masks_of(t));
@@ -25,7 +25,7 @@ TEST(MaskExchange, MasksGoToTheFrameTheyBelongTo) {
   EXPECT_EQ(exchange.counts().missing, 0U);
 }
 
-TEST(MaskExchange, AFrameWaitsForItsMasks) {
+TEST(MaskExchange, WaitsForMasksOfFrame) {
   MaskExchange exchange(kLong, kLong);
   exchange.sent(Timestamp(1));
   std::thread link([&] {
@@ -48,7 +48,7 @@ TEST(MaskExchange, WaitsOfSuccessiveFramesOverlap) {
   EXPECT_EQ(exchange.counts().missing, 20U);
 }
 
-TEST(MaskExchange, MasksOfALaterFrameEndTheWait) {
+TEST(MaskExchange, MasksOfLaterFrameEndWait) {
   MaskExchange exchange(kLong, kLong);
   exchange.sent(Timestamp(1));
   exchange.sent(Timestamp(2));
@@ -57,7 +57,7 @@ TEST(MaskExchange, MasksOfALaterFrameEndTheWait) {
   EXPECT_EQ(exchange.wait_for(Timestamp(2))->width, 2);
 }
 
-TEST(MaskExchange, MasksThatComeTooLateAreCounted) {
+TEST(MaskExchange, CountsLateMasks) {
   MaskExchange exchange(1ms, kLong);
   exchange.sent(Timestamp(1));
   EXPECT_FALSE(exchange.wait_for(Timestamp(1)));
@@ -67,7 +67,7 @@ TEST(MaskExchange, MasksThatComeTooLateAreCounted) {
   EXPECT_EQ(exchange.counts().late, 1U);
 }
 
-TEST(MaskExchange, ALostLinkIsNotWaitedForAndMayComeBack) {
+TEST(MaskExchange, DoesNotWaitWhileLinkIsLost) {
   MaskExchange exchange(kLong, 10ms);
   exchange.sent(Timestamp(1));
   std::this_thread::sleep_for(20ms);
@@ -79,8 +79,8 @@ TEST(MaskExchange, ALostLinkIsNotWaitedForAndMayComeBack) {
   EXPECT_EQ(exchange.wait_for(Timestamp(2))->width, 2);
 }
 
-TEST(MaskExchange, ANarrowLinkGetsFewerImages) {
-  MaskExchange slow(0ms, kLong);  // whatever comes is too late
+TEST(MaskExchange, SlowLinkGetsFewerImages) {
+  MaskExchange slow(0ms, kLong);  // all masks are too late
   MaskExchange fast(kLong, kLong);
   int t = 0;
   for (int i = 0; i < 10; ++i) {
@@ -93,31 +93,31 @@ TEST(MaskExchange, ANarrowLinkGetsFewerImages) {
   }
   EXPECT_LT(slow.counts().window, 5.0);
   EXPECT_GT(fast.counts().window, 16.5);
-  int under_way = 0;
-  for (; fast.may_send(); ++under_way) fast.sent(Timestamp(++t));
-  EXPECT_EQ(under_way, static_cast<int>(std::ceil(fast.counts().window)));
+  int in_flight = 0;
+  for (; fast.may_send(); ++in_flight) fast.sent(Timestamp(++t));
+  EXPECT_EQ(in_flight, static_cast<int>(std::ceil(fast.counts().window)));
 }
 
-TEST(MaskExchange, ALinkThatWasCutIsFoundAgainByASingleAnswer) {
+TEST(MaskExchange, LinkRecoversWithOneAnswer) {
   constexpr auto kWait = 3s;
   MaskExchange exchange(kWait, kLong);
   int t = 0;
   while (exchange.may_send()) exchange.sent(Timestamp(++t));
-  const int lost = t;
-  const auto cut = MaskExchange::Clock::now();
+  const int window = t;
+  const auto loss = MaskExchange::Clock::now();
   while (!exchange.may_send()) std::this_thread::sleep_for(1ms);
-  const auto silence = MaskExchange::Clock::now() - cut;
-  EXPECT_GT(silence, kWait / 4);
-  EXPECT_LT(silence, 2 * kWait);
+  const auto pause = MaskExchange::Clock::now() - loss;
+  EXPECT_GT(pause, kWait / 4);
+  EXPECT_LT(pause, 2 * kWait);
   exchange.sent(Timestamp(++t));
   EXPECT_FALSE(exchange.may_send());  // one at a time
   exchange.received(Timestamp(t), masks_of(1));
-  int room = 0;
-  for (; exchange.may_send(); ++room) exchange.sent(Timestamp(++t));
-  EXPECT_GE(room, lost);
+  int free_slots = 0;
+  for (; exchange.may_send(); ++free_slots) exchange.sent(Timestamp(++t));
+  EXPECT_GE(free_slots, window);
 }
 
-TEST(MaskExchange, ClosingEndsTheWait) {
+TEST(MaskExchange, ClosingEndsWait) {
   MaskExchange exchange(kLong, kLong);
   exchange.sent(Timestamp(1));
   std::thread other([&] { exchange.close(); });
