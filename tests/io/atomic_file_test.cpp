@@ -23,7 +23,7 @@ TEST(AtomicFile, WritesAndReplaces) {
   EXPECT_EQ(list_folder(folder.path()), std::vector<std::string>{"a.txt"});
 }
 
-TEST(AtomicFile, WithoutCommitTheOldFileStays) {
+TEST(AtomicFile, KeepsOldFileWithoutCommit) {
   const TempFolder folder;
   const auto path = folder.write("a.txt", "old");
   {
@@ -44,7 +44,7 @@ TEST(AtomicFile, FollowsLinks) {
   EXPECT_EQ(read_file(target), "new");
 }
 
-TEST(AtomicFile, FaultsNameTheFile) {
+TEST(AtomicFile, ErrorsNameFile) {
   const TempFolder folder;
   const auto missing = folder.path() / "no" / "a.txt";
   const std::string message = message_of<FileError>([&] { write_file(missing, "x"); });
@@ -53,7 +53,7 @@ TEST(AtomicFile, FaultsNameTheFile) {
   message_of<FileError>([] { write_file("/dev/null", "x"); });
 }
 
-TEST(Files, FaultsNameTheFile) {
+TEST(Files, ErrorsNameFile) {
   const TempFolder folder;
   const auto missing = folder.path() / "a.txt";
   expect_in(missing.string() + ": there is no such file",

@@ -16,7 +16,7 @@ using testing::TempFolder;
 const std::string kCamera =
     "fx: 500\nfy: 501\ncx: 320.5\ncy: 240\nwidth: 640\nheight: 480\ndepth_scale: 5000\n";
 
-TEST(CalibrationIo, ReadsACamera) {
+TEST(CalibrationIo, ReadsCamera) {
   const TempFolder folder;
   const Calibration calibration =
       read_calibration(folder.write("c.yaml", kCamera + "distortion: [0.1, -0.2, 0.01, 0.02]\n"));
@@ -57,7 +57,7 @@ TEST(CalibrationIo, RoundTripsExactly) {
   EXPECT_EQ(read.T_camera_lidar.isometry().matrix(), written.T_camera_lidar.isometry().matrix());
 }
 
-TEST(CalibrationIo, FaultsNameFileLineAndKey) {
+TEST(CalibrationIo, ErrorsNameFileLineAndKey) {
   const TempFolder folder;
   const std::pair<std::string, const char*> cases[] = {
       {kCamera + "fz: 3\n", ":8: unknown key 'fz' (did you mean 'fx'?)"},
@@ -76,11 +76,11 @@ TEST(CalibrationIo, FaultsNameFileLineAndKey) {
       {"T_camera_lidar: &a [*a]\n", "T_camera_lidar"},
       {"{{{{", "is not YAML"},
   };
-  for (const auto& [yaml, fault] : cases) {
+  for (const auto& [yaml, expected] : cases) {
     const auto path = folder.write("c.yaml", yaml);
     const std::string message = message_of<ConfigError>([&] { read_calibration(path); });
     expect_in(path.string(), message);
-    expect_in(fault, message);
+    expect_in(expected, message);
   }
 }
 

@@ -26,7 +26,7 @@ CocoDataset sample() {
   return dataset;
 }
 
-/// A file with one image of 4 x 3, one category and the annotation given as JSON.
+/// A file with one image of 4 x 3, one category and that annotation as JSON.
 std::string with_annotation(const std::string& annotation) {
   return R"({"info": {}, "images": [{"id": 7, "file_name": "a", "width": 4, "height": 3}],)"
          R"("categories": [{"id": 1, "name": "person", "supercategory": "x"}],)"
@@ -40,7 +40,7 @@ std::string annotation(const std::string& segmentation, const std::string& more 
          ids + more + "}";
 }
 
-std::string fault_of(const std::string& content) {
+std::string error_of(const std::string& content) {
   const TempFolder folder;
   const auto path = folder.write("a.json", content);
   const std::string message = message_of<DataError>([&] { read_coco(path); });
@@ -65,7 +65,7 @@ TEST(CocoIo, RoundTrips) {
   EXPECT_EQ(read_file(folder.path() / "b.json"), read_file(path));
 }
 
-TEST(CocoIo, KeepsTheSplitOfAnImage) {
+TEST(CocoIo, KeepsSplitOfImage) {
   const TempFolder folder;
   CocoDataset dataset = sample();
   dataset.images[0].split = "holdout";
@@ -77,11 +77,11 @@ TEST(CocoIo, KeepsTheSplitOfAnImage) {
   write_coco(folder.path() / "b.json", sample());
   EXPECT_EQ(read_file(folder.path() / "b.json").find("split"), std::string::npos);
   expect_in("images[0].split: is a number, expected a text",
-            fault_of(R"({"images": [{"id": 7, "file_name": "a", "width": 4, "height": 3,)"
+            error_of(R"({"images": [{"id": 7, "file_name": "a", "width": 4, "height": 3,)"
                      R"("split": 3}], "categories": [], "annotations": []})"));
 }
 
-TEST(CocoIo, AnEmptyDatasetIsOne) {
+TEST(CocoIo, EmptyDatasetRoundTrips) {
   const TempFolder folder;
   write_coco(folder.path() / "a.json", {});
   EXPECT_TRUE(read_coco(folder.path() / "a.json").images.empty());
@@ -98,31 +98,31 @@ TEST(CocoIo, ReadsEveryKindOfMask) {
   }
 }
 
-TEST(CocoIo, NamesTheEntryThatIsWrong) {
-  const std::string good = R"({"size": [3, 4], "counts": [12]})";
-  expect_in("is no JSON: parse error at line 1", fault_of("{"));
-  expect_in("is a list, as results are", fault_of("[]"));
-  expect_in("has no key 'images'", fault_of("{}"));
-  expect_in("images: is a number, expected a list", fault_of(R"({"images": 3})"));
-  expect_in("annotations[0]: is a number, expected an object", fault_of(with_annotation("3")));
+TEST(CocoIo, ErrorsNameEntry) {
+  const std::string valid = R"({"size": [3, 4], "counts": [12]})";
+  expect_in("is no JSON: parse error at line 1", error_of("{"));
+  expect_in("is a list, as results are", error_of("[]"));
+  expect_in("has no key 'images'", error_of("{}"));
+  expect_in("images: is a number, expected a list", error_of(R"({"images": 3})"));
+  expect_in("annotations[0]: is a number, expected an object", error_of(with_annotation("3")));
   expect_in("annotations[0].segmentation.counts: mask: its runs are of 11 pixels",
-            fault_of(with_annotation(annotation(R"({"size": [3, 4], "counts": [11]})"))));
+            error_of(with_annotation(annotation(R"({"size": [3, 4], "counts": [11]})"))));
   expect_in("annotations[0].segmentation.counts[0]: is -1, allowed is 0 to",
-            fault_of(with_annotation(annotation(R"({"size": [3, 4], "counts": [-1]})"))));
+            error_of(with_annotation(annotation(R"({"size": [3, 4], "counts": [-1]})"))));
   expect_in("annotations[0].segmentation: is of 3 x 4 px, its image 7 of 4 x 3",
-            fault_of(with_annotation(annotation(R"({"size": [4, 3], "counts": [12]})"))));
+            error_of(with_annotation(annotation(R"({"size": [4, 3], "counts": [12]})"))));
   expect_in("segmentation.size: is no list of height and width",
-            fault_of(with_annotation(annotation(R"({"size": [4], "counts": [12]})"))));
+            error_of(with_annotation(annotation(R"({"size": [4], "counts": [12]})"))));
   expect_in("segmentation: polygon: has 2 numbers",
-            fault_of(with_annotation(annotation("[[1, 2]]"))));
+            error_of(with_annotation(annotation("[[1, 2]]"))));
   expect_in("annotations[0].image_id: is 9, there is no such image",
-            fault_of(with_annotation(annotation(good, "", R"("image_id": 9, "category_id": 1)"))));
+            error_of(with_annotation(annotation(valid, "", R"("image_id": 9, "category_id": 1)"))));
   expect_in("annotations[0].category_id: is 3, there is no such category",
-            fault_of(with_annotation(annotation(good, "", R"("image_id": 7, "category_id": 3)"))));
+            error_of(with_annotation(annotation(valid, "", R"("image_id": 7, "category_id": 3)"))));
   expect_in("annotations[0].iscrowd: is 2, allowed is 0 to 1",
-            fault_of(with_annotation(annotation(good, R"(, "iscrowd": 2)"))));
+            error_of(with_annotation(annotation(valid, R"(, "iscrowd": 2)"))));
   expect_in("annotations[1].id: is 5, which was there before",
-            fault_of(with_annotation(annotation(good) + "," + annotation(good))));
+            error_of(with_annotation(annotation(valid) + "," + annotation(valid))));
 }
 
 TEST(CocoIo, ResultsRoundTrip) {
@@ -142,7 +142,7 @@ TEST(CocoIo, ResultsRoundTrip) {
   expect_in("is no list of results", message_of<DataError>([&] { read_coco_results(path); }));
 }
 
-TEST(CocoIo, ResultsOneByOneAreTheSameFile) {
+TEST(CocoIo, WriterEqualsSingleCall) {
   const TempFolder folder;
   const std::vector<CocoResult> all = {{7, 1, 0.25, kMask}, {7, 2, 0.5, kMask}, {9, 1, 1.0, kMask}};
   for (std::size_t count = 0; count <= all.size(); ++count) {
@@ -156,7 +156,7 @@ TEST(CocoIo, ResultsOneByOneAreTheSameFile) {
   }
 }
 
-TEST(CocoIo, ResultsThatAreNotFinishedLeaveNoFile) {
+TEST(CocoIo, UnfinishedResultsLeaveNoFile) {
   const TempFolder folder;
   { CocoResultsWriter(folder.path() / "a.json").add({7, 1, 0.25, kMask}); }
   EXPECT_TRUE(list_folder(folder.path()).empty());
@@ -167,7 +167,7 @@ std::filesystem::path shared_coco(const char* file) {
   return std::filesystem::path(MMS_SOURCE_DIR) / "../shared/data/coco_eval" / file;
 }
 
-TEST(CocoIo, ReadsTheReferenceAnnotations) {
+TEST(CocoIo, ReadsReferenceAnnotations) {
   const auto path = shared_coco("instances_val2014_100.json");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";
   const CocoDataset dataset = read_coco(path);
@@ -178,14 +178,14 @@ TEST(CocoIo, ReadsTheReferenceAnnotations) {
   double area = 0.0;
   for (const CocoAnnotation& annotation : dataset.annotations) {
     const std::array<double, 4> box = rle_box(annotation.segmentation);
-    for (std::size_t axis = 0; axis < 2; ++axis) {  // pixels reach no further than the corners
+    for (std::size_t axis = 0; axis < 2; ++axis) {  // pixels do not exceed the corners
       EXPECT_GE(box[axis], annotation.bbox[axis] - 1.0) << annotation.id;
       EXPECT_LE(box[axis] + box[axis + 2], annotation.bbox[axis] + annotation.bbox[axis + 2] + 1.0)
           << annotation.id;
     }
     if (annotation.iscrowd) {
       ++crowds;
-    } else {  // the file has the area of the polygons before they were made pixels
+    } else {  // the file has the area of the polygons before rasterization
       pixels += static_cast<double>(rle_area(annotation.segmentation));
       area += annotation.area;
     }
@@ -194,13 +194,13 @@ TEST(CocoIo, ReadsTheReferenceAnnotations) {
   EXPECT_NEAR(pixels / area, 1.0, 0.01);
 }
 
-TEST(CocoIo, ReadsTheReferenceResults) {
+TEST(CocoIo, ReadsReferenceResults) {
   const auto path = shared_coco("instances_val2014_fakesegm100_results.json");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";
   const std::vector<CocoResult> results = read_coco_results(path);
   EXPECT_EQ(results.size(), 734U);
   const std::string file = read_file(path);
-  for (const CocoResult& result : results) {  // our text is theirs, to the letter
+  for (const CocoResult& result : results) {  // our text equals theirs
     nlohmann::json quoted = rle_to_string(result.segmentation);
     EXPECT_NE(file.find(quoted.dump()), std::string::npos);
   }

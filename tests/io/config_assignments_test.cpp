@@ -39,7 +39,7 @@ Outer assigned(const std::vector<std::string>& texts) {
   return config;
 }
 
-std::string fault_of(const std::string& text) {
+std::string error_of(const std::string& text) {
   const std::string message = message_of<DataError>([&] { assigned({text}); });
   expect_in("--set: ", message);
   return message;
@@ -53,23 +53,23 @@ TEST(ConfigAssignments, SetFieldsOfEveryType) {
   EXPECT_TRUE(config.group.enabled);
 }
 
-TEST(ConfigAssignments, TheLastOneCounts) {
+TEST(ConfigAssignments, LastAssignmentCounts) {
   EXPECT_EQ(assigned({"count=3", "count=4"}).count, 4);
 }
 
-TEST(ConfigAssignments, SayWhatIsWrong) {
-  expect_in("'speed' is not key=value", fault_of("speed"));
-  expect_in("unknown key 'sped' (did you mean 'speed'?)", fault_of("sped=1"));
-  expect_in("unknown key 'x' (known are speed, count, color, group.enabled)", fault_of("x=1"));
-  expect_in("speed is '9', allowed is 0 to 5", fault_of("speed=9"));
-  expect_in("speed is 'nan'", fault_of("speed=nan"));
-  expect_in("count is '1.5', allowed is at least 1", fault_of("count=1.5"));
-  expect_in("count is '3000000000'", fault_of("count=3000000000"));
-  expect_in("color cannot be 'gren' (did you mean 'green'?)", fault_of("color=gren"));
-  expect_in("group.enabled is 'yes', allowed are true and false", fault_of("group.enabled=yes"));
+TEST(ConfigAssignments, ErrorsExplainProblem) {
+  expect_in("'speed' is not key=value", error_of("speed"));
+  expect_in("unknown key 'sped' (did you mean 'speed'?)", error_of("sped=1"));
+  expect_in("unknown key 'x' (known are speed, count, color, group.enabled)", error_of("x=1"));
+  expect_in("speed is '9', allowed is 0 to 5", error_of("speed=9"));
+  expect_in("speed is 'nan'", error_of("speed=nan"));
+  expect_in("count is '1.5', allowed is at least 1", error_of("count=1.5"));
+  expect_in("count is '3000000000'", error_of("count=3000000000"));
+  expect_in("color cannot be 'gren' (did you mean 'green'?)", error_of("color=gren"));
+  expect_in("group.enabled is 'yes', allowed are true and false", error_of("group.enabled=yes"));
 }
 
-TEST(ConfigAssignments, AFaultLeavesTheConfigAsItWas) {
+TEST(ConfigAssignments, FailedAssignmentKeepsConfig) {
   Outer config;
   const std::vector<std::string> texts = {"count=7", "speed=9"};
   message_of<DataError>([&] { assign(config, texts, "x"); });

@@ -42,7 +42,7 @@ struct OuterConfig {
   bool operator==(const OuterConfig&) const = default;
 };
 
-std::string fault_of(const std::string& yaml) {
+std::string error_of(const std::string& yaml) {
   const TempFolder folder;
   const auto path = folder.write("c.yaml", yaml);
   OuterConfig config;
@@ -52,7 +52,7 @@ std::string fault_of(const std::string& yaml) {
   return message.substr(std::min(path.string().size(), message.size()));
 }
 
-TEST(ConfigYaml, SetsWhatIsWrittenAndKeepsTheRest) {
+TEST(ConfigYaml, SetsGivenKeysAndKeepsOthers) {
   const TempFolder folder;
   OuterConfig config;
   load_config(folder.write("c.yaml", "mode: exact\nkeyframes:\n  translation: 2\n"), config);
@@ -76,7 +76,7 @@ TEST(ConfigYaml, DumpIsDocumented) {
             "  count: 5  # number of keyframes, 1 to 100\n");
 }
 
-TEST(ConfigYaml, DumpLoadsBackExactly) {
+TEST(ConfigYaml, DumpRoundTrips) {
   const TempFolder folder;
   OuterConfig config;
   config.enabled = false;
@@ -90,48 +90,48 @@ TEST(ConfigYaml, DumpLoadsBackExactly) {
   EXPECT_EQ(loaded, OuterConfig());
 }
 
-TEST(ConfigYaml, UnknownKeysNameTheNearest) {
-  EXPECT_EQ(fault_of("enabled: true\nkeyframes:\n  translatoin: 1\n"),
+TEST(ConfigYaml, UnknownKeysSuggestNearest) {
+  EXPECT_EQ(error_of("enabled: true\nkeyframes:\n  translatoin: 1\n"),
             ":3: unknown key 'keyframes.translatoin' (did you mean 'translation'?)");
-  EXPECT_EQ(fault_of("x: 1\n"), ":1: unknown key 'x' (known are enabled, mode, limit, keyframes)");
+  EXPECT_EQ(error_of("x: 1\n"), ":1: unknown key 'x' (known are enabled, mode, limit, keyframes)");
 }
 
-TEST(ConfigYaml, WrongTypesSayWhatIsWanted) {
-  EXPECT_EQ(fault_of("keyframes:\n  translation: far\n"),
+TEST(ConfigYaml, WrongTypesNameExpectedType) {
+  EXPECT_EQ(error_of("keyframes:\n  translation: far\n"),
             ":2: keyframes.translation is 'far', expected a number: 0 to 10");
-  EXPECT_EQ(fault_of("keyframes: {count: 2.5}\n"),
+  EXPECT_EQ(error_of("keyframes: {count: 2.5}\n"),
             ":1: keyframes.count is '2.5', expected a whole number: 1 to 100");
-  EXPECT_EQ(fault_of("enabled: yes\n"), ":1: enabled is 'yes', allowed is true or false");
-  EXPECT_EQ(fault_of("limit: [1, 2]\n"), ":1: limit is a list, expected a number: at least 0");
-  EXPECT_EQ(fault_of("limit: '1'\n"), ":1: limit is '1', expected a number: at least 0");
-  EXPECT_EQ(fault_of("keyframes: 3\n"), ":1: keyframes is '3', expected lines of 'key: value'");
-  expect_in("limit is empty, expected a number", fault_of("limit:\n"));
-  expect_in("limit is '.nan', expected a number", fault_of("limit: .nan\n"));
+  EXPECT_EQ(error_of("enabled: yes\n"), ":1: enabled is 'yes', allowed is true or false");
+  EXPECT_EQ(error_of("limit: [1, 2]\n"), ":1: limit is a list, expected a number: at least 0");
+  EXPECT_EQ(error_of("limit: '1'\n"), ":1: limit is '1', expected a number: at least 0");
+  EXPECT_EQ(error_of("keyframes: 3\n"), ":1: keyframes is '3', expected lines of 'key: value'");
+  expect_in("limit is empty, expected a number", error_of("limit:\n"));
+  expect_in("limit is '.nan', expected a number", error_of("limit: .nan\n"));
 }
 
-TEST(ConfigYaml, ValuesOutOfRangeNameTheRange) {
-  EXPECT_EQ(fault_of("keyframes:\n  translation: 10.5\n"),
+TEST(ConfigYaml, ValuesOutOfRangeNameRange) {
+  EXPECT_EQ(error_of("keyframes:\n  translation: 10.5\n"),
             ":2: keyframes.translation is 10.5, allowed is 0 to 10");
-  EXPECT_EQ(fault_of("keyframes:\n  translation: .inf\n"),
+  EXPECT_EQ(error_of("keyframes:\n  translation: .inf\n"),
             ":2: keyframes.translation is .inf, allowed is 0 to 10");
-  EXPECT_EQ(fault_of("keyframes:\n  count: 0\n"), ":2: keyframes.count is 0, allowed is 1 to 100");
-  EXPECT_EQ(fault_of("mode: exakt\n"),
+  EXPECT_EQ(error_of("keyframes:\n  count: 0\n"), ":2: keyframes.count is 0, allowed is 1 to 100");
+  EXPECT_EQ(error_of("mode: exakt\n"),
             ":1: mode is 'exakt', allowed is one of none, fast, exact (did you mean 'exact'?)");
 }
 
-TEST(ConfigYaml, DuplicateKeysAreRefused) {
-  EXPECT_EQ(fault_of("enabled: true\nenabled: false\n"),
+TEST(ConfigYaml, RejectsDuplicateKeys) {
+  EXPECT_EQ(error_of("enabled: true\nenabled: false\n"),
             ":2: enabled is there twice (keep one of them)");
-  expect_in(":3: keyframes.count is there twice", fault_of("keyframes:\n  count: 1\n  count: 2\n"));
+  expect_in(":3: keyframes.count is there twice", error_of("keyframes:\n  count: 1\n  count: 2\n"));
 }
 
-TEST(ConfigYaml, GarbageIsRefused) {
-  expect_in("is not YAML", fault_of("a: [1, 2\nb: }"));
-  expect_in("is not YAML", fault_of("\t- x: {"));
-  expect_in("expected lines of 'key: value'", fault_of("just words\n"));
-  expect_in("cannot be a key", fault_of("[1, 2]: 3\n"));
-  fault_of(std::string("\x00\x01\xff\xfe garbage", 12));
-  fault_of(std::string(2000, '['));
+TEST(ConfigYaml, RejectsInvalidYaml) {
+  expect_in("is not YAML", error_of("a: [1, 2\nb: }"));
+  expect_in("is not YAML", error_of("\t- x: {"));
+  expect_in("expected lines of 'key: value'", error_of("just words\n"));
+  expect_in("cannot be a key", error_of("[1, 2]: 3\n"));
+  error_of(std::string("\x00\x01\xff\xfe garbage", 12));
+  error_of(std::string(2000, '['));
 }
 
 TEST(ConfigYaml, MissingFilesAreFileErrors) {

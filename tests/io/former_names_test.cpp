@@ -36,7 +36,7 @@ std::vector<std::string> load(const std::string& yaml, Outer& config) {
   return load_config(folder.write("c.yaml", yaml), config);
 }
 
-TEST(FormerNames, OfAFieldAreReadWithAWarning) {
+TEST(FormerNames, OfFieldAreReadWithWarning) {
   Outer config;
   const auto warnings = load("motion:\n  slack: 2\n", config);
   EXPECT_EQ(config.motion.scale, 2.0);
@@ -44,7 +44,7 @@ TEST(FormerNames, OfAFieldAreReadWithAWarning) {
   expect_in("c.yaml:2: motion.slack is now called motion.scale", warnings[0]);
 }
 
-TEST(FormerNames, OfAGroupAreReadWithAWarning) {
+TEST(FormerNames, OfGroupAreReadWithWarning) {
   Outer config;
   const auto warnings = load("movement:\n  scale: 3\n", config);
   EXPECT_EQ(config.motion.scale, 3.0);
@@ -52,7 +52,7 @@ TEST(FormerNames, OfAGroupAreReadWithAWarning) {
   expect_in("movement is now called motion", warnings[0]);
 }
 
-TEST(FormerNames, OfListsAndTheirItemsAreRead) {
+TEST(FormerNames, OfListsAndItemsAreRead) {
   Outer config;
   const auto warnings = load("things:\n  - slack: 4\n  - scale: 5\n", config);
   ASSERT_EQ(config.items.size(), 2U);
@@ -67,7 +67,7 @@ TEST(FormerNames, PresentNamesGiveNoWarning) {
   EXPECT_EQ(dump_config(config).find("slack"), std::string::npos);
 }
 
-TEST(FormerNames, BothNamesAtOnceAreRefused) {
+TEST(FormerNames, RejectsBothNamesTogether) {
   Outer config;
   const std::string message =
       message_of<ConfigError>([&] { load("motion:\n  scale: 2\n  slack: 3\n", config); });
@@ -75,14 +75,14 @@ TEST(FormerNames, BothNamesAtOnceAreRefused) {
   EXPECT_EQ(config.motion.scale, 1.0);
 }
 
-TEST(FormerNames, AValueOutOfRangeIsRefusedUnderThePresentName) {
+TEST(FormerNames, RangeErrorsUsePresentName) {
   Outer config;
   const std::string message =
       message_of<ConfigError>([&] { load("motion:\n  slack: 9\n", config); });
   expect_in("motion.scale", message);
 }
 
-TEST(FormerNames, AreAssignedWithAWarning) {
+TEST(FormerNames, AreAssignedWithWarning) {
   Outer config;
   const std::vector<std::string> field = {"motion.slack=2"};
   EXPECT_EQ(assign(config, field, "--set"),

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-TEST(HalfFloat, EveryFiniteHalfComesBack) {
+TEST(HalfFloat, EveryFiniteHalfRoundTrips) {
   int finite = 0;
   for (std::uint32_t i = 0; i <= 0xFFFF; ++i) {
     const auto bits = static_cast<std::uint16_t>(i);
@@ -26,7 +26,7 @@ TEST(HalfFloat, EveryFiniteHalfComesBack) {
   EXPECT_EQ(finite, 63488);  // 2 signs, 31 exponents, 1024 fractions
 }
 
-TEST(HalfFloat, KnownValues) {
+TEST(HalfFloat, ConvertsKnownValues) {
   EXPECT_EQ(float_from_half(0x3C00), 1.0F);
   EXPECT_EQ(float_from_half(0xC000), -2.0F);
   EXPECT_EQ(float_from_half(0x3555), 0.333251953125F);
@@ -49,15 +49,15 @@ TEST(HalfFloat, RoundsToNearestAndTiesToEven) {
 }
 
 TEST(HalfFloat, RoundsSubnormals) {
-  EXPECT_EQ(half_from_float(0x1p-25F), 0x0000);         // tie: to zero, the even one
-  EXPECT_EQ(half_from_float(-0x1p-25F), 0x8000);        // and it keeps its sign
+  EXPECT_EQ(half_from_float(0x1p-25F), 0x0000);         // tie: to zero, which is even
+  EXPECT_EQ(half_from_float(-0x1p-25F), 0x8000);        // the sign stays
   EXPECT_EQ(half_from_float(0x1.000002p-25F), 0x0001);  // just above
   EXPECT_EQ(half_from_float(3 * 0x1p-25F), 0x0002);     // tie: up to even
   EXPECT_EQ(half_from_float(5 * 0x1p-25F), 0x0002);     // tie: down to even
   EXPECT_EQ(half_from_float(1e-40F), 0x0000);           // a float's own subnormal
 }
 
-TEST(HalfFloat, WhatIsTooLargeIsNothing) {
+TEST(HalfFloat, ReturnsNothingForTooLargeValues) {
   EXPECT_EQ(half_from_float(65504.0F), 0x7BFF);
   EXPECT_EQ(half_from_float(std::nextafter(65520.0F, 0.0F)), 0x7BFF);
   EXPECT_EQ(half_from_float(65520.0F), std::nullopt);
@@ -66,7 +66,7 @@ TEST(HalfFloat, WhatIsTooLargeIsNothing) {
   EXPECT_EQ(half_from_float(std::numeric_limits<float>::quiet_NaN()), std::nullopt);
 }
 
-TEST(HalfFloat, BfloatIsTheUpperHalfOfAFloat) {
+TEST(HalfFloat, BfloatIsUpperHalfOfFloat) {
   EXPECT_EQ(float_from_bfloat(0x3F80), 1.0F);
   EXPECT_EQ(float_from_bfloat(0xC049), -3.140625F);
   EXPECT_EQ(float_from_bfloat(0x0001), std::bit_cast<float>(0x00010000U));

@@ -45,7 +45,7 @@ TEST(ImageIo, PngRoundTripsExactly) {
   EXPECT_EQ(read_mask(path).pixels(), plain_pattern<std::uint8_t>(1).pixels());
 }
 
-TEST(ImageIo, JpegKeepsTheColours) {
+TEST(ImageIo, JpegKeepsColors) {
   const TempFolder folder;
   const auto path = folder.path() / "image.jpg";
   write_file(path, encode_jpeg(Image<Rgb>(32, 16, Rgb{250, 120, 10}), 95));
@@ -56,14 +56,14 @@ TEST(ImageIo, JpegKeepsTheColours) {
   EXPECT_NEAR(read(16, 8).b, 10, 3);
 }
 
-TEST(ImageIo, GreyPicturesAreColoursToo) {
+TEST(ImageIo, ReadsGreyImagesAsColor) {
   const TempFolder folder;
   const auto path = folder.path() / "grey.png";
   write_png(path, Image<std::uint8_t>(4, 3, 77));
   EXPECT_EQ(read_color(path)(3, 2), (Rgb{77, 77, 77}));
 }
 
-TEST(ImageIo, DepthAndMasksOfAnotherTypeAreRefused) {
+TEST(ImageIo, RejectsDepthAndMasksOfOtherType) {
   const TempFolder folder;
   const auto grey8 = folder.path() / "grey8.png";
   const auto grey16 = folder.path() / "grey16.png";
@@ -79,7 +79,7 @@ TEST(ImageIo, DepthAndMasksOfAnotherTypeAreRefused) {
   message_of<DataError>([&] { read_mask(color); });
 }
 
-TEST(ImageIo, TruncatedImagesAreRefusedWhereverTheyEnd) {
+TEST(ImageIo, RejectsTruncatedImages) {
   const TempFolder folder;
   const std::pair<const char*, std::vector<std::uint8_t>> files[] = {
       {"a.png", encode_png(color_pattern())}, {"a.jpg", encode_jpeg(color_pattern())}};
@@ -94,7 +94,7 @@ TEST(ImageIo, TruncatedImagesAreRefusedWhereverTheyEnd) {
   }
 }
 
-TEST(ImageIo, BytesAfterTheImageDoNoHarm) {
+TEST(ImageIo, IgnoresBytesAfterImage) {
   const TempFolder folder;
   const auto jpeg = encode_jpeg(color_pattern());
   const std::string padded = std::string(jpeg.begin(), jpeg.end()) + std::string(100, '\0');
@@ -104,7 +104,7 @@ TEST(ImageIo, BytesAfterTheImageDoNoHarm) {
             37);
 }
 
-TEST(ImageIo, DamagedImagesAreRefused) {
+TEST(ImageIo, RejectsDamagedImages) {
   const TempFolder folder;
   const auto png = encode_png(color_pattern());
   std::string flipped(png.begin(), png.end());
@@ -114,11 +114,11 @@ TEST(ImageIo, DamagedImagesAreRefused) {
 
   std::string huge(png.begin(), png.end());
   huge[16] = 0x7f;
-  const auto hostile = folder.write("b.png", huge);
-  expect_in("allowed is up to 16384x16384", message_of<DataError>([&] { read_color(hostile); }));
+  const auto too_large = folder.write("b.png", huge);
+  expect_in("allowed is up to 16384x16384", message_of<DataError>([&] { read_color(too_large); }));
 }
 
-TEST(ImageIo, OtherFilesAreRefused) {
+TEST(ImageIo, RejectsOtherFiles) {
   const TempFolder folder;
   const auto text = folder.write("a.png", "hello");
   const auto empty = folder.write("b.png", "");
@@ -128,7 +128,7 @@ TEST(ImageIo, OtherFilesAreRefused) {
   message_of<FileError>([&] { read_color(folder.path()); });
 }
 
-TEST(ImageIo, EmptyImagesCannotBeWritten) {
+TEST(ImageIo, RejectsWritingEmptyImages) {
   message_of<DataError>([] { encode_png(Image<Rgb>()); });
   message_of<DataError>([] { encode_jpeg(Image<Rgb>()); });
 }

@@ -18,7 +18,7 @@ using namespace testing;  // NOLINT: helpers of the tests
 
 const JournalHeader kHeader{"a recording", 0.02, 2};
 
-MapChanges some_changes(int seed) {
+MapChanges sample_changes(int seed) {
   MapChanges changes;
   changes.viewpoint = Eigen::Vector3f(0.5F, -1.25F, static_cast<float>(seed));
   changes.voxel_size = 0.02;
@@ -29,7 +29,7 @@ MapChanges some_changes(int seed) {
   return changes;
 }
 
-JournalFrame some_frame(int index) {
+JournalFrame sample_frame(int index) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.rotate(Eigen::AngleAxisd(0.1 * index, Eigen::Vector3d::UnitY()));
   pose.pretranslate(Eigen::Vector3d(0.1 * index, 1.0 / 3.0, -2.0));
@@ -40,7 +40,7 @@ JournalFrame some_frame(int index) {
   frame.status = index == 0 ? Status::kInitialized : Status::kTracking;
   frame.organised = true;
   frame.keyframe = index % 2 == 0;
-  if (frame.keyframe) frame.map = some_changes(index);
+  if (frame.keyframe) frame.map = sample_changes(index);
   return frame;
 }
 
@@ -54,31 +54,31 @@ void expect_same(const JournalFrame& a, const JournalFrame& b) {
   EXPECT_EQ(a.map, b.map);
 }
 
-/// A journal of some frames, and where its records end.
+/// A journal of some frames, with the ends of its records.
 struct Sample {
   std::string bytes = encode_header(kHeader);
   std::vector<std::size_t> ends = {bytes.size()};
 
   explicit Sample(int frames) {
     for (int i = 0; i < frames; ++i) {
-      bytes += encode_frame(some_frame(i));
+      bytes += encode_frame(sample_frame(i));
       ends.push_back(bytes.size());
     }
   }
 
-  /// Frames that are whole in the first `size` bytes.
-  std::size_t whole(std::size_t size) const {
+  /// Number of complete frames in the first `size` bytes.
+  std::size_t complete_frames(std::size_t size) const {
     return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), size) -
                                     ends.begin()) -
            1;
   }
 };
 
-/// Reads all frames, which must be those of a sample; returns how many there are.
+/// Reads all frames, expects those of a sample and returns their number.
 std::size_t count_frames(JournalReader& reader) {
   std::size_t count = 0;
   while (const std::optional<JournalFrame> frame = reader.next()) {
-    expect_same(*frame, some_frame(static_cast<int>(count)));
+    expect_same(*frame, sample_frame(static_cast<int>(count)));
     ++count;
   }
   return count;
@@ -89,18 +89,18 @@ std::size_t frames_in(const fs::path& path) {
   return count_frames(reader);
 }
 
-TEST(Crc32, IsThatOfTheStandard) {
+TEST(Crc32, EqualsStandardValues) {
   EXPECT_EQ(crc32("123456789"), 0xCBF43926U);
   EXPECT_EQ(crc32(""), 0U);
 }
 
-TEST(Journal, ReadsBackWhatWasWritten) {
+TEST(Journal, RoundTrips) {
   const TempFolder folder;
   const fs::path path = folder.path() / "journal.bin";
   JournalWriter writer(path, kHeader);
   for (int i = 0; i < 5; ++i) {
-    writer.append(some_frame(i));
-    EXPECT_EQ(frames_in(path), static_cast<std::size_t>(i + 1));  // at once, not at its end
+    writer.append(sample_frame(i));
+    EXPECT_EQ(frames_in(path), static_cast<std::size_t>(i + 1));  // immediately, not at the end
   }
   JournalReader reader(path);
   EXPECT_EQ(reader.header().data, kHeader.data);
@@ -111,7 +111,7 @@ TEST(Journal, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read_file(path), Sample(5).bytes);
 }
 
-TEST(Journal, CutAnywhereGivesTheFramesBefore) {
+TEST(Journal, TruncatedFileGivesFramesBefore) {
   const TempFolder folder;
   const Sample sample(4);
   for (std::size_t size = 0; size <= sample.bytes.size(); ++size) {
@@ -122,14 +122,14 @@ TEST(Journal, CutAnywhereGivesTheFramesBefore) {
       continue;
     }
     JournalReader reader(path);
-    EXPECT_EQ(count_frames(reader), sample.whole(size));
-    const bool at_an_end = sample.ends[sample.whole(size)] == size;
-    EXPECT_EQ(reader.damage().empty(), at_an_end);
-    if (!at_an_end) expect_in("is cut off", reader.damage());
+    EXPECT_EQ(count_frames(reader), sample.complete_frames(size));
+    const bool ends_at_record = sample.ends[sample.complete_frames(size)] == size;
+    EXPECT_EQ(reader.damage().empty(), ends_at_record);
+    if (!ends_at_record) expect_in("is cut off", reader.damage());
   }
 }
 
-TEST(Journal, FlippedBytesAreFound) {
+TEST(Journal, DetectsChangedBytes) {
   const TempFolder folder;
   const Sample sample(3);
   for (std::size_t i = 0; i < sample.bytes.size(); ++i) {
@@ -143,47 +143,50 @@ TEST(Journal, FlippedBytesAreFound) {
         continue;
       }
       JournalReader reader(path);
-      EXPECT_EQ(count_frames(reader), sample.whole(i));
+      EXPECT_EQ(count_frames(reader), sample.complete_frames(i));
       EXPECT_NE(reader.damage(), "");
     }
   }
 }
 
-/// What is said of a journal with this record behind one good frame.
-std::string damage_by(const TempFolder& folder, const std::string& record) {
+/// Reported damage of a journal with this record after one valid frame.
+std::string damage_with(const TempFolder& folder, const std::string& record) {
   JournalReader reader(folder.write("journal.bin", Sample(1).bytes + record));
   EXPECT_EQ(count_frames(reader), 1U);
   return reader.damage();
 }
 
-/// The record of a frame, with a change to its payload, and a right checksum.
-std::string forged(std::size_t offset, const std::string& bytes) {
-  const std::string record = encode_frame(some_frame(0));
+/// The record of a frame with a changed payload and a correct checksum.
+std::string changed_record(std::size_t offset, const std::string& bytes) {
+  const std::string record = encode_frame(sample_frame(0));
   std::string payload = record.substr(kRecordStart, record.size() - kRecordStart - kRecordEnd);
   payload.replace(offset, bytes.size(), bytes);
   return make_record(RecordType::kFrame, payload);
 }
 
-TEST(Journal, HostileRecordsAreRefusedBeforeAnythingIsAllocated) {
+TEST(Journal, RejectsInvalidRecordsBeforeAllocation) {
   const TempFolder folder;
   constexpr std::size_t kStatus = 16;
-  constexpr std::size_t kMap = 18 + 96;  // behind stamps, status, flags and pose
+  constexpr std::size_t kMap = 18 + 96;  // after stamps, status, flags and pose
   constexpr std::size_t kBlocks = kMap + 12 + 8 + 1;
   const std::string many(4, '\xFF');
-  expect_in("the status is 9, allowed is 0 to 4", damage_by(folder, forged(kStatus, "\x09")));
+  expect_in("the status is 9, allowed is 0 to 4",
+            damage_with(folder, changed_record(kStatus, "\x09")));
   expect_in("promises 4294967295 entries, but has room for",
-            damage_by(folder, forged(kBlocks, many)));
-  expect_in("the voxel size is 0 m", damage_by(folder, forged(kMap + 12, std::string(8, '\0'))));
-  expect_in("a block is at 2147483647", damage_by(folder, forged(kBlocks + 4, "\xFF\xFF\xFF\x7F")));
+            damage_with(folder, changed_record(kBlocks, many)));
+  expect_in("the voxel size is 0 m",
+            damage_with(folder, changed_record(kMap + 12, std::string(8, '\0'))));
+  expect_in("a block is at 2147483647",
+            damage_with(folder, changed_record(kBlocks + 4, "\xFF\xFF\xFF\x7F")));
   expect_in("a voxel is at place 65535",
-            damage_by(folder, forged(kBlocks + 4 + 12 + 2 + 4, "\xFF\xFF")));
-  expect_in("is cut off", damage_by(folder, many + "\x02 and not four gigabytes"));
+            damage_with(folder, changed_record(kBlocks + 4 + 12 + 2 + 4, "\xFF\xFF")));
+  expect_in("is cut off", damage_with(folder, many + "\x02 and not four gigabytes"));
   expect_in("is of type 1, expected is 2",
-            damage_by(folder, make_record(RecordType::kHeader, "again")));
-  expect_in("ends 8 bytes too early", damage_by(folder, make_record(RecordType::kFrame, "")));
+            damage_with(folder, make_record(RecordType::kHeader, "again")));
+  expect_in("ends 8 bytes too early", damage_with(folder, make_record(RecordType::kFrame, "")));
 }
 
-TEST(Journal, SaysWhatIsNoJournal) {
+TEST(Journal, RejectsOtherFiles) {
   const TempFolder folder;
   const auto open = [&](const fs::path& path) { return [path] { JournalReader reader(path); }; };
   expect_in("there is no such file", message_of<FileError>(open(folder.path() / "none.bin")));
@@ -197,7 +200,7 @@ TEST(Journal, SaysWhatIsNoJournal) {
             message_of<DataError>(open(folder.write("later.bin", later))));
 }
 
-TEST(Journal, AFullDiskIsAFault) {
+TEST(Journal, ReportsFullDisk) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
   const TempFolder folder;
   const fs::path path = folder.path() / "journal.bin";

@@ -29,7 +29,7 @@ TEST(KittiIo, ScansRoundTrip) {
   EXPECT_EQ(read.intensity, scan.intensity);
 }
 
-TEST(KittiIo, WithoutIntensityTheReflectanceIsZero) {
+TEST(KittiIo, ReflectanceIsZeroWithoutIntensity) {
   const TempFolder folder;
   LidarScan scan;
   scan.points = {{1.0F, 2.0F, 3.0F}};
@@ -40,7 +40,7 @@ TEST(KittiIo, WithoutIntensityTheReflectanceIsZero) {
             message_of<DataError>([&] { write_kitti_scan(folder.path() / "a.bin", scan); }));
 }
 
-TEST(KittiIo, TimesOfPointsRoundTrip) {
+TEST(KittiIo, PointTimesRoundTrip) {
   const TempFolder folder;
   const std::vector<float> times = {0.0F, 0.001F, 0.1F};
   write_point_times(folder.path() / "a.bin", times);

@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-TEST(Numbers, OnlyWholeTextsAreNumbers) {
+TEST(Numbers, ParsesOnlyWholeText) {
   EXPECT_EQ(parse_double("1.5"), 1.5);
   EXPECT_EQ(parse_double("+1.5e3"), 1500.0);
   EXPECT_FALSE(parse_double(""));
@@ -19,7 +19,7 @@ TEST(Numbers, OnlyWholeTextsAreNumbers) {
   EXPECT_FALSE(parse_integer("99999999999999999999"));
 }
 
-TEST(Numbers, FormattingIsShortAndExact) {
+TEST(Numbers, FormatIsShortAndExact) {
   EXPECT_EQ(format_number(0.1), "0.1");
   EXPECT_EQ(format_number(3.0), "3");
   EXPECT_EQ(format_number(100000.0), "100000");
@@ -29,7 +29,7 @@ TEST(Numbers, FormattingIsShortAndExact) {
   }
 }
 
-TEST(Numbers, StampsAreExactWhereDecimal) {
+TEST(Numbers, ParsesDecimalStampsExactly) {
   EXPECT_EQ(parse_stamp("1305031102.175304123")->nanoseconds(), 1305031102175304123);
   EXPECT_EQ(parse_stamp("1.5e+01")->nanoseconds(), 15'000'000'000);
   EXPECT_EQ(parse_stamp("-2.5")->nanoseconds(), -2'500'000'000);

@@ -25,7 +25,7 @@ ObjectBox object(int id, ObjectClass object_class, double x) {
   return box;
 }
 
-/// An entry of objects_truth.json with more or other keys than a good one.
+/// An entry of objects_truth.json with additional keys.
 std::string truth_with(const std::string& more) {
   return R"({"frames": [{"stamp": "1.500000000", "objects": [{"id": 2, "class": "agv",)"
          R"("position": [1, 2, 3], "quaternion": [0, 0, 0, 1], "size": [1, 1, 2],)"
@@ -33,7 +33,7 @@ std::string truth_with(const std::string& more) {
          more + "}]}]}";
 }
 
-TEST(ObjectsIo, AHistoryComesBackAsItWas) {
+TEST(ObjectsIo, HistoryRoundTrips) {
   const TempFolder folder;
   const ObjectHistory history = {
       {Timestamp(1'500'000'000), {object(3, ObjectClass::kPerson, 1.0)}},
@@ -57,12 +57,12 @@ TEST(ObjectsIo, AHistoryComesBackAsItWas) {
   }
 }
 
-TEST(ObjectsIo, NoTracksAreAFileToo) {
+TEST(ObjectsIo, EmptyHistoryRoundTrips) {
   const TempFolder folder;
   EXPECT_TRUE(read_objects(folder.write("objects.json", objects_json({}))).empty());
 }
 
-TEST(ObjectsIo, VisibleIsWhatNeitherBorderNorThingsHide) {
+TEST(ObjectsIo, VisibleShareCombinesOcclusionAndTruncation) {
   const TempFolder folder;
   const auto file = folder.write(
       "truth.json", truth_with(R"(, "pixels": 10, "occlusion": 0.5, "truncation": 0.2)"));
@@ -76,20 +76,20 @@ TEST(ObjectsIo, VisibleIsWhatNeitherBorderNorThingsHide) {
   EXPECT_EQ(read_objects_truth(hidden)[0].objects[0].visible, 0.0);
 }
 
-TEST(ObjectsIo, FaultsNameTheirPlace) {
+TEST(ObjectsIo, ErrorsNameEntry) {
   const TempFolder folder;
-  const auto fault = [&](const std::string& text) {
+  const auto error = [&](const std::string& text) {
     const auto file = folder.write("truth.json", text);
     return message_of<DataError>([&] { read_objects_truth(file); });
   };
-  expect_in("frames[0].objects[0]: has no key 'pixels'", fault(truth_with("")));
-  expect_in("occlusion: is 2, allowed is", fault(truth_with(R"(, "pixels": 1, "occlusion": 2)")));
-  expect_in("moving: is a number, expected true or false", fault(truth_with(R"(, "moving": 1)")));
+  expect_in("frames[0].objects[0]: has no key 'pixels'", error(truth_with("")));
+  expect_in("occlusion: is 2, allowed is", error(truth_with(R"(, "pixels": 1, "occlusion": 2)")));
+  expect_in("moving: is a number, expected true or false", error(truth_with(R"(, "moving": 1)")));
   expect_in("class: is 'dog', allowed are person, agv and unknown",
-            fault(truth_with(R"(, "class": "dog")")));
-  expect_in("quaternion: is no rotation", fault(truth_with(R"(, "quaternion": [0, 0, 0, 0])")));
-  expect_in("position: is no list of 3 numbers", fault(truth_with(R"(, "position": [1])")));
-  expect_in("stamp: is 'now'", fault(R"({"frames": [{"stamp": "now", "objects": []}]})"));
+            error(truth_with(R"(, "class": "dog")")));
+  expect_in("quaternion: is no rotation", error(truth_with(R"(, "quaternion": [0, 0, 0, 0])")));
+  expect_in("position: is no list of 3 numbers", error(truth_with(R"(, "position": [1])")));
+  expect_in("stamp: is 'now'", error(R"({"frames": [{"stamp": "now", "objects": []}]})"));
 }
 
 }  // namespace

@@ -28,14 +28,14 @@ OccupancyGrid small_grid() {
   return grid;
 }
 
-TEST(OccupancyGridIo, ThePictureHasTheLargestYOnTop) {
+TEST(OccupancyGridIo, ImageHasLargestYOnTop) {
   const TempFolder folder;
   write_occupancy_grid(folder.path() / "map.yaml", small_grid());
   const std::string expected = "P5\n3 2\n255\n\xCD\xCD\xFE" + std::string("\0\xCD\xCD", 3);
   EXPECT_EQ(read_file(folder.path() / "map.pgm"), expected);
 }
 
-TEST(OccupancyGridIo, MapServersFindTheirKeys) {
+TEST(OccupancyGridIo, YamlHasMapServerKeys) {
   const TempFolder folder;
   write_occupancy_grid(folder.path() / "room.yaml", small_grid());
   const YAML::Node yaml = YAML::LoadFile((folder.path() / "room.yaml").string());
@@ -45,11 +45,11 @@ TEST(OccupancyGridIo, MapServersFindTheirKeys) {
   EXPECT_EQ(yaml["origin"].as<std::vector<double>>(), (std::vector<double>{-1.5, 0.25, 0.0}));
   EXPECT_EQ(yaml["negate"].as<int>(), 0);
   EXPECT_EQ(yaml["occupied_thresh"].as<double>(), 0.65);
-  // Unknown cells must be so to map servers: not below the threshold.
+  // Map servers take cells below the threshold as free.
   EXPECT_GT((255.0 - 205.0) / 255.0, yaml["free_thresh"].as<double>());
 }
 
-TEST(OccupancyGridIo, TheMapFrameComesBack) {
+TEST(OccupancyGridIo, MapFrameRoundTrips) {
   const TempFolder folder;
   const OccupancyGrid grid = small_grid();
   write_occupancy_grid(folder.path() / "map.yaml", grid);
@@ -62,13 +62,13 @@ TEST(OccupancyGridIo, TheMapFrameComesBack) {
   EXPECT_EQ(Eigen::Vector3d(t[0], t[1], t[2]), grid.T_world_map.translation());
 }
 
-TEST(OccupancyGridIo, AnEmptyGridIsOneUnknownCell) {
+TEST(OccupancyGridIo, EmptyGridIsOneUnknownCell) {
   const TempFolder folder;
   write_occupancy_grid(folder.path() / "map.yaml", OccupancyGrid{});
   EXPECT_EQ(read_file(folder.path() / "map.pgm"), "P5\n1 1\n255\n\xCD");
 }
 
-TEST(OccupancyGridIo, AFolderThatIsMissingIsNamed) {
+TEST(OccupancyGridIo, ErrorNamesMissingFolder) {
   const TempFolder folder;
   expect_in("map.pgm: cannot be written", message_of<FileError>([&] {
               write_occupancy_grid(folder.path() / "none/map.yaml", small_grid());

@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
 
-/// What liboctomap itself finds in the file at the middle of a voxel.
+/// State that liboctomap reads at the center of a voxel.
 Occupancy found(const octomap::OcTree& tree, const VoxelKey& key) {
   const double size = tree.getResolution();
   const auto* node = tree.search((key.x + 0.5) * size, (key.y + 0.5) * size, (key.z + 0.5) * size);
@@ -24,7 +24,7 @@ Occupancy found(const octomap::OcTree& tree, const VoxelKey& key) {
   return tree.isNodeOccupied(node) ? Occupancy::kOccupied : Occupancy::kFree;
 }
 
-TEST(OctomapIo, LiboctomapReadsTheSameVoxels) {
+TEST(OctomapIo, LiboctomapReadsSameVoxels) {
   RandomStream random(5);
   const auto coordinate = [&] { return static_cast<int>(random.below(40)) - 20; };
   std::set<VoxelKey> occupied;
@@ -55,7 +55,7 @@ TEST(OctomapIo, LiboctomapReadsTheSameVoxels) {
   }
 }
 
-TEST(OctomapIo, TheSameVoxelsGiveTheSameBytes) {
+TEST(OctomapIo, SameVoxelsGiveSameBytes) {
   const TempFolder folder;
   const OccupancyVoxels voxels{0.1, {{0, 0, 0}, {5, 6, 7}}, {{1, 0, 0}, {-9, 3, 2}}};
   write_octomap(folder.path() / "a.bt", voxels);
@@ -63,7 +63,7 @@ TEST(OctomapIo, TheSameVoxelsGiveTheSameBytes) {
   EXPECT_EQ(read_file(folder.path() / "a.bt"), read_file(folder.path() / "b.bt"));
 }
 
-TEST(OctomapIo, AnEmptyMapCanBeRead) {
+TEST(OctomapIo, EmptyMapIsReadable) {
   const TempFolder folder;
   const auto path = folder.path() / "map.bt";
   write_octomap(path, {0.1, {}, {}});
@@ -72,7 +72,7 @@ TEST(OctomapIo, AnEmptyMapCanBeRead) {
   EXPECT_EQ(tree.size(), 0U);
 }
 
-TEST(OctomapIo, VoxelsBeyondOctomapsReachAreCounted) {
+TEST(OctomapIo, CountsVoxelsBeyondOctomapRange) {
   const TempFolder folder;
   const auto path = folder.path() / "map.bt";
   EXPECT_EQ(write_octomap(path, {0.1, {{32768, 0, 0}, {32767, 0, 0}}, {{0, -32769, 0}}}), 2U);
@@ -81,7 +81,7 @@ TEST(OctomapIo, VoxelsBeyondOctomapsReachAreCounted) {
   EXPECT_EQ(found(tree, {32767, 0, 0}), Occupancy::kOccupied);
 }
 
-TEST(OctomapIo, AFolderThatIsMissingIsNamed) {
+TEST(OctomapIo, ErrorNamesMissingFolder) {
   const TempFolder folder;
   expect_in("map.bt: cannot be written", message_of<FileError>([&] {
               write_octomap(folder.path() / "none/map.bt", {0.1, {}, {}});

@@ -51,7 +51,7 @@ TEST(PointCloudIo, RoundTripsExactly) {
   }
 }
 
-TEST(PointCloudIo, KeepsPointsThatAreNotFinite) {
+TEST(PointCloudIo, KeepsNonFinitePoints) {
   const TempFolder folder;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
@@ -64,7 +64,7 @@ TEST(PointCloudIo, KeepsPointsThatAreNotFinite) {
   EXPECT_EQ(read.z(), -infinity);
 }
 
-TEST(PointCloudIo, VectorsHaveToBeParallel) {
+TEST(PointCloudIo, RejectsVectorsOfDifferentLength) {
   const TempFolder folder;
   PointCloudFile cloud = full_cloud();
   cloud.labels.pop_back();
@@ -74,7 +74,7 @@ TEST(PointCloudIo, VectorsHaveToBeParallel) {
   EXPECT_TRUE(list_folder(folder.path()).empty());
 }
 
-TEST(Ply, ReadsAsciiOfOtherPrograms) {
+TEST(Ply, ReadsForeignAscii) {
   const TempFolder folder;
   const auto path =
       folder.write("a.ply",
@@ -97,7 +97,7 @@ TEST(Ply, ReadsAsciiOfOtherPrograms) {
 const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
 const std::string kBinary = "ply\nformat binary_little_endian 1.0\n";
 
-TEST(Ply, HostileHeadersAreRefusedBeforeAllocating) {
+TEST(Ply, RejectsInvalidHeadersBeforeAllocation) {
   const TempFolder folder;
   const std::pair<std::string, const char*> cases[] = {
       {"", "the header does not end"},
@@ -120,15 +120,15 @@ TEST(Ply, HostileHeadersAreRefusedBeforeAllocating) {
       {kBinary + "element vertex 1\n" + kXyz + "property float nx\nend_header\n", "only some of"},
       {kBinary + "element vertex 1\n" + kXyz + "property float red\nend_header\n", "uchar"},
   };
-  for (const auto& [bytes, fault] : cases) {
+  for (const auto& [bytes, expected] : cases) {
     const auto path = folder.write("a.ply", bytes);
     const std::string message = message_of<DataError>([&] { read_ply(path); });
     expect_in(path.string(), message);
-    expect_in(fault, message);
+    expect_in(expected, message);
   }
 }
 
-TEST(Ply, ValuesThatDoNotFitAreRefused) {
+TEST(Ply, RejectsValuesOutOfRange) {
   const TempFolder folder;
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\n" + kXyz;
   const auto label =
@@ -138,8 +138,8 @@ TEST(Ply, ValuesThatDoNotFitAreRefused) {
   message_of<DataError>([&] { read_ply(nan); });
   const auto word = folder.write("a.ply", head + "end_header\n0 zero 0\n");
   expect_in("'zero' at point 0 is not a number", message_of<DataError>([&] { read_ply(word); }));
-  const auto cut = folder.write("a.ply", head + "end_header\n100 2000\n");
-  expect_in("ends before point 0", message_of<DataError>([&] { read_ply(cut); }));
+  const auto truncated = folder.write("a.ply", head + "end_header\n100 2000\n");
+  expect_in("ends before point 0", message_of<DataError>([&] { read_ply(truncated); }));
 }
 
 TEST(Pcd, ReadsAsciiWithPackedColours) {
@@ -153,7 +153,7 @@ TEST(Pcd, ReadsAsciiWithPackedColours) {
   EXPECT_EQ(cloud.colors[0], (Rgb{255, 0, 255}));
 }
 
-TEST(Pcd, BadHeadersAreRefused) {
+TEST(Pcd, RejectsInvalidHeaders) {
   const TempFolder folder;
   const std::string xyz = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
   const std::pair<std::string, const char*> cases[] = {
@@ -167,9 +167,9 @@ TEST(Pcd, BadHeadersAreRefused) {
       {"FIELDS x\nSIZE 3\nTYPE F\nPOINTS 1\nDATA binary\n", "unknown TYPE and SIZE 'F3'"},
       {"FIELDS\nSIZE\nTYPE\nPOINTS 1\nDATA binary\n", "without x y z"},
   };
-  for (const auto& [bytes, fault] : cases) {
+  for (const auto& [bytes, expected] : cases) {
     const auto path = folder.write("a.pcd", bytes);
-    expect_in(fault, message_of<DataError>([&] { read_pcd(path); }));
+    expect_in(expected, message_of<DataError>([&] { read_pcd(path); }));
   }
 }
 
@@ -186,13 +186,13 @@ TEST(KittiScan, ReadsPointsAndKeepsNaN) {
   EXPECT_TRUE(scan.time_offset.empty());
 }
 
-TEST(KittiScan, BadSizesAreRefused) {
+TEST(KittiScan, RejectsInvalidSizes) {
   const TempFolder folder;
   const auto empty = folder.write("a.bin", "");
-  const auto cut = folder.write("b.bin", std::string(33, 'x'));
+  const auto truncated = folder.write("b.bin", std::string(33, 'x'));
   expect_in("empty scan of 0 bytes", message_of<DataError>([&] { read_kitti_scan(empty); }));
   expect_in("has 33 bytes, not a multiple of 16",
-            message_of<DataError>([&] { read_kitti_scan(cut); }));
+            message_of<DataError>([&] { read_kitti_scan(truncated); }));
 }
 
 }  // namespace

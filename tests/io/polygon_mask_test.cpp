@@ -17,22 +17,22 @@ Rle mask_of(const std::vector<Polygon>& polygons) {
   return rasterise(polygons, 20, 10);
 }
 
-TEST(PolygonMask, ARectangleCoversItsPixels) {
+TEST(PolygonMask, RectangleCoversItsPixels) {
   const Rle rle = mask_of({{2, 3, 7, 3, 7, 8, 2, 8}});
   EXPECT_EQ(rle_area(rle), 25U);
   EXPECT_EQ(rle_box(rle), (std::array{2.0, 3.0, 5.0, 5.0}));
 }
 
-TEST(PolygonMask, TheDirectionDoesNotMatter) {
+TEST(PolygonMask, IsIndependentOfDirection) {
   EXPECT_EQ(mask_of({{2, 3, 7, 3, 7, 8, 2, 8}}), mask_of({{2, 8, 7, 8, 7, 3, 2, 3}}));
 }
 
-TEST(PolygonMask, SeveralPolygonsAreUnited) {
+TEST(PolygonMask, UnitesSeveralPolygons) {
   const Rle rle = mask_of({{0, 0, 4, 0, 4, 4, 0, 4}, {2, 2, 6, 2, 6, 6, 2, 6}});
   EXPECT_EQ(rle_area(rle), 28U);
 }
 
-TEST(PolygonMask, OnePolygonIsWhatItIsBesideAnEmptyOne) {
+TEST(PolygonMask, EqualsUnionWithOutsidePolygon) {
   const Polygon outside = {100, 100, 101, 100, 101, 101};
   unsigned state = 7;
   const auto number = [&] {
@@ -48,17 +48,17 @@ TEST(PolygonMask, OnePolygonIsWhatItIsBesideAnEmptyOne) {
   }
 }
 
-TEST(PolygonMask, WhatIsOutsideIsCutOff) {
+TEST(PolygonMask, ClipsToImage) {
   EXPECT_EQ(rle_area(mask_of({{-5, -5, 30, -5, 30, 30, -5, 30}})), 200U);
   EXPECT_EQ(rle_area(mask_of({{30, 30, 40, 30, 40, 40}})), 0U);
 }
 
-TEST(PolygonMask, ATriangleHasHalfTheArea) {
+TEST(PolygonMask, TriangleHasHalfTheArea) {
   const auto area = static_cast<double>(rle_area(rasterise({{{0, 0, 100, 0, 0, 100}}}, 100, 100)));
   EXPECT_NEAR(area, 5000.0, 100.0);
 }
 
-TEST(PolygonMask, SaysWhatIsWrong) {
+TEST(PolygonMask, ErrorsExplainProblem) {
   expect_in("polygon: has 4 numbers (expected x and y of three corners", message_of<DataError>([] {
               mask_of({{0, 0, 1, 1}});
             }));

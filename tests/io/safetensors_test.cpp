@@ -33,7 +33,7 @@ Weights parse(const std::string& bytes) {
                            "net.safetensors");
 }
 
-std::string fault_of(const std::string& bytes) {
+std::string error_of(const std::string& bytes) {
   const std::string message = message_of<DataError>([&] { parse(bytes); });
   EXPECT_TRUE(message.starts_with("net.safetensors: ")) << message;
   return message;
@@ -62,9 +62,9 @@ Weights sample() {
   return weights;
 }
 
-void expect_same_bits(const Weights& actual, const Weights& wanted) {
-  EXPECT_EQ(actual, wanted);
-  for (const auto& [name, tensor] : wanted.tensors) {  // == takes -0 for 0
+void expect_same_bits(const Weights& actual, const Weights& expected) {
+  EXPECT_EQ(actual, expected);
+  for (const auto& [name, tensor] : expected.tensors) {  // == does not distinguish -0 from 0
     for (std::size_t i = 0; i < tensor.values.size(); ++i) {
       EXPECT_EQ(std::bit_cast<std::uint32_t>(actual.tensors.at(name).values[i]),
                 std::bit_cast<std::uint32_t>(tensor.values[i]));
@@ -72,7 +72,7 @@ void expect_same_bits(const Weights& actual, const Weights& wanted) {
   }
 }
 
-TEST(Safetensors, RoundTripsToTheBit) {
+TEST(Safetensors, RoundTripsExactly) {
   const TempFolder folder;
   const auto path = folder.path() / "a.safetensors";
   write_safetensors(path, sample());
@@ -81,7 +81,7 @@ TEST(Safetensors, RoundTripsToTheBit) {
   EXPECT_EQ(read_file(folder.path() / "b.safetensors"), read_file(path));
 }
 
-TEST(Safetensors, WritesTheFormat) {
+TEST(Safetensors, WritesDocumentedFormat) {
   const TempFolder folder;
   write_safetensors(folder.path() / "a", {{}, {{"b", {{1}, {1.0F}}}, {"a", {{}, {-2.0F}}}}});
   const std::string header = R"({"a":{"dtype":"F32","shape":[],"data_offsets":[0,4]},)"
@@ -91,12 +91,12 @@ TEST(Safetensors, WritesTheFormat) {
             file_of(header + padding, std::string("\0\0\0\xC0\0\0\x80\x3F", 8)));
 }
 
-TEST(Safetensors, AnEmptyNetworkIsOne) {
+TEST(Safetensors, EmptyWeightsRoundTrip) {
   EXPECT_EQ(encode_safetensors({}, TensorType::kFloat32, "").size(), 16U);
   EXPECT_EQ(parse(file_of("{}")), Weights());
 }
 
-TEST(Safetensors, SixteenBitsHalveAndRound) {
+TEST(Safetensors, Float16IsRoundedAndSmaller) {
   Weights weights;
   weights.tensors["a"] = {{2, 2}, {1.0F + 0x1p-11F, 1.0F + 3 * 0x1p-11F, 3 * 0x1p-25F, -65519.0F}};
   const TempFolder folder;
@@ -108,7 +108,7 @@ TEST(Safetensors, SixteenBitsHalveAndRound) {
   EXPECT_LT(half.size(), whole.size());
 }
 
-TEST(Safetensors, AByteHoldsWholeNumbers) {
+TEST(Safetensors, Int8StoresIntegersOnly) {
   Weights weights;
   weights.tensors["bytes"] = {{3}, {-127.0F, 0.0F, 127.0F}};
   weights.tensors["halves"] = {{2}, {0.5F, 127.0F}};
@@ -142,7 +142,7 @@ TEST(Safetensors, ReadsEveryType) {
   }
 }
 
-TEST(Safetensors, TensorsMayLieInAnyOrder) {
+TEST(Safetensors, ReadsTensorsInAnyOrder) {
   const Weights weights = parse(file_of(R"({"z": )" + entry("F32", "[1]", "[0, 4]") + R"(, "e": )" +
                                             entry("F32", "[0]", "[4, 4]") + R"(, "a": )" +
                                             entry("F16", "[1]", "[4, 6]") + "}   ",
@@ -152,109 +152,109 @@ TEST(Safetensors, TensorsMayLieInAnyOrder) {
   EXPECT_TRUE(weights.tensors.at("e").values.empty());
 }
 
-TEST(Safetensors, NamesWhatIsMissingOfAFile) {
+TEST(Safetensors, ReportsTruncation) {
   const TempFolder folder;
   expect_in("there is no such file",
             message_of<FileError>([&] { read_safetensors(folder.path() / "none"); }));
   EXPECT_TRUE(message_of<DataError>([&] {
                 read_safetensors(folder.write("a", "abc"));
               }).starts_with((folder.path() / "a").string() + ": is truncated: 5 of its 8 bytes"));
-  expect_in("is truncated: 8 of its 8 bytes are missing", fault_of(""));
+  expect_in("is truncated: 8 of its 8 bytes are missing", error_of(""));
   const std::string whole = file_with(entry("F32", "[2]", "[0, 8]"), kEight);
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    expect_in("is truncated: ", fault_of(whole.substr(0, size)));
+    expect_in("is truncated: ", error_of(whole.substr(0, size)));
   }
   expect_in("is truncated: 3 of its " + std::to_string(whole.size()) + " bytes are missing",
-            fault_of(whole.substr(0, whole.size() - 3)));
-  expect_in("has 1 bytes after its last tensor", fault_of(whole + " "));
-  expect_in("has 4 bytes after its last tensor", fault_of(file_of("{}", kFour)));
+            error_of(whole.substr(0, whole.size() - 3)));
+  expect_in("has 1 bytes after its last tensor", error_of(whole + " "));
+  expect_in("has 4 bytes after its last tensor", error_of(file_of("{}", kFour)));
 }
 
-TEST(Safetensors, RefusesAnAbsurdLength) {
+TEST(Safetensors, RejectsExcessiveHeaderLength) {
   expect_in("its header would be of 100000001 bytes, allowed is up to 100000000",
-            fault_of(length_bytes(100'000'001) + "{}"));
+            error_of(length_bytes(100'000'001) + "{}"));
   expect_in("its header would be of 18446744073709551615 bytes",
-            fault_of(length_bytes(~std::uint64_t{0}) + "{}"));
+            error_of(length_bytes(~std::uint64_t{0}) + "{}"));
   expect_in("is truncated: 99999998 of its 100000008 bytes are missing",
-            fault_of(length_bytes(100'000'000) + "{}"));
+            error_of(length_bytes(100'000'000) + "{}"));
   expect_in("is it a safetensors file? a .pth has to be converted",  // a zip, as PyTorch writes
-            fault_of("PK\x03\x04\x14\x08\x08\x08 archive/data.pkl"));
+            error_of("PK\x03\x04\x14\x08\x08\x08 archive/data.pkl"));
 }
 
-TEST(Safetensors, RefusesWhatIsNoObject) {
-  expect_in("its header does not begin with '{'", fault_of(file_of("")));
-  expect_in("its header does not begin with '{'", fault_of(file_of("[1]")));
-  expect_in("its header does not begin with '{'", fault_of(file_of(" {}")));
-  expect_in("its header is no JSON: parse error at line 1, column 2", fault_of(file_of("{")));
-  expect_in("its header is no JSON: parse error", fault_of(file_of("{} {}")));
-  expect_in("its header is no JSON: parse error", fault_of(file_of("{\"\xFF\": 1}")));
-  expect_in("a: is a number, expected an object", fault_of(file_with("3")));
-  expect_in("a: is a list, expected an object", fault_of(file_with("[1]")));
-  expect_in("a: is a null, expected an object", fault_of(file_with("null")));
+TEST(Safetensors, RejectsHeaderThatIsNoObject) {
+  expect_in("its header does not begin with '{'", error_of(file_of("")));
+  expect_in("its header does not begin with '{'", error_of(file_of("[1]")));
+  expect_in("its header does not begin with '{'", error_of(file_of(" {}")));
+  expect_in("its header is no JSON: parse error at line 1, column 2", error_of(file_of("{")));
+  expect_in("its header is no JSON: parse error", error_of(file_of("{} {}")));
+  expect_in("its header is no JSON: parse error", error_of(file_of("{\"\xFF\": 1}")));
+  expect_in("a: is a number, expected an object", error_of(file_with("3")));
+  expect_in("a: is a list, expected an object", error_of(file_with("[1]")));
+  expect_in("a: is a null, expected an object", error_of(file_with("null")));
 }
 
-TEST(Safetensors, RefusesNamesThatAreThereTwice) {
+TEST(Safetensors, RejectsDuplicateNames) {
   const std::string tensor = entry("F32", "[0]", "[0, 0]");
-  expect_in("has the name 'a' twice", fault_of(file_of(R"({"a": )" + tensor + R"(, "b": )" +
+  expect_in("has the name 'a' twice", error_of(file_of(R"({"a": )" + tensor + R"(, "b": )" +
                                                        tensor + R"(, "a": )" + tensor + "}")));
   expect_in("has the name 'dtype' twice",
-            fault_of(file_with(entry("F32", "[0]", "[0, 0]", R"(, "dtype": "F16")"))));
+            error_of(file_with(entry("F32", "[0]", "[0, 0]", R"(, "dtype": "F16")"))));
   expect_in("has the name 'x' twice",
-            fault_of(file_of(R"({"__metadata__": {"x": "1", "x": "2"}})")));
+            error_of(file_of(R"({"__metadata__": {"x": "1", "x": "2"}})")));
   EXPECT_EQ(
       parse(file_of(R"({"dtype": )" + tensor + R"(, "shape": )" + tensor + "}")).tensors.size(),
       2U);
 }
 
-TEST(Safetensors, RefusesNesting) {
+TEST(Safetensors, RejectsDeepNesting) {
   for (const auto& [open, close] :
        std::vector<std::pair<std::string, std::string>>{{"[", "]"}, {R"({"a": )", "}"}}) {
-    std::string bomb = R"({"a": )";
-    for (int i = 0; i < 1'000'000; ++i) bomb += open;
-    expect_in("its header is nested more than 3 deep", fault_of(file_of(bomb)));
+    std::string nested = R"({"a": )";
+    for (int i = 0; i < 1'000'000; ++i) nested += open;
+    expect_in("its header is nested more than 3 deep", error_of(file_of(nested)));
     expect_in("its header is nested more than 3 deep",
-              fault_of(file_with(open + open + open + "1" + close + close + close)));
+              error_of(file_with(open + open + open + "1" + close + close + close)));
   }
-  expect_in("nested more than 3", fault_of(file_with(entry("F32", "[[1]]", "[0, 4]"), kFour)));
+  expect_in("nested more than 3", error_of(file_with(entry("F32", "[[1]]", "[0, 4]"), kFour)));
 }
 
-TEST(Safetensors, NamesTheEntryThatIsWrong) {
-  const auto fault = [](const std::string& dtype, const std::string& shape,
+TEST(Safetensors, ErrorsNameEntry) {
+  const auto error = [](const std::string& dtype, const std::string& shape,
                         const std::string& offsets, const std::string& more = "") {
-    return fault_of(file_with(entry(dtype, shape, offsets, more), kEight));
+    return error_of(file_with(entry(dtype, shape, offsets, more), kEight));
   };
   expect_in("a.dtype: is 'U8', allowed are F32, F16, BF16, F64, I64, I32, I8",
-            fault("U8", "[]", "[]"));
-  expect_in("a: has no key 'dtype'", fault_of(file_with("{}")));
-  expect_in("a.dtype: is a number", fault_of(file_with(R"({"dtype": 1})")));
-  expect_in("a: has no key 'shape'", fault_of(file_with(R"({"dtype": "F32"})")));
+            error("U8", "[]", "[]"));
+  expect_in("a: has no key 'dtype'", error_of(file_with("{}")));
+  expect_in("a.dtype: is a number", error_of(file_with(R"({"dtype": 1})")));
+  expect_in("a: has no key 'shape'", error_of(file_with(R"({"dtype": "F32"})")));
   expect_in("a: has no key 'data_offsets'",
-            fault_of(file_with(R"({"dtype": "F32", "shape": []})")));
+            error_of(file_with(R"({"dtype": "F32", "shape": []})")));
   expect_in("a: has the unknown key 'stride', allowed are dtype, shape, data_offsets",
-            fault("F32", "[2]", "[0, 8]", R"(, "stride": [1])"));
-  expect_in("a.shape: is a number, expected a list", fault("F32", "2", "[0, 8]"));
-  expect_in("a.shape[1]: is -2, allowed is 0 to 9e+18", fault("F32", "[1, -2]", "[0, 8]"));
-  expect_in("a.shape[0]: is a string, expected a number", fault("F32", R"(["2"])", "[0, 8]"));
+            error("F32", "[2]", "[0, 8]", R"(, "stride": [1])"));
+  expect_in("a.shape: is a number, expected a list", error("F32", "2", "[0, 8]"));
+  expect_in("a.shape[1]: is -2, allowed is 0 to 9e+18", error("F32", "[1, -2]", "[0, 8]"));
+  expect_in("a.shape[0]: is a string, expected a number", error("F32", R"(["2"])", "[0, 8]"));
   expect_in("has the floating-point number 2, allowed are whole numbers",
-            fault("F32", "[2.0]", "[0, 8]"));
+            error("F32", "[2.0]", "[0, 8]"));
   expect_in("has the floating-point number 1e+20, allowed are whole numbers below 2^63",
-            fault("F32", "[100000000000000000000]", "[0, 8]"));
-  expect_in("a.shape[0]: is 1.844", fault("F32", "[18446744073709551615]", "[0, 8]"));
+            error("F32", "[100000000000000000000]", "[0, 8]"));
+  expect_in("a.shape[0]: is 1.844", error("F32", "[18446744073709551615]", "[0, 8]"));
   expect_in("a.shape: is of more bytes than 64 bits count",
-            fault("F32", "[4611686018427387904]", "[0, 0]"));
+            error("F32", "[4611686018427387904]", "[0, 0]"));
   expect_in("a.shape: is of more bytes than 64 bits count",
-            fault("F32", "[4294967296, 4294967296, 0]", "[0, 0]"));
-  expect_in("a.data_offsets: has 1 numbers", fault("F32", "[2]", "[8]"));
+            error("F32", "[4294967296, 4294967296, 0]", "[0, 0]"));
+  expect_in("a.data_offsets: has 1 numbers", error("F32", "[2]", "[8]"));
   expect_in("a.data_offsets: end at byte 0, before they begin at byte 8",
-            fault("F32", "[2]", "[8, 0]"));
-  expect_in("a.data_offsets[0]: is -8, allowed is 0 to 9e+18", fault("F32", "[2]", "[-8, 0]"));
-  expect_in("a.data_offsets: hold 8 bytes, shape and dtype make 12", fault("F32", "[3]", "[0, 8]"));
-  expect_in("a.data_offsets: hold 8 bytes, shape and dtype make 16", fault("F64", "[2]", "[0, 8]"));
+            error("F32", "[2]", "[8, 0]"));
+  expect_in("a.data_offsets[0]: is -8, allowed is 0 to 9e+18", error("F32", "[2]", "[-8, 0]"));
+  expect_in("a.data_offsets: hold 8 bytes, shape and dtype make 12", error("F32", "[3]", "[0, 8]"));
+  expect_in("a.data_offsets: hold 8 bytes, shape and dtype make 16", error("F64", "[2]", "[0, 8]"));
 }
 
-TEST(Safetensors, RefusesDataOfNobodyAndOfTwo) {
+TEST(Safetensors, RejectsUnusedAndSharedData) {
   const auto two = [](const std::string& first, const std::string& second) {
-    return fault_of(file_of(
+    return error_of(file_of(
         R"({"a": )" + entry("F32", "[1]", first) + R"(, "b": )" + entry("F32", "[1]", second) + "}",
         kEight));
   };
@@ -263,22 +263,22 @@ TEST(Safetensors, RefusesDataOfNobodyAndOfTwo) {
   expect_in("tensor 'b' begins at byte 0 of the data", two("[0, 4]", "[0, 4]"));
   expect_in("no tensor has the 4 bytes of data before 'b'", two("[0, 4]", "[8, 12]"));
   expect_in("no tensor has the 2 bytes of data before 'a'", two("[2, 6]", "[6, 10]"));
-  expect_in("is truncated: 4 of its", fault_of(file_with(entry("F32", "[3]", "[0, 12]"), kEight)));
-  expect_in("is truncated: 8000000000000000000 of its",  // and nothing of that size is allocated
-            fault_of(file_with(entry("F64", "[1000000000000000000]", "[0, 8000000000000000000]"))));
+  expect_in("is truncated: 4 of its", error_of(file_with(entry("F32", "[3]", "[0, 12]"), kEight)));
+  expect_in("is truncated: 8000000000000000000 of its",  // without an allocation of that size
+            error_of(file_with(entry("F64", "[1000000000000000000]", "[0, 8000000000000000000]"))));
 }
 
-TEST(Safetensors, RefusesMetadataThatIsNoText) {
+TEST(Safetensors, RejectsMetadataThatIsNoText) {
   expect_in("__metadata__.epoch: is a number, expected a text",
-            fault_of(file_of(R"({"__metadata__": {"epoch": 3}})")));
-  expect_in("__metadata__: is no object of texts", fault_of(file_of(R"({"__metadata__": ["x"]})")));
-  expect_in("__metadata__: is no object of texts", fault_of(file_of(R"({"__metadata__": null})")));
+            error_of(file_of(R"({"__metadata__": {"epoch": 3}})")));
+  expect_in("__metadata__: is no object of texts", error_of(file_of(R"({"__metadata__": ["x"]})")));
+  expect_in("__metadata__: is no object of texts", error_of(file_of(R"({"__metadata__": null})")));
 }
 
-TEST(Safetensors, RefusesValuesThatAreNoFloats) {
+TEST(Safetensors, RejectsNonFiniteValues) {
   const auto second = [](const std::string& type, const std::string& bits) {
     const std::string offsets = "[0, " + std::to_string(2 * bits.size()) + "]";
-    return fault_of(file_with(entry(type, "[2]", offsets), std::string(bits.size(), '\0') + bits));
+    return error_of(file_with(entry(type, "[2]", offsets), std::string(bits.size(), '\0') + bits));
   };
   expect_in("tensor 'a': value 1 is nan, allowed is -3.40", second("F32", {"\0\0\xC0\x7F", 4}));
   expect_in("tensor 'a': value 1 is -inf", second("F32", {"\0\0\x80\xFF", 4}));
@@ -288,7 +288,7 @@ TEST(Safetensors, RefusesValuesThatAreNoFloats) {
             second("F64", {"\x9C\x75\x00\x88\x3C\xE4\x37\x7E", 8}));
 }
 
-TEST(Safetensors, WritesWhatHalfFloatsCannotHoldAsFloats) {
+TEST(Safetensors, WritesFloat32BeyondFloat16Range) {
   Weights weights;
   weights.tensors["large"] = {{2}, {0.1F, 65520.0F}};
   weights.tensors["small"] = {{1}, {0.1F}};
@@ -297,10 +297,10 @@ TEST(Safetensors, WritesWhatHalfFloatsCannotHoldAsFloats) {
   EXPECT_EQ(read.tensors.at("small").values[0], 0.0999755859375F);
 }
 
-TEST(Safetensors, WritesNothingThatItWouldNotRead) {
+TEST(Safetensors, RejectsWritingInvalidWeights) {
   const TempFolder folder;
   const auto path = folder.path() / "net";
-  const auto fault = [&](const std::string& name, const WeightTensor& tensor, TensorType type) {
+  const auto error = [&](const std::string& name, const WeightTensor& tensor, TensorType type) {
     Weights weights;
     weights.tensors[name] = tensor;
     const auto message = message_of<DataError>([&] { write_safetensors(path, weights, type); });
@@ -308,36 +308,36 @@ TEST(Safetensors, WritesNothingThatItWouldNotRead) {
     EXPECT_TRUE(list_folder(folder.path()).empty());
     return message;
   };
-  expect_in("tensor 'a': value 0 is nan", fault("a", {{1}, {std::nanf("")}}, TensorType::kFloat16));
+  expect_in("tensor 'a': value 0 is nan", error("a", {{1}, {std::nanf("")}}, TensorType::kFloat16));
   expect_in("tensor 'a': value 0 is -inf",
-            fault("a", {{1}, {-std::numeric_limits<float>::infinity()}}, TensorType::kFloat32));
+            error("a", {{1}, {-std::numeric_limits<float>::infinity()}}, TensorType::kFloat32));
   expect_in("tensor 'a' has 3 values, which is not the product of its shape",
-            fault("a", {{2, 2}, {1, 2, 3}}, TensorType::kFloat32));
-  expect_in("tensor 'a' has 1 values", fault("a", {{-1, -1}, {1}}, TensorType::kFloat32));
+            error("a", {{2, 2}, {1, 2, 3}}, TensorType::kFloat32));
+  expect_in("tensor 'a' has 1 values", error("a", {{-1, -1}, {1}}, TensorType::kFloat32));
   expect_in("tensor 'a' has 0 values",
-            fault("a", {{1LL << 32, 1LL << 32}, {}}, TensorType::kFloat32));
+            error("a", {{1LL << 32, 1LL << 32}, {}}, TensorType::kFloat32));
   expect_in("a tensor may not be called '__metadata__'",
-            fault("__metadata__", {{}, {1}}, TensorType::kFloat32));
-  expect_in("is no UTF-8", fault("\xFF", {{}, {1}}, TensorType::kFloat32));
+            error("__metadata__", {{}, {1}}, TensorType::kFloat32));
+  expect_in("is no UTF-8", error("\xFF", {{}, {1}}, TensorType::kFloat32));
 }
 
-TEST(Safetensors, OneWrongByteIsNeverWorseThanADataError) {
+TEST(Safetensors, ChangedBytesCauseAtMostDataErrors) {
   const auto bytes = encode_safetensors(sample(), TensorType::kFloat16, "");
   const std::string whole(bytes.begin(), bytes.end());
-  for (std::size_t at = 0; at < whole.size(); ++at) {
+  for (std::size_t i = 0; i < whole.size(); ++i) {
     for (const char wrong : {'\0', '\xFF', '"', '9', '-', '[', '}', ' ', ',', '\x7C'}) {
       std::string changed = whole;
-      changed[at] = wrong;
+      changed[i] = wrong;
       try {
         parse(changed);
       } catch (const DataError&) {
-        continue;  // anything else fails the test
+        continue;  // any other exception fails the test
       }
     }
   }
 }
 
-TEST(Safetensors, ReadsTheSharedFile) {
+TEST(Safetensors, ReadsSharedFile) {
   const auto path = std::filesystem::path(MMS_SOURCE_DIR) /
                     "../shared/data/weights/resnet18_imagenet_partial.safetensors";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";

@@ -9,7 +9,7 @@
 
 namespace mms::testing {
 
-/// A fresh folder for one test, removed at its end.
+/// A new folder for one test, removed at its end.
 class TempFolder {
  public:
   TempFolder() {
@@ -56,7 +56,7 @@ std::string message_of(Action action) {
   return "";
 }
 
-/// Expects that `text` has `part` in it.
+/// Expects that `text` contains `part`.
 inline void expect_in(const std::string& part, const std::string& text) {
   EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in '" << text << "'";
 }

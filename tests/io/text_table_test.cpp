@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-TEST(TextTable, SplitsLinesAndKeepsTheirNumbers) {
+TEST(TextTable, SplitsLinesAndKeepsLineNumbers) {
   const testing::TempFolder folder;
   const auto path = folder.write("t.txt", "\xEF\xBB\xBF# head\r\n\r\n1 a\tb\r\n  # more\n2,c , d");
   const TextTable table(path);

@@ -54,7 +54,7 @@ TEST(TrajectoryTum, NormalisesQuaternions) {
   EXPECT_NEAR(read[0].T_world_sensor.rotation()(1, 0), 1.0, 1e-15);
 }
 
-TEST(TrajectoryTum, FaultsNameFileAndLine) {
+TEST(TrajectoryTum, ErrorsNameFileAndLine) {
   const TempFolder folder;
   const std::pair<const char*, const char*> cases[] = {
       {"1 2 3\n", "3 columns, expected 8: stamp tx ty tz qx qy qz qw"},
@@ -63,9 +63,9 @@ TEST(TrajectoryTum, FaultsNameFileAndLine) {
       {"1 0 0 0.1.2 0 0 0 1\n", "'0.1.2' is not a finite number"},
       {"1 0 0 0 0 0 0 0\n", "the quaternion is zero"},
   };
-  for (const auto& [line, fault] : cases) {
+  for (const auto& [line, expected] : cases) {
     const auto path = folder.write("t.txt", std::string("# head\n0 0 0 0 0 0 0 1\n") + line);
-    expect_in(path.string() + ":3: " + fault,
+    expect_in(path.string() + ":3: " + expected,
               message_of<DataError>([&] { read_trajectory_tum(path); }));
   }
   const auto empty = folder.write("t.txt", "# nothing\n");
@@ -91,20 +91,20 @@ TEST(TrajectoryKitti, RoundTripsExactly) {
   EXPECT_EQ(read_trajectory_kitti(path)[7].stamp, Timestamp(700'000'000));
 }
 
-TEST(TrajectoryKitti, FaultsNameFileAndLine) {
+TEST(TrajectoryKitti, ErrorsNameFileAndLine) {
   const TempFolder folder;
   const auto scaled = folder.write("p.txt", "2 0 0 0 0 2 0 0 0 0 2 0\n");
   expect_in(scaled.string() + ":1: the 3x3 part is not a rotation",
             message_of<DataError>([&] { read_trajectory_kitti(scaled); }));
   const auto mirrored = folder.write("p.txt", "-1 0 0 0 0 1 0 0 0 0 1 0\n");
   message_of<DataError>([&] { read_trajectory_kitti(mirrored); });
-  const auto good = folder.write("p.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  const auto valid = folder.write("p.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
   const Timestamp stamps[2];
   expect_in("1 poses, but 2 stamps",
-            message_of<DataError>([&] { read_trajectory_kitti(good, stamps); }));
+            message_of<DataError>([&] { read_trajectory_kitti(valid, stamps); }));
 }
 
-TEST(Trajectory, TheFormIsGuessedFromTheColumns) {
+TEST(Trajectory, DetectsFormatFromColumns) {
   const TempFolder folder;
   EXPECT_EQ(read_trajectory(folder.write("a", "1 0 0 0 0 1 0 0 0 0 1 5\n"))[0]
                 .T_world_sensor.translation()
@@ -116,12 +116,12 @@ TEST(Trajectory, TheFormIsGuessedFromTheColumns) {
   expect_in("expected 8", message_of<DataError>([&] { read_trajectory(other); }));
 }
 
-TEST(Trajectory, NotWritableNamesTheFile) {
+TEST(Trajectory, ErrorNamesUnwritableFile) {
   expect_in("/no/such/t.txt: cannot be written",
             message_of<FileError>([] { write_trajectory_tum("/no/such/t.txt", {}); }));
 }
 
-TEST(Trajectory, ReadsTheBenchmarkFiles) {
+TEST(Trajectory, ReadsBenchmarkFiles) {
   const std::filesystem::path shared =
       std::filesystem::path(MMS_SOURCE_DIR) / "../shared/data/trajectories";
   if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";

@@ -31,7 +31,7 @@ class Bag : public ::testing::Test {
   }
 
   std::string bytes() const { return read_file(path_); }
-  std::string fault(const std::string& bytes) const {
+  std::string error(const std::string& bytes) const {
     return message_of<DataError>([&] { BagReader reader(folder_.write("b.bag", bytes)); });
   }
 
@@ -39,7 +39,7 @@ class Bag : public ::testing::Test {
   fs::path path_ = folder_.path() / "a.bag";
 };
 
-TEST_F(Bag, ReadsBackWhatWasWritten) {
+TEST_F(Bag, RoundTrips) {
   const BagReader bag(path_);
   EXPECT_EQ(listed(bag.topics()),
             "/image sensor_msgs/Image (5), /pose geometry_msgs/PoseStamped (1)");
@@ -53,13 +53,13 @@ TEST_F(Bag, ReadsBackWhatWasWritten) {
   }
 }
 
-TEST_F(Bag, AMessageOfAnotherTypeIsAFault) {
+TEST_F(Bag, RejectsMessageOfOtherType) {
   const BagReader bag(path_);
   expect_in("a.bag: /pose message 0: ",
             message_of<DataError>([&] { bag.read<msg::CameraInfo>("/pose", 0); }));
 }
 
-TEST_F(Bag, WithoutFinishThereIsNoFile) {
+TEST_F(Bag, LeavesNoFileWithoutFinish) {
   const fs::path path = folder_.path() / "c.bag";
   {
     BagWriter bag(path);
@@ -71,10 +71,10 @@ TEST_F(Bag, WithoutFinishThereIsNoFile) {
             message_of<FileError>([&] { BagWriter bag(folder_.path() / "no" / "c.bag"); }));
 }
 
-TEST_F(Bag, TruncatedOnesAreNamedWithTheirTopics) {
+TEST_F(Bag, TruncatedBagErrorListsTopics) {
   const std::string whole = bytes();
   for (const std::size_t size : {whole.size() - 1, whole.size() - 700, std::size_t{8000}}) {
-    const std::string message = fault(whole.substr(0, size));
+    const std::string message = error(whole.substr(0, size));
     expect_in("b.bag: is truncated: it has /image sensor_msgs/Image (", message);
     expect_in("rosbag reindex b.bag", message);
   }
@@ -88,7 +88,7 @@ TEST_F(Bag, EveryTruncationIsOneError) {
   }
 }
 
-TEST_F(Bag, UnindexedOnesAreNamedWithTheirTopics) {
+TEST_F(Bag, UnindexedBagErrorListsTopics) {
   std::string unclosed = bytes();
   constexpr std::string_view kField = "index_pos=";
   const std::size_t at = unclosed.find(kField) + kField.size();
@@ -96,7 +96,7 @@ TEST_F(Bag, UnindexedOnesAreNamedWithTheirTopics) {
   std::memcpy(&index, unclosed.data() + at, sizeof index);
   unclosed.resize(index);
   unclosed.replace(at, sizeof index, sizeof index, '\0');
-  const std::string message = fault(unclosed);
+  const std::string message = error(unclosed);
   expect_in(
       "b.bag: has no index, as it was not closed: it has /image sensor_msgs/Image (5), "
       "/pose geometry_msgs/PoseStamped (1)",
@@ -104,21 +104,21 @@ TEST_F(Bag, UnindexedOnesAreNamedWithTheirTopics) {
   expect_in("rosbag reindex b.bag", message);
 }
 
-TEST_F(Bag, OtherFilesAreNoBags) {
-  expect_in("b.bag: is empty, 0 bytes", fault(""));
-  expect_in("b.bag: is no ROS 1 bag of version 2.0", fault("#ROSBAG V1.2\n"));
-  expect_in("b.bag: is no ROS 1 bag of version 2.0", fault("SQLite format 3"));
+TEST_F(Bag, RejectsOtherFiles) {
+  expect_in("b.bag: is empty, 0 bytes", error(""));
+  expect_in("b.bag: is no ROS 1 bag of version 2.0", error("#ROSBAG V1.2\n"));
+  expect_in("b.bag: is no ROS 1 bag of version 2.0", error("SQLite format 3"));
   expect_in("there is no such file",
             message_of<FileError>([&] { BagReader bag(folder_.path() / "none.bag"); }));
 }
 
-TEST(BagNames, AreToldByTheirEnding) {
+TEST(BagNames, AreRecognizedByExtension) {
   EXPECT_TRUE(is_bag_name("x/a.bag"));
   EXPECT_TRUE(is_bag_name("a.bag.active"));
   EXPECT_FALSE(is_bag_name("bag"));
 }
 
-TEST(BagWithoutRosbag, SaysWhatToInstall) {
+TEST(BagWithoutRosbag, ErrorNamesPackageToInstall) {
   if (MMS_WITH_ROSBAG) GTEST_SKIP() << "bags can be read";
   const TempFolder folder;
   expect_in("install librosbag-storage-dev",

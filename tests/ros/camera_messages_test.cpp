@@ -12,11 +12,11 @@ using namespace testing;  // NOLINT: helpers of the tests
 
 const CameraIntrinsics kCamera{500, 510, 320, 240, 640, 480, {0.1, -0.2, 0.01, 0.02, 0.3}};
 
-TEST(CameraMessages, ReadBackTheSame) {
+TEST(CameraMessages, RoundTrip) {
   EXPECT_EQ(intrinsics_of(camera_info_message({}, kCamera), false, "test"), kCamera);
 }
 
-TEST(CameraMessages, RectifiedImagesHaveTheProjectionAndNoLens) {
+TEST(CameraMessages, RectifiedImagesUseProjectionWithoutDistortion) {
   msg::CameraInfo message = camera_info_message({}, kCamera);
   message.P[0] = 490;
   message.P[6] = 241;
@@ -26,23 +26,23 @@ TEST(CameraMessages, RectifiedImagesHaveTheProjectionAndNoLens) {
   EXPECT_EQ(camera.distortion, (std::array<double, 5>{}));
 }
 
-TEST(CameraMessages, LensesThatAreNotOursAreAFault) {
-  const auto fault = [](const msg::CameraInfo& message) {
+TEST(CameraMessages, RejectsUnsupportedDistortion) {
+  const auto error = [](const msg::CameraInfo& message) {
     return message_of<DataError>([&] { intrinsics_of(message, false, "test"); });
   };
   msg::CameraInfo message = camera_info_message({}, kCamera);
   message.distortion_model = "equidistant";
-  expect_in("has the lens 'equidistant' of 5 coefficients, expected plumb_bob", fault(message));
+  expect_in("has the lens 'equidistant' of 5 coefficients, expected plumb_bob", error(message));
   message.D = {0, 0, 0, 0};
   EXPECT_EQ(intrinsics_of(message, false, "test").distortion, (std::array<double, 5>{}));
   message.distortion_model = "rational_polynomial";
   message.D = {0.1, 0, 0, 0, 0.2, 0, 0, 0};
   EXPECT_EQ(intrinsics_of(message, false, "test").distortion[4], 0.2);
   message.D[5] = 0.5;
-  expect_in("of 8 coefficients", fault(message));
+  expect_in("of 8 coefficients", error(message));
 }
 
-TEST(CameraMessages, CamerasWithoutCalibrationAreAFault) {
+TEST(CameraMessages, RejectsUncalibratedCameras) {
   expect_in("is not calibrated",
             message_of<DataError>([] { intrinsics_of(msg::CameraInfo(), false, "test"); }));
   msg::CameraInfo message = camera_info_message({}, kCamera);

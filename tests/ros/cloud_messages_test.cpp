@@ -55,7 +55,7 @@ class CloudBuilder {
   msg::PointCloud2 cloud_;
 };
 
-TEST(CloudMessages, NanPointsStay) {
+TEST(CloudMessages, KeepsNanPoints) {
   const LidarScan scan = CloudBuilder(2, 1, 12).positions().scan();
   ASSERT_EQ(scan.points.size(), 2U);
   EXPECT_EQ(scan.points[0], Eigen::Vector3f(1, 2, 3));
@@ -64,7 +64,7 @@ TEST(CloudMessages, NanPointsStay) {
   EXPECT_TRUE(scan.time_offset.empty());
 }
 
-TEST(CloudMessages, OddOffsetsDoublesAndIntegersInAnyOrder) {
+TEST(CloudMessages, ReadsAnyTypesOffsetsAndOrder) {
   const LidarScan scan = CloudBuilder(2, 1, 40)
                              .field<std::uint16_t>("ring", 1, 4, {3, 4})
                              .field<double>("z", 3, 8, {0.5, 1.5})
@@ -77,7 +77,7 @@ TEST(CloudMessages, OddOffsetsDoublesAndIntegersInAnyOrder) {
   EXPECT_EQ(scan.intensity, (std::vector<float>{200, 100}));
 }
 
-TEST(CloudMessages, BigEndianAndPaddedRows) {
+TEST(CloudMessages, ReadsBigEndianAndPaddedRows) {
   const LidarScan scan = CloudBuilder(1, 2, 16, 7, true)
                              .field<float>("x", 0, 7, {1.0F, 4.0F})
                              .field<float>("y", 4, 7, {2.0F, 5.0F})
@@ -88,7 +88,7 @@ TEST(CloudMessages, BigEndianAndPaddedRows) {
   EXPECT_FLOAT_EQ(scan.time_offset[1], 0.1F);
 }
 
-TEST(CloudMessages, TimesOfThePointsInEveryUnit) {
+TEST(CloudMessages, ReadsPointTimesInEveryUnit) {
   const auto seconds =
       CloudBuilder(2, 1, 16).positions().field<float>("time", 12, 7, {-0.1F, 0.0F});
   EXPECT_EQ(seconds.scan().time_offset, (std::vector<float>{-0.1F, 0.0F}));
@@ -108,14 +108,14 @@ TEST(CloudMessages, TimesOfThePointsInEveryUnit) {
   EXPECT_NEAR(absolute_ns.scan().time_offset[1], 0.1, 1e-5);
 }
 
-TEST(CloudMessages, TimesThatAreNanCountAsTheStamp) {
+TEST(CloudMessages, NanTimesEqualStamp) {
   const auto some = CloudBuilder(2, 1, 16).positions().field<float>("time", 12, 7, {NAN, 0.05F});
   EXPECT_EQ(some.scan().time_offset, (std::vector<float>{0.0F, 0.05F}));
   const auto all = CloudBuilder(2, 1, 16).positions().field<float>("time", 12, 7, {NAN, NAN});
   EXPECT_TRUE(all.scan().time_offset.empty());
 }
 
-TEST(CloudMessages, RowsWithoutPointsAreNoPointsHoweverMany) {
+TEST(CloudMessages, ReadsRowsWithoutPoints) {
   msg::PointCloud2 empty = CloudBuilder(2, 1, 12).positions().cloud();
   empty.width = 0;
   empty.height = UINT32_MAX;
@@ -124,32 +124,32 @@ TEST(CloudMessages, RowsWithoutPointsAreNoPointsHoweverMany) {
   EXPECT_TRUE(scan_of(empty, Timestamp(), "test").points.empty());
 }
 
-TEST(CloudMessages, SaysWhatIsWrong) {
-  const auto fault = [](const msg::PointCloud2& cloud) {
+TEST(CloudMessages, ErrorsExplainProblem) {
+  const auto error = [](const msg::PointCloud2& cloud) {
     return message_of<DataError>([&] { scan_of(cloud, kStamp, "test"); });
   };
-  const msg::PointCloud2 good = CloudBuilder(2, 1, 12).positions().cloud();
-  msg::PointCloud2 flat = good;
+  const msg::PointCloud2 valid = CloudBuilder(2, 1, 12).positions().cloud();
+  msg::PointCloud2 flat = valid;
   flat.point_fields.pop_back();
-  expect_in("test: has no field 'z' (it has x, y)", fault(flat));
-  msg::PointCloud2 few = good;
+  expect_in("test: has no field 'z' (it has x, y)", error(flat));
+  msg::PointCloud2 few = valid;
   few.data.pop_back();
-  expect_in("has 23 bytes for 2x1 points of 12", fault(few));
-  msg::PointCloud2 outside = good;
+  expect_in("has 23 bytes for 2x1 points of 12", error(few));
+  msg::PointCloud2 outside = valid;
   outside.point_fields[2].offset = 9;
-  expect_in("its field 'z' ends at byte 13 of points of 12", fault(outside));
-  msg::PointCloud2 wrapped = good;
+  expect_in("its field 'z' ends at byte 13 of points of 12", error(outside));
+  msg::PointCloud2 wrapped = valid;
   wrapped.point_fields[2].offset = 0xFFFFFFFE;
-  expect_in("its field 'z' ends at byte 4294967298", fault(wrapped));
-  msg::PointCloud2 unknown = good;
+  expect_in("its field 'z' ends at byte 4294967298", error(wrapped));
+  msg::PointCloud2 unknown = valid;
   unknown.point_fields[0].datatype = 9;
-  expect_in("its field 'x' has the unknown type 9", fault(unknown));
+  expect_in("its field 'x' has the unknown type 9", error(unknown));
   msg::PointCloud2 overlapping = CloudBuilder(1, 2, 12).positions().cloud();
   overlapping.row_step = 4;
-  expect_in("has 24 bytes for 1x2 points", fault(overlapping));
+  expect_in("has 24 bytes for 1x2 points", error(overlapping));
 }
 
-TEST(CloudMessages, MessagesReadBackTheSame) {
+TEST(CloudMessages, RoundTrip) {
   LidarScan scan;
   scan.points = {{1, 2, 3}, {4, 5, 6}};
   scan.intensity = {0.5F, 0.25F};

@@ -34,7 +34,7 @@ struct ColorCase {
   std::vector<std::uint8_t> bytes;
 };
 
-TEST(ImageMessages, EveryColourEncodingGivesTheSamePicture) {
+TEST(ImageMessages, ReadsEveryColorEncoding) {
   const ColorCase cases[] = {
       {"rgb8", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}},
       {"bgr8", {3, 2, 1, 6, 5, 4, 9, 8, 7, 12, 11, 10}},
@@ -53,13 +53,13 @@ TEST(ImageMessages, EveryColourEncodingGivesTheSamePicture) {
   }
 }
 
-TEST(ImageMessages, GreyPictures) {
+TEST(ImageMessages, ReadsGreyImages) {
   EXPECT_EQ(color_of(image_of("mono8", {1, 2, 3, 4}), "test")(1, 1), (Rgb{4, 4, 4}));
   EXPECT_EQ(color_of(image_of("8UC1", {1, 2, 3, 4}), "test")(1, 0), (Rgb{2, 2, 2}));
   EXPECT_EQ(color_of(image_of("mono16", {0, 1, 0, 2, 0, 3, 0, 4}), "test")(0, 1), (Rgb{3, 3, 3}));
 }
 
-TEST(ImageMessages, DepthInMillimetresOfEitherByteOrder) {
+TEST(ImageMessages, ReadsDepthInMillimetersInBothByteOrders) {
   msg::Image message = image_of("16UC1", {0, 0, 0xE8, 0x03, 0xDC, 0x05, 0xFF, 0xFF}, 2);
   const Image<float> depth = depth_of(message, "test");
   EXPECT_EQ(depth(0, 0), 0.0F);
@@ -71,7 +71,7 @@ TEST(ImageMessages, DepthInMillimetresOfEitherByteOrder) {
   EXPECT_EQ(depth_of(message, "test").pixels(), depth.pixels());
 }
 
-TEST(ImageMessages, DepthInMetres) {
+TEST(ImageMessages, ReadsDepthInMeters) {
   const float metres[4] = {0.0F, 1.25F, NAN, 3.5F};
   std::vector<std::uint8_t> bytes(sizeof metres);
   std::memcpy(bytes.data(), metres, sizeof metres);
@@ -81,7 +81,7 @@ TEST(ImageMessages, DepthInMetres) {
   EXPECT_EQ(depth(1, 1), 3.5F);
 }
 
-TEST(ImageMessages, CompressedPictures) {
+TEST(ImageMessages, ReadsCompressedImages) {
   const Image<Rgb> image(16, 16, Rgb{200, 100, 50});
   EXPECT_EQ(color_of(msg::CompressedImage{{}, "png", encode_png(image)}, "test").pixels(),
             image.pixels());
@@ -90,21 +90,21 @@ TEST(ImageMessages, CompressedPictures) {
   EXPECT_NEAR(jpeg(8, 8).b, 50, 3);
 }
 
-TEST(ImageMessages, CompressedDepth) {
+TEST(ImageMessages, ReadsCompressedDepth) {
   Image<std::uint16_t> raw(3, 2, 1500);
   raw(0, 0) = 0;
-  const msg::CompressedImage behind_header = compressed_message({}, raw);
-  EXPECT_EQ(behind_header.data.size(), 12 + encode_png(raw).size());
+  const msg::CompressedImage with_header = compressed_message({}, raw);
+  EXPECT_EQ(with_header.data.size(), 12 + encode_png(raw).size());
   for (const auto& message :
-       {behind_header, msg::CompressedImage{{}, "16UC1; png", encode_png(raw)}}) {
+       {with_header, msg::CompressedImage{{}, "16UC1; png", encode_png(raw)}}) {
     const Image<float> depth = depth_of(message, "test");
     EXPECT_EQ(depth(0, 0), 0.0F);
     EXPECT_EQ(depth(2, 1), 1.5F);
   }
 }
 
-TEST(ImageMessages, CompressedDepthOf32BitsIsInverse) {
-  // As compressed_depth_image_transport makes it of depth up to 10 m, quantised about 1 m.
+TEST(ImageMessages, ReadsInverseCompressedDepthOf32Bits) {
+  // Encoding of compressed_depth_image_transport, up to 10 m, with its quantization at 1 m.
   constexpr float kA = 1.0F * (1.0F + 1.0F);
   constexpr float kB = 1.0F - kA / 10.0F;
   Image<std::uint16_t> raw(2, 1);
@@ -119,8 +119,8 @@ TEST(ImageMessages, CompressedDepthOf32BitsIsInverse) {
   EXPECT_FLOAT_EQ(depth(1, 0), kA / (static_cast<float>(raw(1, 0)) - kB));
 }
 
-TEST(ImageMessages, SaysWhatIsWrong) {
-  const auto fault = [](msg::Image message, bool depth = false) {
+TEST(ImageMessages, ErrorsExplainProblem) {
+  const auto error = [](msg::Image message, bool depth = false) {
     return message_of<DataError>([&] {
       if (depth) {
         depth_of(message, "topic message 3");
@@ -129,31 +129,31 @@ TEST(ImageMessages, SaysWhatIsWrong) {
       }
     });
   };
-  msg::Image good = image_of("rgb8", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
-  expect_in("topic message 3: has the encoding 'yuv422', expected rgb8", fault([&] {
-              msg::Image m = good;
+  msg::Image valid = image_of("rgb8", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+  expect_in("topic message 3: has the encoding 'yuv422', expected rgb8", error([&] {
+              msg::Image m = valid;
               m.encoding = "yuv422";
               return m;
             }()));
-  expect_in("has the encoding 'rgb8', expected 16UC1", fault(good, true));
-  msg::Image few = good;
+  expect_in("has the encoding 'rgb8', expected 16UC1", error(valid, true));
+  msg::Image few = valid;
   few.data.pop_back();
-  expect_in("has 11 bytes in rows of 6, but 2x2 pixels of rgb8 take 12", fault(few));
-  msg::Image narrow = good;
+  expect_in("has 11 bytes in rows of 6, but 2x2 pixels of rgb8 take 12", error(few));
+  msg::Image narrow = valid;
   narrow.step = 5;
-  expect_in("in rows of 5", fault(narrow));
-  msg::Image none = good;
+  expect_in("in rows of 5", error(narrow));
+  msg::Image none = valid;
   none.width = 0;
-  expect_in("is 0x2 pixels", fault(none));
-  msg::Image huge = good;
+  expect_in("is 0x2 pixels", error(none));
+  msg::Image huge = valid;
   huge.width = huge.height = 0xFFFFFFFF;
-  expect_in("allowed is 1x1 to 16384x16384", fault(huge));
+  expect_in("allowed is 1x1 to 16384x16384", error(huge));
   expect_in("not RVL", message_of<DataError>([] {
               depth_of(msg::CompressedImage{{}, "16UC1; compressedDepth rvl", {1, 2, 3}}, "test");
             }));
 }
 
-TEST(ImageMessages, MessagesReadBackTheSame) {
+TEST(ImageMessages, RoundTrip) {
   const Image<Rgb> color(3, 2, Rgb{1, 2, 3});
   EXPECT_EQ(color_of(image_message({}, color), "test").pixels(), color.pixels());
   const Image<float> depth(3, 2, 1.25F);

@@ -21,7 +21,7 @@ Segmentation two_objects() {
   return segmentation;
 }
 
-TEST(MaskMessages, ReadBackTheSame) {
+TEST(MaskMessages, RoundTrip) {
   const Segmentation sent = two_objects();
   const Segmentation back = segmentation_of(masks_message({}, sent), 16, 12, "test");
   ASSERT_EQ(back.instances.size(), 2U);
@@ -35,7 +35,7 @@ TEST(MaskMessages, ReadBackTheSame) {
   }
 }
 
-TEST(MaskMessages, AreEnlargedToTheImage) {
+TEST(MaskMessages, AreUpsampledToImage) {
   const Segmentation back = segmentation_of(masks_message({}, two_objects()), 32, 24, "test");
   const Instance& agv = back.instances[0];
   EXPECT_EQ(back.width, 32);
@@ -47,7 +47,7 @@ TEST(MaskMessages, AreEnlargedToTheImage) {
   EXPECT_EQ(agv.mask(4, 3), 1);
 }
 
-TEST(MaskMessages, DamagedOnesAreAFault) {
+TEST(MaskMessages, RejectDamagedMessages) {
   msg::Masks message = masks_message({}, two_objects());
   message.instances[0].object_class = 9;
   expect_in("unknown class 9",

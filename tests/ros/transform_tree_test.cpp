@@ -22,7 +22,7 @@ TransformTree robot() {
   return tree;
 }
 
-TEST(TransformTree, GoesUpAndDownTheTree) {
+TEST(TransformTree, LooksUpAcrossTree) {
   const TransformTree tree = robot();
   EXPECT_NEAR(tree.lookup("world", "camera", Timestamp(12))->translation().x(), 1.1, 1e-12);
   EXPECT_NEAR(tree.lookup("world", "camera", Timestamp(99))->translation().x(), 2.1, 1e-12);
@@ -31,7 +31,7 @@ TEST(TransformTree, GoesUpAndDownTheTree) {
   EXPECT_FALSE(tree.lookup("camera", "other", Timestamp(0)));
 }
 
-TEST(TransformTree, KnowsWhatMoves) {
+TEST(TransformTree, FindsRootAndStampsOfMovingFrames) {
   const TransformTree tree = robot();
   EXPECT_EQ(tree.root_of("camera"), "world");
   EXPECT_EQ(tree.root_of("other"), "other");
@@ -39,7 +39,7 @@ TEST(TransformTree, KnowsWhatMoves) {
   EXPECT_TRUE(tree.stamps_above("other").empty());
 }
 
-TEST(TransformTree, RingsAndNansDoNoHarm) {
+TEST(TransformTree, ToleratesCyclesAndNans) {
   TransformTree tree;
   tree.add({{transform("a", "b", Timestamp(0), 1.0), transform("b", "a", Timestamp(0), 1.0),
              transform("b", "c", Timestamp(0), NAN)}});
@@ -47,7 +47,7 @@ TEST(TransformTree, RingsAndNansDoNoHarm) {
   EXPECT_FALSE(tree.lookup("a", "c", Timestamp(0)));
 }
 
-TEST(TransformTree, PosesReadBackTheSame) {
+TEST(TransformTree, PosesRoundTrip) {
   const Eigen::Isometry3d pose =
       Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized());
   EXPECT_TRUE(isometry_of(pose_message(pose)).isApprox(pose, 1e-12));

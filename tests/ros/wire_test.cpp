@@ -18,7 +18,7 @@ std::string bytes_of(const Message& message) {
   return bytes;
 }
 
-TEST(Wire, ImagesAreAsRosHasThem) {
+TEST(Wire, ImagesUseRosLayout) {
   Image image;
   image.header = {7, Timestamp(3'000'000'005), "ab"};
   image.height = 1;
@@ -26,7 +26,7 @@ TEST(Wire, ImagesAreAsRosHasThem) {
   image.encoding = "mono8";
   image.step = 2;
   image.data = {9, 8};
-  const std::string wanted(
+  const std::string expected(
       "\x07\0\0\0"  // seq
       "\x03\0\0\0\x05\0\0\0"
       "\x02\0\0\0ab"
@@ -35,14 +35,14 @@ TEST(Wire, ImagesAreAsRosHasThem) {
       "\x02\0\0\0"
       "\x02\0\0\0\x09\x08",
       46);
-  EXPECT_EQ(bytes_of(image), wanted);
-  const auto back = decode<Image>(wanted, "test");
+  EXPECT_EQ(bytes_of(image), expected);
+  const auto back = decode<Image>(expected, "test");
   EXPECT_EQ(back.header.stamp, Timestamp(3'000'000'005));
   EXPECT_EQ(back.encoding, "mono8");
   EXPECT_EQ(back.data, image.data);
 }
 
-TEST(Wire, ListsOfMessages) {
+TEST(Wire, ListsRoundTrip) {
   Transforms transforms;
   transforms.transforms.resize(2);
   transforms.transforms[1].child_frame_id = "camera";
@@ -53,7 +53,7 @@ TEST(Wire, ListsOfMessages) {
   EXPECT_EQ(back.transforms[1].transform.position[2], 3.0);
 }
 
-TEST(Wire, EveryCutOfAMessageIsAFault) {
+TEST(Wire, RejectsEveryTruncation) {
   PointCloud2 cloud;
   cloud.point_fields = {{"x", 0, 7, 1}};
   cloud.data = {1, 2, 3, 4};
@@ -63,13 +63,13 @@ TEST(Wire, EveryCutOfAMessageIsAFault) {
   }
 }
 
-TEST(Wire, CountsThatTheBytesCannotHoldAreAFault) {
+TEST(Wire, RejectsCountsBeyondData) {
   std::string bytes = bytes_of(Transforms{});
   bytes[3] = '\x7F';
   expect_in("promises", message_of<DataError>([&] { decode<Transforms>(bytes, "test"); }));
 }
 
-TEST(Wire, StampsThatRosCannotExpressAreAFault) {
+TEST(Wire, RejectsStampsOutOfRosRange) {
   Header header;
   header.stamp = Timestamp(-1);
   EXPECT_THROW(bytes_of(header), DataError);
@@ -77,7 +77,7 @@ TEST(Wire, StampsThatRosCannotExpressAreAFault) {
   EXPECT_THROW(bytes_of(header), DataError);
 }
 
-TEST(MessageTypes, DefinitionsNameTheirParts) {
+TEST(MessageTypes, DefinitionsIncludePartTypes) {
   const MessageType& type = message_type(kName<PointCloud2>);
   EXPECT_EQ(type.name, "sensor_msgs/PointCloud2");
   EXPECT_EQ(type.md5, "1158d486dd51d683ce2f1be655c3c181");
