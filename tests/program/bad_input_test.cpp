@@ -18,14 +18,14 @@ namespace fs = std::filesystem;
 using namespace testing;  // NOLINT: helpers of the tests
 
 Outcome run_data(const TempFolder& folder) {
-  const std::string masks = own_masks(folder.path() / "data");
+  const std::string masks = segmenter_of(folder.path() / "data");
   return run_mms(folder.path(), {"run", "data", "--segmenter", masks, "-o", "out"});
 }
 
-/// Expects a run of data/ that skipped some frames, saying why in one warning each.
+/// Expects a run of data/ with skipped frames and one warning with the reason for each.
 void expect_skipped(const TempFolder& folder, int frames, int skipped, const std::string& part) {
   const Outcome outcome = run_data(folder);
-  expect_done(outcome);
+  expect_success(outcome);
   const auto metrics = json_file(folder.path() / "out/metrics.json");
   EXPECT_EQ(metrics["frames"], frames);
   EXPECT_EQ(metrics["frames_skipped"], skipped);
@@ -35,29 +35,29 @@ void expect_skipped(const TempFolder& folder, int frames, int skipped, const std
             static_cast<std::size_t>(frames));
 }
 
-TEST(BadInput, EmptyFolder) {
+TEST(BadInput, RejectsEmptyFolder) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "data");
-  expect_fault(run_data(folder), "data: is empty: no recording (expected rgb.txt and depth.txt");
-  expect_fault(run_mms(folder.path(), {"info", "data"}), "data: is empty: no recording");
+  expect_error(run_data(folder), "data: is empty: no recording (expected rgb.txt and depth.txt");
+  expect_error(run_mms(folder.path(), {"info", "data"}), "data: is empty: no recording");
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
 }
 
-TEST(BadInput, NoSuchFolder) {
+TEST(BadInput, RejectsMissingFolder) {
   const TempFolder folder;
-  expect_fault(run_data(folder), "data: there is no such recording");
+  expect_error(run_data(folder), "data: there is no such recording");
   folder.write("data", "a file");
-  expect_fault(run_data(folder), "data: is a file, a recording is a folder");
+  expect_error(run_data(folder), "data: is a file, a recording is a folder");
 }
 
-TEST(BadInput, MissingDepthList) {
+TEST(BadInput, RejectsMissingDepthList) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
   fs::remove(folder.path() / "data/depth.txt");
-  expect_fault(run_data(folder), "data: is a TUM-layout sequence, but depth.txt is missing");
+  expect_error(run_data(folder), "data: is a TUM-layout sequence, but depth.txt is missing");
 }
 
-TEST(BadInput, TruncatedPng) {
+TEST(BadInput, SkipsTruncatedPng) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(4));
   for (const char* file : {"data/rgb/0001.png", "data/depth/0002.png"}) {
@@ -67,14 +67,14 @@ TEST(BadInput, TruncatedPng) {
   expect_skipped(folder, 2, 2, "truncated PNG");
 }
 
-TEST(BadInput, EightBitDepth) {
+TEST(BadInput, SkipsEightBitDepth) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(3));
   write_png(folder.path() / "data/depth/0001.png", Image<std::uint8_t>(320, 240, 9));
   expect_skipped(folder, 2, 1, "frame 0001 skipped: data/depth/0001.png: ");
 }
 
-TEST(BadInput, ColourAndDepthOfDifferentSize) {
+TEST(BadInput, SkipsColorAndDepthOfDifferentSize) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(3));
   write_png(folder.path() / "data/depth/0000.png", Image<std::uint16_t>(80, 60, 1500));
@@ -82,33 +82,33 @@ TEST(BadInput, ColourAndDepthOfDifferentSize) {
   expect_skipped(folder, 1, 2, "is 80x60 pixels, the calibration says 320x240");
 }
 
-TEST(BadInput, MaskOfAnotherSize) {
+TEST(BadInput, SkipsMaskOfOtherSize) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(3));
   write_png(folder.path() / "data/masks/0001.png", Image<std::uint8_t>(80, 60));
   expect_skipped(folder, 2, 1, "data/masks/0001.png: is 80x60 pixels, the calibration says");
 }
 
-TEST(BadInput, EveryFrameDamaged) {
+TEST(BadInput, RejectsRecordingWithoutValidFrames) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
   fs::remove_all(folder.path() / "data/depth");
-  expect_fault(run_data(folder), "data: none of its 2 frames could be processed");
+  expect_error(run_data(folder), "data: none of its 2 frames could be processed");
   EXPECT_FALSE(fs::exists(folder.path() / "out")) << "an empty folder of results is left over";
 }
 
 /// A recording with depth in its first and last frames only.
-void write_blind_stretch(const TempFolder& folder, int blind) {
-  write_scene(folder.path() / "data", small_scene(blind + 8));
-  for (int i = 4; i < blind + 4; ++i) {
+void write_scene_without_depth(const TempFolder& folder, int frames_without_depth) {
+  write_scene(folder.path() / "data", small_scene(frames_without_depth + 8));
+  for (int i = 4; i < frames_without_depth + 4; ++i) {
     write_png(folder.path() / "data/depth" / (frame_name(i) + ".png"),
               Image<std::uint16_t>(320, 240, 0));
   }
 }
 
-TEST(BadInput, DepthOfZeroForFiftyFrames) {
+TEST(BadInput, SurvivesFiftyFramesWithoutDepth) {
   const TempFolder folder;
-  write_blind_stretch(folder, 50);
+  write_scene_without_depth(folder, 50);
   expect_skipped(folder, 58, 0, "warning");
   expect_in(" of 58 frames, whose poses are predictions", run_data(folder).out);
   const auto status = json_file(folder.path() / "out/metrics.json")["status"];
@@ -118,7 +118,7 @@ TEST(BadInput, DepthOfZeroForFiftyFrames) {
   }
 }
 
-TEST(BadInput, DepthOfZeroThroughout) {
+TEST(BadInput, SurvivesRecordingWithoutDepth) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(3));
   for (int i = 0; i < 3; ++i) {
@@ -129,7 +129,7 @@ TEST(BadInput, DepthOfZeroThroughout) {
   EXPECT_TRUE(read_ply(folder.path() / "out/static_map.ply").points.empty());
 }
 
-TEST(BadInput, NanAndInfinityInAScan) {
+TEST(BadInput, SurvivesNonFiniteScanPoints) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 3);
   LidarScan scan = hall_scan(0.05);
@@ -141,9 +141,9 @@ TEST(BadInput, NanAndInfinityInAScan) {
     scan.intensity[i] = bad[(i + 1) % 5];
   }
   write_scan(folder.path() / "data/000001.bin", scan);
-  LidarScan hopeless = scan;
-  for (auto& point : hopeless.points) point.setConstant(bad[0]);
-  write_scan(folder.path() / "data/000002.bin", hopeless);
+  LidarScan invalid_scan = scan;
+  for (auto& point : invalid_scan.points) point.setConstant(bad[0]);
+  write_scan(folder.path() / "data/000002.bin", invalid_scan);
   expect_skipped(folder, 3, 0, "warning");
   const Trajectory poses = read_trajectory_tum(folder.path() / "out/trajectory.tum");
   EXPECT_NEAR(poses[1].T_world_sensor.translation().x(), 0.05, 0.02);
@@ -152,21 +152,21 @@ TEST(BadInput, NanAndInfinityInAScan) {
   }
 }
 
-TEST(BadInput, ScanOfNoBytes) {
+TEST(BadInput, SkipsEmptyScan) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 3);
   folder.write("data/000001.bin", "");
   expect_skipped(folder, 2, 1, "frame 000001 skipped: data/000001.bin: is an empty scan of 0 b");
 }
 
-TEST(BadInput, TruncatedScan) {
+TEST(BadInput, SkipsTruncatedScan) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 3);
   folder.write("data/000002.bin", std::string(1001, '\0'));
   expect_skipped(folder, 2, 1, "has 1001 bytes, not a multiple of 16");
 }
 
-TEST(BadInput, StampsGoingBack) {
+TEST(BadInput, SkipsDecreasingStamps) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(4));
   const auto list = [&](const std::string& kind) {
@@ -182,48 +182,48 @@ TEST(BadInput, StampsGoingBack) {
   expect_skipped(folder, 3, 1, "frame 0002 skipped: its stamp 1.100000000 is not later than");
 }
 
-TEST(BadInput, StampsGoingBackInTimes) {
+TEST(BadInput, SkipsDecreasingTimes) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 3);
   folder.write("data/times.txt", "0.0\n0.2\n0.1\n");
   expect_skipped(folder, 2, 1, "frame 000002 skipped: its stamp 0.100000000 is not later than");
 }
 
-TEST(BadInput, OutputThatCannotBeWritten) {
+TEST(BadInput, RejectsUnwritableOutput) {
   const TempFolder folder;
   folder.write("occupied", "a file");
   const std::string small = "sim:corridor?width=320&frames=2";
-  expect_fault(run_mms(folder.path(), {"run", small, "--segmenter", "masks", "-o", "occupied"}),
+  expect_error(run_mms(folder.path(), {"run", small, "--segmenter", "masks", "-o", "occupied"}),
                "occupied: cannot be made a folder");
-  expect_fault(
+  expect_error(
       run_mms(folder.path(), {"run", small, "--segmenter", "masks", "-o", "occupied/below"}),
       "occupied/below: cannot be made a folder");
 }
 
-TEST(BadInput, AResultThatCannotBeReplaced) {
+TEST(BadInput, RejectsResultThatCannotBeReplaced) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "out/metrics.json/in_the_way");
-  expect_fault(run_mms(folder.path(), {"run", "sim:corridor?width=320&frames=2", "--segmenter",
+  expect_error(run_mms(folder.path(), {"run", "sim:corridor?width=320&frames=2", "--segmenter",
                                        "masks", "-o", "out"}),
                "out/metrics.json: cannot be written");
 }
 
-TEST(BadInput, FaultyCalibration) {
+TEST(BadInput, RejectsInvalidCalibration) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
   folder.write("data/calibration.yaml", "fx: 100\nfy: wide\n");
-  expect_fault(run_data(folder), "calibration.yaml:2: ");
+  expect_error(run_data(folder), "calibration.yaml:2: ");
   fs::remove(folder.path() / "data/calibration.yaml");
-  expect_fault(run_data(folder), "data: has no camera calibration (add calibration.yaml with fx");
+  expect_error(run_data(folder), "data: has no camera calibration (add calibration.yaml with fx");
 }
 
-TEST(BadInput, FaultyAddressOfTheSimulation) {
+TEST(BadInput, RejectsInvalidSimulationAddress) {
   const TempFolder folder;
-  expect_fault(run_mms(folder.path(), {"run", "sim:crowd?sead=3"}),
+  expect_error(run_mms(folder.path(), {"run", "sim:crowd?sead=3"}),
                "unknown key 'sead' (did you mean 'seed'?");
-  expect_fault(run_mms(folder.path(), {"run", "sim:crowd?frames=many"}),
+  expect_error(run_mms(folder.path(), {"run", "sim:crowd?frames=many"}),
                "frames is 'many', allowed");
-  expect_fault(run_mms(folder.path(), {"run", "sim:hall"}), "sim:hall: ");
+  expect_error(run_mms(folder.path(), {"run", "sim:hall"}), "sim:hall: ");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using namespace testing;  // NOLINT: helpers of the tests
 using Words = std::vector<std::string>;
 
-/// Commands and the words their help must name.
+/// Commands and the words that their help must contain.
 const std::map<Words, Words> kCommands = {
     {{},
      {"run", "eval", "reproduce", "simulate", "convert", "info", "config", "doctor", "--version"}},
@@ -51,7 +51,7 @@ const std::map<Words, Words> kCommands = {
     {{"doctor"}, {"--help"}},
 };
 
-/// Sets a variable of the environment, or unsets it where there is no value, and puts it back.
+/// Sets or unsets an environment variable and restores it at the end.
 class ScopedVariable {
  public:
   ScopedVariable(const char* name, const char* value) : name_(name) {
@@ -71,13 +71,13 @@ class ScopedVariable {
   std::optional<std::string> before_;
 };
 
-/// What OpenMP says of itself as the program starts, the last time.
+/// Wait policy that OpenMP reports last at the start of the program.
 std::string last_wait_policy(const Outcome& outcome) {
   const std::size_t at = outcome.err.rfind("OMP_WAIT_POLICY = ");
   return at == std::string::npos ? "" : outcome.err.substr(at, outcome.err.find('\n', at) - at);
 }
 
-TEST(CommandLine, ThreadsThatWaitSleepUnlessTheUserSaysElse) {
+TEST(CommandLine, WaitingThreadsSleepByDefault) {
   const TempFolder folder;
   const ScopedVariable display("OMP_DISPLAY_ENV", "true");
   const ScopedVariable none("OMP_WAIT_POLICY", nullptr);
@@ -86,13 +86,13 @@ TEST(CommandLine, ThreadsThatWaitSleepUnlessTheUserSaysElse) {
   EXPECT_EQ(last_wait_policy(run_mms(folder.path(), {"--version"})), "OMP_WAIT_POLICY = 'ACTIVE'");
 }
 
-TEST(CommandLine, HelpNamesEveryFlag) {
+TEST(CommandLine, HelpNamesEveryOption) {
   const TempFolder folder;
   for (const auto& [command, words] : kCommands) {
     Words arguments = command;
     arguments.emplace_back("--help");
     const Outcome outcome = run_mms(folder.path(), arguments);
-    expect_done(outcome);
+    expect_success(outcome);
     EXPECT_TRUE(outcome.err.empty()) << outcome.err;
     for (const std::string& word : words) expect_in(word, outcome.out);
   }
@@ -101,42 +101,42 @@ TEST(CommandLine, HelpNamesEveryFlag) {
 TEST(CommandLine, VersionIsOneLine) {
   const TempFolder folder;
   const Outcome outcome = run_mms(folder.path(), {"--version"});
-  expect_done(outcome);
+  expect_success(outcome);
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
 }
 
-TEST(CommandLine, WrongWordsAreUsageFaultsThatNameThem) {
+TEST(CommandLine, InvalidArgumentsAreUsageErrors) {
   const TempFolder folder;
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
-  expect_usage_fault(
+  expect_usage_error(
       run({}),
       "a command is required: run, eval, reproduce, simulate, segment, quantize, import, ");
-  expect_usage_fault(run({"rum"}), "'rum'");
-  expect_usage_fault(run({"eval"}),
+  expect_usage_error(run({"rum"}), "'rum'");
+  expect_usage_error(run({"eval"}),
                      "a command is required: trajectory, drift, map, ghost-points, segmentation "
                      "or objects");
-  expect_usage_fault(run({"eval", "trajektory", "a", "b"}), "'trajektory'");
-  expect_usage_fault(run({"run", "--frmes", "3"}), "--frmes");
-  expect_usage_fault(run({"run", "one", "two"}), "two");
-  expect_usage_fault(run({"run", "--fusion", "magic"}), "{multimodal,vision,none}");
-  expect_usage_fault(run({"run", "--frames", "0"}), "--frames: Value 0 not in range 1 to");
-  expect_usage_fault(run({"run", "--start", "-1"}), "--start: Value -1 not in range 0 to");
-  expect_usage_fault(run({"run", "--threads", "two"}), "--threads");
-  expect_usage_fault(run({"eval", "drift"}), "ESTIMATE is required");
-  expect_usage_fault(run({"info"}), "DATA is required");
+  expect_usage_error(run({"eval", "trajektory", "a", "b"}), "'trajektory'");
+  expect_usage_error(run({"run", "--frmes", "3"}), "--frmes");
+  expect_usage_error(run({"run", "one", "two"}), "two");
+  expect_usage_error(run({"run", "--fusion", "magic"}), "{multimodal,vision,none}");
+  expect_usage_error(run({"run", "--frames", "0"}), "--frames: Value 0 not in range 1 to");
+  expect_usage_error(run({"run", "--start", "-1"}), "--start: Value -1 not in range 0 to");
+  expect_usage_error(run({"run", "--threads", "two"}), "--threads");
+  expect_usage_error(run({"eval", "drift"}), "ESTIMATE is required");
+  expect_usage_error(run({"info"}), "DATA is required");
 }
 
-TEST(CommandLine, UsageFaultsSayWhereHelpIs) {
+TEST(CommandLine, UsageErrorsNameHelpCommand) {
   const TempFolder folder;
   expect_in("(mms eval drift --help)", run_mms(folder.path(), {"eval", "drift", "--x"}).err);
   expect_in("(mms --help)", run_mms(folder.path(), {"--x"}).err);
 }
 
-TEST(Info, DescribesARecording) {
+TEST(Info, DescribesRecording) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(5));
   const Outcome outcome = run_mms(folder.path(), {"info", "data"});
-  expect_done(outcome);
+  expect_success(outcome);
   for (const char* fact :
        {"layout: TUM RGB-D", "5 colour and 5 depth images, 5 matched", "masks: 5 of 5",
         "image: 320x240 pixels, 1000 depth units per metre", "rate: 15.00 Hz",
@@ -145,29 +145,29 @@ TEST(Info, DescribesARecording) {
   }
 }
 
-TEST(Info, NamesADamagedFrame) {
+TEST(Info, ReportsDamagedFrame) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(3));
   folder.write("data/rgb/0000.png", "");
   const Outcome outcome = run_mms(folder.path(), {"info", "data"});
-  expect_done(outcome);
+  expect_success(outcome);
   expect_in("frame 0: frame 0000 skipped: data/rgb/0000.png: is empty", outcome.out);
   expect_in("frame 1: readable", outcome.out);
 }
 
-TEST(Info, DescribesALidarFolder) {
+TEST(Info, DescribesLidarFolder) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 2);
   const Outcome outcome = run_mms(folder.path(), {"info", "data"});
-  expect_done(outcome);
+  expect_success(outcome);
   expect_in("layout: KITTI LiDAR scans", outcome.out);
   expect_in("frames: 2", outcome.out);
 }
 
-TEST(Doctor, FindsThisMachineWell) {
+TEST(Doctor, PassesOnThisMachine) {
   const TempFolder folder;
   const Outcome outcome = run_mms(folder.path(), {"doctor"});
-  expect_done(outcome);
+  expect_success(outcome);
   for (const char* line : {"cores", "memory", "tracking in a simulated warehouse", "ok"}) {
     expect_in(line, outcome.out);
   }

@@ -13,21 +13,21 @@ Outcome check(const TempFolder& folder, const std::string& settings) {
   return run_mms(folder.path(), {"config", "check", "settings.yaml"});
 }
 
-TEST(Config, WhatIsDumpedIsValidAndDumpsTheSame) {
+TEST(Config, DumpIsValidAndRoundTrips) {
   const TempFolder folder;
   const Outcome dumped = run_mms(folder.path(), {"config", "dump"});
-  expect_done(dumped);
+  expect_success(dumped);
   for (const char* group :
        {"fusion:", "features:", "odometry:", "keyframes:", "static_map:", "dynamic_map:"}) {
     expect_in(group, dumped.out);
   }
   const Outcome checked = check(folder, dumped.out);
-  expect_done(checked);
+  expect_success(checked);
   EXPECT_EQ(checked.out, "settings.yaml: valid\n");
   EXPECT_EQ(run_mms(folder.path(), {"config", "dump", "settings.yaml"}).out, dumped.out);
 }
 
-TEST(Config, EveryLineOfTheDumpIsDocumented) {
+TEST(Config, DumpDocumentsEveryLine) {
   const TempFolder folder;
   const std::string text = run_mms(folder.path(), {"config", "dump"}).out;
   for (std::size_t start = 0; start < text.size();) {
@@ -39,35 +39,35 @@ TEST(Config, EveryLineOfTheDumpIsDocumented) {
   }
 }
 
-TEST(Config, AWrongKeyIsNamedWithItsLineAndTheNearestKey) {
+TEST(Config, WrongKeyErrorNamesLineAndNearestKey) {
   const TempFolder folder;
   const Outcome outcome = check(folder, "static_map:\n  # finer\n  voxel_siz: 0.01\n");
-  expect_fault(outcome, "settings.yaml:3: ");
+  expect_error(outcome, "settings.yaml:3: ");
   expect_in("voxel_siz'", outcome.err);
   expect_in("did you mean 'voxel_size'?", outcome.err);
-  expect_fault(check(folder, "odometri:\n  voxel_size: 1\n"), "odometry");
+  expect_error(check(folder, "odometri:\n  voxel_size: 1\n"), "odometry");
 }
 
-TEST(Config, AWrongValueIsNamedWithWhatIsAllowed) {
+TEST(Config, WrongValueErrorNamesAllowedValues) {
   const TempFolder folder;
   const Outcome range = check(folder, "static_map:\n  voxel_size: -3\n");
-  expect_fault(range, "settings.yaml:2: static_map.voxel_size");
+  expect_error(range, "settings.yaml:2: static_map.voxel_size");
   expect_in("-3", range.err);
-  expect_fault(check(folder, "static_map:\n  voxel_size: fine\n"), "'fine'");
-  expect_fault(check(folder, "fusion:\n  mode: magic\n"), "multimodal");
-  expect_fault(check(folder, "fusion: [1, 2\n"), "settings.yaml:");
+  expect_error(check(folder, "static_map:\n  voxel_size: fine\n"), "'fine'");
+  expect_error(check(folder, "fusion:\n  mode: magic\n"), "multimodal");
+  expect_error(check(folder, "fusion: [1, 2\n"), "settings.yaml:");
 }
 
-TEST(Config, AMissingFileIsNamed) {
+TEST(Config, ErrorNamesMissingFile) {
   const TempFolder folder;
-  expect_fault(run_mms(folder.path(), {"config", "check", "none.yaml"}), "none.yaml: ");
-  expect_fault(run_mms(folder.path(), {"run", "-c", "none.yaml"}), "none.yaml: ");
+  expect_error(run_mms(folder.path(), {"config", "check", "none.yaml"}), "none.yaml: ");
+  expect_error(run_mms(folder.path(), {"run", "-c", "none.yaml"}), "none.yaml: ");
 }
 
-TEST(Config, AnEmptyFileMeansTheDefaults) {
+TEST(Config, EmptyFileGivesDefaults) {
   const TempFolder folder;
-  expect_done(check(folder, ""));
-  expect_done(check(folder, "# nothing yet\n"));
+  expect_success(check(folder, ""));
+  expect_success(check(folder, "# nothing yet\n"));
 }
 
 }  // namespace

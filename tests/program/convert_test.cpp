@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using namespace testing;  // NOLINT: helpers of the tests
 using Words = std::vector<std::string>;
 
-Trajectory some_poses() {
+Trajectory sample_poses() {
   Trajectory poses;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Isometry3d pose =
@@ -33,77 +33,77 @@ void expect_same(const Trajectory& a, const Trajectory& b) {
   }
 }
 
-TEST(Convert, TrajectoriesBothWays) {
+TEST(Convert, ConvertsTrajectoriesBothDirections) {
   const TempFolder folder;
-  write_trajectory_tum(folder.path() / "a.tum", some_poses());
-  const Outcome there = run_mms(folder.path(), {"convert", "a.tum"});
-  expect_done(there);
-  expect_in("a_kitti.txt: 3 poses, without their stamps", there.out);
+  write_trajectory_tum(folder.path() / "a.tum", sample_poses());
+  const Outcome forward = run_mms(folder.path(), {"convert", "a.tum"});
+  expect_success(forward);
+  expect_in("a_kitti.txt: 3 poses, without their stamps", forward.out);
   fs::rename(folder.path() / "a.tum", folder.path() / "stamps.tum");
-  expect_done(run_mms(folder.path(), {"convert", "a_kitti.txt", "--stamps", "stamps.tum"}));
-  expect_same(read_trajectory_tum(folder.path() / "a.tum"), some_poses());
+  expect_success(run_mms(folder.path(), {"convert", "a_kitti.txt", "--stamps", "stamps.tum"}));
+  expect_same(read_trajectory_tum(folder.path() / "a.tum"), sample_poses());
 }
 
-TEST(Convert, ATumTrajectoryMayBeCalledTxt) {
+TEST(Convert, AcceptsTumTrajectoryNamedTxt) {
   const TempFolder folder;
-  write_trajectory_tum(folder.path() / "groundtruth.txt", some_poses());
-  expect_done(run_mms(folder.path(), {"convert", "groundtruth.txt", "-o", "a.tum"}));
-  expect_same(read_trajectory_tum(folder.path() / "a.tum"), some_poses());
+  write_trajectory_tum(folder.path() / "groundtruth.txt", sample_poses());
+  expect_success(run_mms(folder.path(), {"convert", "groundtruth.txt", "-o", "a.tum"}));
+  expect_same(read_trajectory_tum(folder.path() / "a.tum"), sample_poses());
 }
 
-TEST(Convert, CloudsBothWays) {
+TEST(Convert, ConvertsCloudsBothDirections) {
   const TempFolder folder;
   const PointCloudFile cloud{
       {{1, 2, 3}, {-4, 5, 0.5F}}, {{0, 0, 1}, {0, 1, 0}}, {{1, 2, 3}, {255, 0, 9}}, {}, {7, 2}};
   write_ply(folder.path() / "a.ply", cloud);
   expect_in("a.pcd: 2 points", run_mms(folder.path(), {"convert", "a.ply"}).out);
-  expect_done(run_mms(folder.path(), {"convert", "a.pcd", "-o", "b.PLY"}));
+  expect_success(run_mms(folder.path(), {"convert", "a.pcd", "-o", "b.PLY"}));
   EXPECT_EQ(read_file(folder.path() / "a.ply"), read_file(folder.path() / "b.PLY"));
 }
 
-TEST(Convert, SaysWhatCannotBeConverted) {
+TEST(Convert, ErrorsExplainImpossibleConversions) {
   const TempFolder folder;
   const auto run = [&](const Words& words) {
     Words all = {"convert"};
     all.insert(all.end(), words.begin(), words.end());
     return run_mms(folder.path(), all);
   };
-  write_trajectory_tum(folder.path() / "a.tum", some_poses());
-  write_trajectory_kitti(folder.path() / "k.txt", some_poses());
+  write_trajectory_tum(folder.path() / "a.tum", sample_poses());
+  write_trajectory_kitti(folder.path() / "k.txt", sample_poses());
   folder.write("empty.ply", "");
   folder.write("empty.txt", "");
   folder.write("two.txt", "1\n2\n");
   folder.write("words.txt", "one\n");
   fs::create_directory(folder.path() / "results");
-  expect_usage_fault(run({}), "IN is required");
-  expect_fault(run({"none.tum"}), "none.tum: there is no such file");
-  expect_fault(run({"a.obj"}), "a.obj: has the unknown extension '.obj' (trajectories are .tum");
-  expect_fault(run({"a"}), "a: has no extension");
-  expect_fault(run({"empty.ply"}), "empty.ply");
-  expect_fault(run({"empty.txt"}), "empty.txt: holds no poses");
-  expect_fault(run({"a.tum", "-o", "a.ply"}), "a.ply: is a cloud, but a.tum is a trajectory");
-  expect_fault(run({"k.txt"}), "k.txt: has no stamps, which TUM trajectories need (give --stamps");
-  expect_fault(run({"k.txt", "--stamps", "two.txt"}), "k.txt: 3 poses, but 2 stamps");
-  expect_fault(run({"k.txt", "--stamps", "words.txt"}), "words.txt:1: 'one' is not a stamp");
-  expect_fault(run({"a.tum", "--stamps", "two.txt"}), "a.tum has stamps of its own");
-  expect_fault(run({"results"}), "results: has no journal.bin");
+  expect_usage_error(run({}), "IN is required");
+  expect_error(run({"none.tum"}), "none.tum: there is no such file");
+  expect_error(run({"a.obj"}), "a.obj: has the unknown extension '.obj' (trajectories are .tum");
+  expect_error(run({"a"}), "a: has no extension");
+  expect_error(run({"empty.ply"}), "empty.ply");
+  expect_error(run({"empty.txt"}), "empty.txt: holds no poses");
+  expect_error(run({"a.tum", "-o", "a.ply"}), "a.ply: is a cloud, but a.tum is a trajectory");
+  expect_error(run({"k.txt"}), "k.txt: has no stamps, which TUM trajectories need (give --stamps");
+  expect_error(run({"k.txt", "--stamps", "two.txt"}), "k.txt: 3 poses, but 2 stamps");
+  expect_error(run({"k.txt", "--stamps", "words.txt"}), "words.txt:1: 'one' is not a stamp");
+  expect_error(run({"a.tum", "--stamps", "two.txt"}), "a.tum has stamps of its own");
+  expect_error(run({"results"}), "results: has no journal.bin");
 }
 
-TEST(Convert, SaysWhatIsWrongWithAJournal) {
+TEST(Convert, ErrorsExplainDamagedJournal) {
   const TempFolder folder;
   const std::string header = encode_header({"data", 0.02, 2});
   const auto convert = [&](const std::string& bytes) {
     folder.write("results/journal.bin", bytes);
     return run_mms(folder.path(), {"convert", "results"});
   };
-  expect_fault(convert(""), "results/journal.bin: is empty");
-  expect_fault(convert("not one"), "results/journal.bin: is no journal");
-  expect_fault(convert(header.substr(0, 20)), "results/journal.bin: the record at byte 8");
-  expect_fault(convert(header), "results/journal.bin: holds no whole frame");
-  expect_fault(convert(header + "\xFF\xFF\xFF\x7F torn"), "holds no whole frame");
+  expect_error(convert(""), "results/journal.bin: is empty");
+  expect_error(convert("not one"), "results/journal.bin: is no journal");
+  expect_error(convert(header.substr(0, 20)), "results/journal.bin: the record at byte 8");
+  expect_error(convert(header), "results/journal.bin: holds no whole frame");
+  expect_error(convert(header + "\xFF\xFF\xFF\x7F torn"), "holds no whole frame");
   EXPECT_FALSE(fs::exists(folder.path() / "results/trajectory.tum"));
   const Outcome outcome = convert(header + encode_frame({}) + "torn");
-  expect_done(outcome);
+  expect_success(outcome);
   expect_in("data: 1 frames up to stamp 0.000000000", outcome.out);
   expect_in("the record at byte", outcome.out);
 }

@@ -13,11 +13,11 @@ using namespace testing;  // NOLINT: helpers of the tests
 /// Runs data/ with 1, 2, 2 and 4 threads and expects the same bytes each time.
 void expect_same_bytes(const TempFolder& folder) {
   const std::vector<std::string> threads = {"1", "2", "2", "4"};
-  const std::string masks = own_masks(folder.path() / "data");
+  const std::string masks = segmenter_of(folder.path() / "data");
   for (std::size_t i = 0; i < threads.size(); ++i) {
     const std::string out = "out" + std::to_string(i);
-    expect_done(run_mms(folder.path(),
-                        {"run", "data", "--segmenter", masks, "-o", out, "--threads", threads[i]}));
+    expect_success(run_mms(
+        folder.path(), {"run", "data", "--segmenter", masks, "-o", out, "--threads", threads[i]}));
     for (const char* file :
          {"trajectory.tum", "static_map.ply", "objects.json", "map.pgm", "map.yaml", "map.bt"}) {
       const bool same =
@@ -27,7 +27,7 @@ void expect_same_bytes(const TempFolder& folder) {
   }
 }
 
-TEST(Determinism, RgbdRunsGiveTheSameBytes) {
+TEST(Determinism, RgbdRunsGiveSameBytes) {
   const TempFolder folder;
   SceneConfig config = small_scene(12);
   config.crossing = 3;
@@ -35,7 +35,7 @@ TEST(Determinism, RgbdRunsGiveTheSameBytes) {
   expect_same_bytes(folder);
 }
 
-TEST(Determinism, LidarRunsGiveTheSameBytes) {
+TEST(Determinism, LidarRunsGiveSameBytes) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 6);
   expect_same_bytes(folder);

@@ -14,18 +14,18 @@ namespace fs = std::filesystem;
 using namespace testing;  // NOLINT: helpers of the tests
 using Keys = std::set<std::string>;
 
-const std::string kWay =
+const std::string kTrajectory =
     "1.0 0 0 0 0 0 0 1\n1.5 0.1 0 0 0 0 0 1\n2.0 0.2 0.1 0 0 0 0 1\n2.5 0.3 0.2 0.1 0 0 0 1\n";
 
 nlohmann::json json_of(const Outcome& outcome) {
-  expect_done(outcome);
+  expect_success(outcome);
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << outcome.out;
   return nlohmann::json::parse(outcome.out, nullptr, false);
 }
 
-TEST(EvalTrajectory, OfTheSamePosesIsZero) {
+TEST(EvalTrajectory, IsZeroForSamePoses) {
   const TempFolder folder;
-  folder.write("a.tum", kWay);
+  folder.write("a.tum", kTrajectory);
   const auto json =
       json_of(run_mms(folder.path(), {"eval", "trajectory", "a.tum", "a.tum", "--json"}));
   EXPECT_EQ(keys_of(json), (Keys{"matched", "poses", "ate_rmse_m", "ate_mean_m", "ate_median_m",
@@ -35,18 +35,18 @@ TEST(EvalTrajectory, OfTheSamePosesIsZero) {
   EXPECT_NEAR(json["rpe_trans_rmse_m"], 0.0, 1e-12);
 }
 
-TEST(EvalTrajectory, TheTableSaysHowManyMatched) {
+TEST(EvalTrajectory, TableNamesNumberOfMatches) {
   const TempFolder folder;
-  folder.write("a.tum", kWay);
-  folder.write("b.tum", kWay + "9.0 0 0 0 0 0 0 1\n");
+  folder.write("a.tum", kTrajectory);
+  folder.write("b.tum", kTrajectory + "9.0 0 0 0 0 0 0 1\n");
   const Outcome outcome = run_mms(folder.path(), {"eval", "trajectory", "a.tum", "b.tum"});
-  expect_done(outcome);
+  expect_success(outcome);
   expect_in("matched 4 of 5 poses within 0.02 s", outcome.out);
 }
 
-TEST(EvalTrajectory, FaultsAreOneLine) {
+TEST(EvalTrajectory, ErrorsAreOneLine) {
   const TempFolder folder;
-  folder.write("a.tum", kWay);
+  folder.write("a.tum", kTrajectory);
   folder.write("late.tum", "91 0 0 0 0 0 0 1\n92 0 0 0 0 0 0 1\n93 0 0 0 0 0 0 1\n");
   folder.write("garbled.tum", "1.0 0 0 0 0 0 0 1\n1.5 0 zero 0 0 0 0 1\n");
   folder.write("kitti.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
@@ -54,21 +54,21 @@ TEST(EvalTrajectory, FaultsAreOneLine) {
   const auto run = [&](const std::string& estimate) {
     return run_mms(folder.path(), {"eval", "trajectory", "a.tum", estimate});
   };
-  expect_fault(run("missing.tum"), "missing.tum: ");
-  expect_fault(run("late.tum"), "0 of 3 estimated poses match");
-  expect_fault(run("garbled.tum"), "garbled.tum:2: ");
-  expect_fault(run("kitti.txt"), "kitti.txt: is of another form than a.tum");
-  expect_fault(run("empty.tum"), "empty.tum: ");
+  expect_error(run("missing.tum"), "missing.tum: ");
+  expect_error(run("late.tum"), "0 of 3 estimated poses match");
+  expect_error(run("garbled.tum"), "garbled.tum:2: ");
+  expect_error(run("kitti.txt"), "kitti.txt: is of another form than a.tum");
+  expect_error(run("empty.tum"), "empty.tum: ");
 }
 
-TEST(EvalDrift, IsTheDistanceFromTheFirstPose) {
+TEST(EvalDrift, IsDistanceFromFirstPose) {
   const TempFolder folder;
   folder.write("a.tum", "1 1 0 0 0 0 0 1\n2 1.01 0 0 0 0 0 1\n3 1 0.03 0 0 0 0 1\n");
   const auto json = json_of(run_mms(folder.path(), {"eval", "drift", "a.tum", "--json"}));
   EXPECT_EQ(keys_of(json), (Keys{"poses", "atde_cm", "mtde_cm"}));
   EXPECT_EQ(json["poses"], 3);
   EXPECT_NEAR(json["mtde_cm"], 3.0, 1e-9);
-  expect_fault(run_mms(folder.path(), {"eval", "drift", "missing.tum"}), "missing.tum: ");
+  expect_error(run_mms(folder.path(), {"eval", "drift", "missing.tum"}), "missing.tum: ");
 }
 
 PointCloudFile points_at(const std::vector<Eigen::Vector3f>& points) {
@@ -77,7 +77,7 @@ PointCloudFile points_at(const std::vector<Eigen::Vector3f>& points) {
   return file;
 }
 
-TEST(EvalMap, CountsWhatIsThereAndWhatIsGone) {
+TEST(EvalMap, CountsKeptAndRemovedPoints) {
   const TempFolder folder;
   PointCloudFile truth = points_at({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
   truth.labels = {0, 0, 1, 1};
@@ -90,20 +90,20 @@ TEST(EvalMap, CountsWhatIsThereAndWhatIsGone) {
   EXPECT_NEAR(json["DA"], 50.0, 1e-9);
 }
 
-TEST(EvalMap, FaultsAreOneLine) {
+TEST(EvalMap, ErrorsAreOneLine) {
   const TempFolder folder;
   write_ply(folder.path() / "map.ply", points_at({{0, 0, 0}}));
   folder.write("bad.ply", "no ply at all\n");
-  expect_fault(run_mms(folder.path(), {"eval", "map", "map.ply", "map.ply"}),
+  expect_error(run_mms(folder.path(), {"eval", "map", "map.ply", "map.ply"}),
                "map.ply: has no property 'label'");
-  expect_fault(run_mms(folder.path(), {"eval", "map", "bad.ply", "map.ply"}), "bad.ply");
-  expect_fault(run_mms(folder.path(), {"eval", "map", "none.ply", "map.ply"}), "none.ply: ");
+  expect_error(run_mms(folder.path(), {"eval", "map", "bad.ply", "map.ply"}), "bad.ply");
+  expect_error(run_mms(folder.path(), {"eval", "map", "none.ply", "map.ply"}), "none.ply: ");
 }
 
-TEST(EvalResidue, OfTheScenesOwnMapIsSmall) {
+TEST(EvalGhostPoints, IsSmallForOwnMap) {
   const TempFolder folder;
   const std::string still = "sim:corridor?trajectory=still&crossing=1&width=320&frames=12";
-  expect_done(run_mms(folder.path(), {"run", still, "--segmenter", "masks", "-o", "out"}));
+  expect_success(run_mms(folder.path(), {"run", still, "--segmenter", "masks", "-o", "out"}));
   const auto json = json_of(
       run_mms(folder.path(), {"eval", "ghost-points", still, "out/static_map.ply", "--json"}));
   EXPECT_EQ(keys_of(json), (Keys{"points", "seen", "ghost_points", "ghost_percent"}));
@@ -111,16 +111,16 @@ TEST(EvalResidue, OfTheScenesOwnMapIsSmall) {
   EXPECT_LT(json["ghost_percent"], 1.0);
 }
 
-TEST(EvalResidue, FaultsAreOneLine) {
+TEST(EvalGhostPoints, ErrorsAreOneLine) {
   const TempFolder folder;
   write_hall(folder.path() / "hall", 1);
   write_ply(folder.path() / "map.ply", points_at({{0, 0, 0}}));
-  expect_fault(run_mms(folder.path(), {"eval", "ghost-points", "hall", "map.ply"}),
+  expect_error(run_mms(folder.path(), {"eval", "ghost-points", "hall", "map.ply"}),
                "hall: has no depth images");
-  expect_fault(run_mms(folder.path(), {"eval", "ghost-points", "nowhere", "map.ply"}), "nowhere: ");
+  expect_error(run_mms(folder.path(), {"eval", "ghost-points", "nowhere", "map.ply"}), "nowhere: ");
 }
 
-/// One person and one vehicle in two images, the first of which is for training.
+/// One person and one vehicle in two images; the first image is for training.
 CocoDataset two_images() {
   const Rle mask{4, 3, {3, 6, 3}};
   CocoDataset truth;
@@ -130,7 +130,7 @@ CocoDataset two_images() {
   return truth;
 }
 
-/// A folder with the truth, and results that have the person but not the vehicle.
+/// A folder with the ground truth and results that contain only the person.
 class EvalSegmentation : public ::testing::Test {
  protected:
   EvalSegmentation() {
@@ -150,7 +150,7 @@ class EvalSegmentation : public ::testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(EvalSegmentation, JsonHasTheContractsKeys) {
+TEST_F(EvalSegmentation, JsonHasDocumentedKeys) {
   const Keys keys = {"AP",  "AP50", "AP75",  "APs", "APm", "APl",
                      "AR1", "AR10", "AR100", "ARs", "ARm", "ARl"};
   const auto json = json_of(run({"--json"}));
@@ -165,16 +165,16 @@ TEST_F(EvalSegmentation, JsonHasTheContractsKeys) {
   EXPECT_TRUE(json["APl"].is_null());
 }
 
-TEST_F(EvalSegmentation, TheTableHasALineAClass) {
+TEST_F(EvalSegmentation, TableHasLinePerClass) {
   const Outcome outcome = run({});
-  expect_done(outcome);
+  expect_success(outcome);
   expect_in("2 images with 2 objects; 1 of 1 results", outcome.out);
   expect_in("\nperson  1.000  1.000  1.000  1.000    n/a", outcome.out);
   expect_in("\nagv     0.000", outcome.out);
   expect_in("\nall     0.500", outcome.out);
 }
 
-TEST_F(EvalSegmentation, OneClassOrSplitAlone) {
+TEST_F(EvalSegmentation, SelectsClassOrSplit) {
   const auto person = json_of(run({"--json", "--category", "person"}));
   EXPECT_EQ(keys_of(person["per_class"]), (Keys{"person"}));
   EXPECT_NEAR(person["AP"], 1.0, 1e-9);
@@ -183,14 +183,14 @@ TEST_F(EvalSegmentation, OneClassOrSplitAlone) {
   EXPECT_TRUE(holdout["per_class"]["person"]["AP"].is_null());
 }
 
-TEST_F(EvalSegmentation, WrongNamesAreOneLine) {
-  expect_fault(run({"--category", "cat"}),
+TEST_F(EvalSegmentation, WrongNamesAreOneLineErrors) {
+  expect_error(run({"--category", "cat"}),
                "truth.json: has no class 'cat' (its classes are: agv, person)");
-  expect_fault(run({"--split", "test"}),
+  expect_error(run({"--split", "test"}),
                "truth.json: has no images of the split 'test' (its splits are: holdout, train)");
 }
 
-TEST_F(EvalSegmentation, BrokenFilesAreOneLine) {
+TEST_F(EvalSegmentation, DamagedFilesAreOneLineErrors) {
   folder_.write("cut.json", R"([{"image_id": 1)");
   folder_.write("empty.json", "");
   folder_.write("number.json", "[3]");
@@ -198,18 +198,19 @@ TEST_F(EvalSegmentation, BrokenFilesAreOneLine) {
                                  R"("segmentation": {"size": [3, 4], "counts": [12]}}])");
   folder_.write("turned.json", R"([{"image_id": 1, "category_id": 1, "score": 0.5,)"
                                R"("segmentation": {"size": [4, 3], "counts": [12]}}])");
-  const auto fault = [&](const std::string& found, const std::string& part) {
-    expect_fault(run({}, "truth.json", found), part);
+  const auto expect_error_of = [&](const std::string& found, const std::string& part) {
+    expect_error(run({}, "truth.json", found), part);
   };
-  fault("missing.json", "missing.json: ");
-  fault("cut.json", "cut.json: is no JSON: parse error");
-  fault("empty.json", "empty.json: is no JSON: parse error");
-  fault("number.json", "number.json: [0]: is a number, expected an object");
-  fault("truth.json", "truth.json: is no list of results");
-  fault("stranger.json", "stranger.json: [0].image_id: is 9, there is no such image");
-  fault("turned.json", "turned.json: [0].segmentation: is of 3 x 4 px, its image 1 of 4 x 3 px");
-  expect_fault(run({}, "cut.json"), "cut.json: is no JSON: parse error");
-  expect_fault(run({}, "found.json"), "found.json: is a list, as results are");
+  expect_error_of("missing.json", "missing.json: ");
+  expect_error_of("cut.json", "cut.json: is no JSON: parse error");
+  expect_error_of("empty.json", "empty.json: is no JSON: parse error");
+  expect_error_of("number.json", "number.json: [0]: is a number, expected an object");
+  expect_error_of("truth.json", "truth.json: is no list of results");
+  expect_error_of("stranger.json", "stranger.json: [0].image_id: is 9, there is no such image");
+  expect_error_of("turned.json",
+                  "turned.json: [0].segmentation: is of 3 x 4 px, its image 1 of 4 x 3 px");
+  expect_error(run({}, "cut.json"), "cut.json: is no JSON: parse error");
+  expect_error(run({}, "found.json"), "found.json: is a list, as results are");
 }
 
 /// The reference implementations' values for the shared trajectories.

@@ -19,7 +19,7 @@ using namespace testing;  // NOLINT: helpers of the tests
 using Words = std::vector<std::string>;
 
 constexpr int kFrames = 30;
-constexpr std::uintmax_t kFirstFrames = 20000;  // bytes of a journal with a few
+constexpr std::uintmax_t kFirstFrames = 20000;  // bytes of a journal with a few frames
 
 Words run_words(const std::string& out, const Words& more = {}) {
   Words words = {"run", "data", "--segmenter", "masks", "-o", out};
@@ -48,12 +48,12 @@ bool wait_for_size(const fs::path& file, std::uintmax_t size) {
   return wait_until([&] { return size_of(file) >= size; });
 }
 
-TEST(Kill, AJournalThatWasKeptHoldsTheRun) {
+TEST(Kill, KeptJournalHoldsWholeRun) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
-  expect_done(run_mms(folder.path(), run_words("out", {"--keep-journal"})));
+  expect_success(run_mms(folder.path(), run_words("out", {"--keep-journal"})));
   const Outcome outcome = run_mms(folder.path(), {"convert", "out", "-o", "copy/of/it"});
-  expect_done(outcome);
+  expect_success(outcome);
   expect_in("data: 30 frames up to stamp 101.93", outcome.out);
   EXPECT_EQ(outcome.out.find("nothing is known"), std::string::npos) << outcome.out;
   const fs::path out = folder.path() / "out";
@@ -66,10 +66,10 @@ TEST(Kill, AJournalThatWasKeptHoldsTheRun) {
   EXPECT_TRUE(fs::exists(copy / "static_map.pcd"));
 }
 
-TEST(Kill, LeavesWhatWasDoneUntilThen) {
+TEST(Kill, KilledRunLeavesResultsSoFar) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
-  expect_done(run_mms(folder.path(), run_words("whole", {"--keep-journal"})));
+  expect_success(run_mms(folder.path(), run_words("whole", {"--keep-journal"})));
   const std::uintmax_t size = size_of(folder.path() / "whole/journal.bin");
   const std::string trajectory = read_file(folder.path() / "whole/trajectory.tum");
   const std::size_t points = read_ply(folder.path() / "whole/static_map.ply").points.size();
@@ -82,7 +82,7 @@ TEST(Kill, LeavesWhatWasDoneUntilThen) {
                               static_cast<std::uintmax_t>(share * static_cast<double>(size))));
     run.send(SIGKILL);
     EXPECT_EQ(run.wait().exit_code, 128 + SIGKILL);
-    expect_done(run_mms(folder.path(), {"convert", "killed"}));
+    expect_success(run_mms(folder.path(), {"convert", "killed"}));
     EXPECT_TRUE(trajectory.starts_with(read_file(out / "trajectory.tum")));
     const std::size_t recovered = read_ply(out / "static_map.ply").points.size();
     EXPECT_GT(recovered, 1000U);
@@ -90,7 +90,7 @@ TEST(Kill, LeavesWhatWasDoneUntilThen) {
   }
 }
 
-TEST(Kill, SignalsThatAskLetTheRunWriteItsFiles) {
+TEST(Kill, TerminationSignalsLetRunWriteResults) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
   for (const int signal : {SIGTERM, SIGINT}) {
@@ -101,7 +101,7 @@ TEST(Kill, SignalsThatAskLetTheRunWriteItsFiles) {
     ASSERT_TRUE(wait_for_size(out / "journal.bin", kFirstFrames));
     run.send(signal);
     const Outcome outcome = run.wait();
-    expect_done(outcome);
+    expect_success(outcome);
     EXPECT_EQ(lines_with(outcome, "interrupted, writing what is done so far"), 1);
     const std::size_t poses = read_trajectory_tum(out / "trajectory.tum").size();
     EXPECT_GE(poses, 1U);
@@ -115,7 +115,7 @@ TEST(Kill, SignalsThatAskLetTheRunWriteItsFiles) {
   }
 }
 
-TEST(Kill, ASecondSignalEndsTheRunAtOnce) {
+TEST(Kill, SecondSignalEndsRunImmediately) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
   RunningMms run(folder.path(), run_words("out", {"--realtime"}));
@@ -127,14 +127,14 @@ TEST(Kill, ASecondSignalEndsTheRunAtOnce) {
   EXPECT_TRUE(fs::exists(folder.path() / "out/journal.bin"));
 }
 
-TEST(Kill, AJournalThatCannotBeWrittenCostsAWarning) {
+TEST(Kill, UnwritableJournalGivesWarning) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(3));
   fs::create_directory(folder.path() / "out");
   fs::create_symlink("/dev/full", folder.path() / "out/journal.bin");
   const Outcome outcome = run_mms(folder.path(), run_words("out"));
-  expect_done(outcome);
+  expect_success(outcome);
   EXPECT_EQ(lines_with(outcome, "warning: out/journal.bin: cannot be written: No space left"), 1);
   EXPECT_EQ(read_trajectory_tum(folder.path() / "out/trajectory.tum").size(), 3U);
 }

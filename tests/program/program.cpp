@@ -22,8 +22,8 @@ void redirect(const fs::path& file, int descriptor) {
   close(opened);
 }
 
-[[noreturn]] void become_program(const fs::path& folder, std::vector<char*>& arguments,
-                                 const fs::path& out, const fs::path& err) {
+[[noreturn]] void execute_program(const fs::path& folder, std::vector<char*>& arguments,
+                                  const fs::path& out, const fs::path& err) {
   redirect(out, STDOUT_FILENO);
   redirect(err, STDERR_FILENO);
   if (chdir(folder.c_str()) != 0) _exit(126);
@@ -49,8 +49,8 @@ void expect_one_error(const Outcome& outcome, int exit_code, const std::string& 
   int errors = 0;
   for (const std::string& line : lines_of(outcome.err)) {
     const bool progress = line.starts_with("frame ") || line.starts_with("picture ");
-    const bool aside = line.starts_with("warning: ") || progress;
-    EXPECT_TRUE(aside || line.starts_with("mms: ")) << line;
+    const bool is_allowed = line.starts_with("warning: ") || progress;
+    EXPECT_TRUE(is_allowed || line.starts_with("mms: ")) << line;
     if (!line.starts_with("mms: ")) continue;
     ++errors;
     expect_in(part, line);
@@ -68,7 +68,7 @@ RunningMms::RunningMms(const fs::path& folder, const std::vector<std::string>& a
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   child_ = fork();
-  if (child_ == 0) become_program(folder, pointers, folder / ".stdout", folder / ".stderr");
+  if (child_ == 0) execute_program(folder, pointers, folder / ".stdout", folder / ".stderr");
 }
 
 RunningMms::~RunningMms() {
@@ -105,15 +105,15 @@ Outcome run_mms(const fs::path& folder, const std::vector<std::string>& argument
   return RunningMms(folder, arguments).wait();
 }
 
-void expect_done(const Outcome& outcome) {
+void expect_success(const Outcome& outcome) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
 }
 
-void expect_fault(const Outcome& outcome, const std::string& part) {
+void expect_error(const Outcome& outcome, const std::string& part) {
   expect_one_error(outcome, 1, part);
 }
 
-void expect_usage_fault(const Outcome& outcome, const std::string& part) {
+void expect_usage_error(const Outcome& outcome, const std::string& part) {
   expect_one_error(outcome, 2, part);
 }
 

@@ -8,15 +8,15 @@
 
 namespace mms::testing {
 
-/// How a run of the program ended.
+/// Result of a run of the program.
 struct Outcome {
-  int exit_code = -1;  ///< 128 + the signal where one ended it
+  int exit_code = -1;  ///< 128 + the signal that ended it, if any
   std::string out;
   std::string err;
 };
 
-/// A run of the real program that goes on beside the test, in `folder`. One that was not waited for
-/// is killed.
+/// A run of the real program in `folder` concurrent to the test. The destructor kills it unless it
+/// was waited for.
 class RunningMms {
  public:
   RunningMms(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
@@ -26,10 +26,10 @@ class RunningMms {
 
   void send(int signal) const;
 
-  /// Whether it would handle `signal` itself.
+  /// Whether the program has a handler for `signal`.
   bool handles(int signal) const;
 
-  /// Waits for its end. Reports a sanitizer finding as a failure of the test.
+  /// Waits for its end. A sanitizer finding fails the test.
   Outcome wait();
 
  private:
@@ -37,24 +37,23 @@ class RunningMms {
   pid_t child_ = -1;
 };
 
-/// Runs the real program in `folder` and waits for its end. Reports a sanitizer finding as a
-/// failure of the test.
+/// Runs the real program in `folder` and waits for its end. A sanitizer finding fails the test.
 Outcome run_mms(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-/// Expects exit code 0, and says what the program said otherwise.
-void expect_done(const Outcome& outcome);
+/// Expects exit code 0, and prints the program's output otherwise.
+void expect_success(const Outcome& outcome);
 
-/// Expects exit code 1 and one line "mms: ..." that has `part` in it; besides it there may be only
-/// warnings and progress lines.
-void expect_fault(const Outcome& outcome, const std::string& part);
+/// Expects exit code 1 and one line "mms: ..." that contains `part`, beside warnings and progress
+/// lines.
+void expect_error(const Outcome& outcome, const std::string& part);
 
-/// Expects exit code 2 and one line "mms: ..." that has `part` in it.
-void expect_usage_fault(const Outcome& outcome, const std::string& part);
+/// Expects exit code 2 and one line "mms: ..." that contains `part`.
+void expect_usage_error(const Outcome& outcome, const std::string& part);
 
-/// Number of lines of stderr that have `part` in them.
+/// Number of lines of stderr that contain `part`.
 int lines_with(const Outcome& outcome, const std::string& part);
 
-/// Whether there is a program with libtorch, so that it can train networks.
+/// Whether the program is built with libtorch, which training needs.
 inline constexpr bool kHasTraining = MMS_WITH_TORCH;
 
 }  // namespace mms::testing

@@ -16,19 +16,19 @@ using namespace testing;  // NOLINT: helpers of the tests
 
 constexpr const char* kWeights = MMS_SOURCE_DIR "/weights/nano.safetensors";
 
-nlohmann::json found_with(const TempFolder& folder, const std::string& weights) {
-  expect_done(run_mms(folder.path(), {"segment", "data/images", "--weights", weights, "--json-only",
-                                      "-o", weights + ".found"}));
+nlohmann::json results_of(const TempFolder& folder, const std::string& weights) {
+  expect_success(run_mms(folder.path(), {"segment", "data/images", "--weights", weights,
+                                         "--json-only", "-o", weights + ".found"}));
   return nlohmann::json::parse(read_file(folder.path() / (weights + ".found") / "results.json"));
 }
 
-/// Each of the clear objects is among the others, in its picture, of its class, with its score.
-/// (Of those at the least score that is told, chance decides which are.)
+/// Every confident object is among the others, with its image, class and score. Those at the
+/// lowest score may differ.
 void expect_among(const nlohmann::json& objects, const nlohmann::json& others) {
-  std::size_t clear = 0;
+  std::size_t confident = 0;
   for (const nlohmann::json& object : objects) {
     if (object["score"] < 0.25) continue;
-    ++clear;
+    ++confident;
     EXPECT_TRUE(std::any_of(others.begin(), others.end(),
                             [&](const nlohmann::json& other) {
                               return other["image_id"] == object["image_id"] &&
@@ -38,37 +38,39 @@ void expect_among(const nlohmann::json& objects, const nlohmann::json& others) {
                             }))
         << object["image_id"] << ", " << object["score"];
   }
-  EXPECT_GE(clear, 4U);
+  EXPECT_GE(confident, 4U);
 }
 
-/// A file of bytes is half as large and finds the same.
-TEST(Quantize, WritesFloatsOrBytes) {
+/// A file with int8 weights is half as large and gives the same objects.
+TEST(Quantize, WritesFloatOrInt8Weights) {
   const TempFolder folder;
-  expect_done(run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
+  expect_success(
+      run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
   const auto quantize = [&](const char* output, const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"quantize", kWeights, "--data",      "data/images",
                                           "-o",       output,   "--long-side", "192"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run_mms(folder.path(), arguments);
-    expect_done(outcome);
+    expect_success(outcome);
     expect_in("calibrated on 4 pictures", outcome.out);
     return fs::file_size(folder.path() / output);
   };
   const auto floats = quantize("floats", {});
   const auto bytes = quantize("bytes", {"--int8-weights", "--float-layers", "backbone.conv1"});
   EXPECT_LT(bytes, 0.55 * static_cast<double>(floats));
-  const nlohmann::json wanted = found_with(folder, "floats");
-  const nlohmann::json found = found_with(folder, "bytes");
-  expect_among(wanted, found);
-  expect_among(found, wanted);
+  const nlohmann::json expected = results_of(folder, "floats");
+  const nlohmann::json found = results_of(folder, "bytes");
+  expect_among(expected, found);
+  expect_among(found, expected);
 }
 
-TEST(Quantize, FaultsAreOneLine) {
+TEST(Quantize, ErrorsAreOneLine) {
   const TempFolder folder;
-  expect_done(run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "1"}));
-  expect_fault(run_mms(folder.path(), {"quantize", kWeights, "--data", "none", "-o", "out"}),
+  expect_success(
+      run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "1"}));
+  expect_error(run_mms(folder.path(), {"quantize", kWeights, "--data", "none", "-o", "out"}),
                "none: ");
-  expect_fault(run_mms(folder.path(), {"quantize", kWeights, "--data", "data/images", "-o", "out",
+  expect_error(run_mms(folder.path(), {"quantize", kWeights, "--data", "data/images", "-o", "out",
                                        "--float-layers", "no.such"}),
                "has no convolution 'no.such'");
   EXPECT_FALSE(fs::exists(folder.path() / "out"));

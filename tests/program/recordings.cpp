@@ -86,11 +86,11 @@ LidarScan hall_scan(double x) {
   const Eigen::Vector3d from(x, 0.3, 0.2);
   LidarScan scan;
   for (int ring = 0; ring < kRings; ++ring) {
-    const double up = (-15.0 + 30.0 * ring / (kRings - 1)) * std::numbers::pi / 180.0;
+    const double elevation = (-15.0 + 30.0 * ring / (kRings - 1)) * std::numbers::pi / 180.0;
     for (int column = 0; column < kColumns; ++column) {
-      const double turn = 2.0 * std::numbers::pi * column / kColumns;
-      const Eigen::Vector3d ray(std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn),
-                                std::sin(up));
+      const double azimuth = 2.0 * std::numbers::pi * column / kColumns;
+      const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth),
+                                std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       scan.points.emplace_back((ray * distance_to_sides(from, ray, half)).cast<float>());
       scan.intensity.push_back(0.5F);
     }
@@ -127,7 +127,7 @@ std::set<std::string> keys_of(const nlohmann::json& object) {
   return keys;
 }
 
-std::string own_masks(const std::filesystem::path& data) {
+std::string segmenter_of(const std::filesystem::path& data) {
   return std::filesystem::exists(data / "masks") ? "masks" : "none";
 }
 

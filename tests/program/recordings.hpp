@@ -20,19 +20,19 @@ std::string frame_name(int index);
 /// the stamp 100 + i / hz.
 void write_scene(const std::filesystem::path& folder, const SceneConfig& config);
 
-/// A spinning LiDAR's scan of an empty hall, taken `x` metres from its middle.
+/// A spinning LiDAR's scan of an empty hall, at `x` metres from its center.
 LidarScan hall_scan(double x);
 
-/// Writes scans taken while driving 5 cm a frame as a KITTI folder of 000000.bin, 000001.bin, ...
+/// Writes scans of a sensor that moves 5 cm per frame as a KITTI folder of 000000.bin, ...
 void write_hall(const std::filesystem::path& folder, int frames);
 void write_scan(const std::filesystem::path& file, const LidarScan& scan);
 
-/// The parsed file; a failure of the test and null where it is none.
+/// The parsed file; null and a failure of the test if it is not JSON.
 nlohmann::json json_file(const std::filesystem::path& path);
 
 std::set<std::string> keys_of(const nlohmann::json& object);
 
-/// The --segmenter that gives a recording's own masks, if it has any: "masks" or "none".
-std::string own_masks(const std::filesystem::path& data);
+/// The --segmenter for the masks of a recording: "masks", or "none" if it has none.
+std::string segmenter_of(const std::filesystem::path& data);
 
 }  // namespace mms::testing

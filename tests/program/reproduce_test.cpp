@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 using namespace testing;  // NOLINT: helpers of the tests
 using Words = std::vector<std::string>;
 
-/// `mms reproduce` on small scenes with more words.
+/// `mms reproduce` on small scenes with more arguments.
 Outcome reproduce(const TempFolder& folder, const Words& more = {}) {
   Words words = {"reproduce",    "sim:still_walker?width=160",
                  "--trajectory", "sim:crowd?width=160",
@@ -23,7 +23,7 @@ Outcome reproduce(const TempFolder& folder, const Words& more = {}) {
   return run_mms(folder.path(), words);
 }
 
-/// Writes what benchmarks/table1.sh leaves of one training.
+/// Writes the files of benchmarks/table1.sh for one training.
 void write_training(const TempFolder& folder, const std::string& name, double ap) {
   const std::string value = std::to_string(ap);
   folder.write("runs/" + name + "/ap.json", "{\"AP\": " + value +
@@ -32,13 +32,13 @@ void write_training(const TempFolder& folder, const std::string& name, double ap
   folder.write("runs/" + name + "/ms", "12.5\n");
 }
 
-TEST(Reproduce, PutsThePapersTablesIntoOneReport) {
+TEST(Reproduce, WritesPaperTablesIntoReport) {
   const TempFolder folder;
   write_training(folder, "solov2-1", 0.4);
   write_training(folder, "solov2-2", 0.5);
   write_training(folder, "solov2+rfp-1", 0.6);
   const Outcome outcome = reproduce(folder, {"--trainings", "runs"});
-  expect_done(outcome);
+  expect_success(outcome);
   const auto tables = json_file(folder.path() / "out/reproduction.json")["tables"];
   ASSERT_EQ(tables.size(), 4U);
   EXPECT_EQ(tables[0]["rows"][0],
@@ -56,13 +56,13 @@ TEST(Reproduce, PutsThePapersTablesIntoOneReport) {
   EXPECT_TRUE(fs::exists(folder.path() / "out/loop_multimodal/semantic_map.ply"));
 }
 
-TEST(Reproduce, TrainingsThatAreNoneAreNamed) {
+TEST(Reproduce, ErrorsNameInvalidTrainings) {
   const TempFolder folder;
-  expect_fault(reproduce(folder, {"--trainings", "nowhere"}), "nowhere: is no folder");
+  expect_error(reproduce(folder, {"--trainings", "nowhere"}), "nowhere: is no folder");
   fs::create_directories(folder.path() / "empty");
-  expect_fault(reproduce(folder, {"--trainings", "empty"}), "empty: holds no finished training");
+  expect_error(reproduce(folder, {"--trainings", "empty"}), "empty: holds no finished training");
   folder.write("bad/solov2-1/ap.json", "{}");
-  expect_fault(reproduce(folder, {"--trainings", "bad"}), "ap.json");
+  expect_error(reproduce(folder, {"--trainings", "bad"}), "ap.json");
 }
 
 }  // namespace

@@ -29,10 +29,10 @@ std::ptrdiff_t pixels(const std::string& pgm, int value) {
                     static_cast<char>(value));
 }
 
-TEST(RobotMaps, ARunWritesAGridAndAnOctomapThatParse) {
+TEST(RobotMaps, RunWritesValidGridAndOctomap) {
   const TempFolder folder;
   const Outcome outcome = run_scene(folder);
-  expect_done(outcome);
+  expect_success(outcome);
   EXPECT_EQ(lines_with(outcome, "no floor"), 0) << outcome.err;
   const YAML::Node yaml = YAML::LoadFile((folder.path() / "out/map.yaml").string());
   EXPECT_EQ(yaml["image"].as<std::string>(), "map.pgm");
@@ -47,21 +47,21 @@ TEST(RobotMaps, ARunWritesAGridAndAnOctomapThatParse) {
   EXPECT_GT(tree.getNumLeafNodes(), 500U);
 }
 
-TEST(RobotMaps, TheyCanBeSwitchedOff) {
+TEST(RobotMaps, WritesNoneWhenDisabled) {
   const TempFolder folder;
   folder.write("off.yaml", "occupancy: {enabled: false}\n");
-  expect_done(run_scene(folder, {"-c", "off.yaml"}));
+  expect_success(run_scene(folder, {"-c", "off.yaml"}));
   EXPECT_TRUE(fs::exists(folder.path() / "out/static_map.ply"));
   for (const char* file : {"map.pgm", "map.yaml", "map.bt"}) {
     EXPECT_FALSE(fs::exists(folder.path() / "out" / file)) << file;
   }
 }
 
-TEST(RobotMaps, WithoutAFloorTheRunSaysSo) {
+TEST(RobotMaps, WarnsWithoutFloor) {
   const TempFolder folder;
   folder.write("large.yaml", "occupancy: {floor: {min_area: 10000}}\n");
   const Outcome outcome = run_scene(folder, {"-c", "large.yaml"});
-  expect_done(outcome);
+  expect_success(outcome);
   EXPECT_EQ(lines_with(outcome, "warning: no floor of 10000 m^2 was found"), 1) << outcome.err;
   EXPECT_TRUE(fs::exists(folder.path() / "out/map.yaml"));
 }

@@ -23,12 +23,12 @@ int count_lines(const std::string& text) {
   return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// Runs `mms run` on a small recording of the folder, with more arguments, into out/; on the
-/// recording's masks where they say nothing else.
+/// Runs `mms run` on the folder's recording into out/, with more arguments. By default, the masks
+/// are those of the recording.
 Outcome run_recording(const TempFolder& folder, const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {"run", "data", "-o", "out"};
   if (std::find(more.begin(), more.end(), "--segmenter") == more.end()) {
-    arguments.insert(arguments.end(), {"--segmenter", own_masks(folder.path() / "data")});
+    arguments.insert(arguments.end(), {"--segmenter", segmenter_of(folder.path() / "data")});
   }
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_mms(folder.path(), arguments);
@@ -39,11 +39,11 @@ void expect_time_statistics(const nlohmann::json& times) {
   EXPECT_LE(times["p50"], times["p99"]);
 }
 
-TEST(Run, WritesTheFilesOfTheContract) {
+TEST(Run, WritesDocumentedFiles) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
   const Outcome outcome = run_recording(folder);
-  expect_done(outcome);
+  expect_success(outcome);
   const fs::path out = folder.path() / "out";
   const Trajectory poses = read_trajectory_tum(out / "trajectory.tum");
   ASSERT_EQ(poses.size(), std::size_t{kFrames});
@@ -56,15 +56,15 @@ TEST(Run, WritesTheFilesOfTheContract) {
   EXPECT_EQ(map.normals.size(), map.points.size());
   EXPECT_FALSE(read_color(out / "pictures/map.png").empty());
   EXPECT_FALSE(read_color(out / "pictures/frame_01.png").empty());
-  expect_done(run_mms(folder.path(), {"config", "check", "out/config.yaml"}));
+  expect_success(run_mms(folder.path(), {"config", "check", "out/config.yaml"}));
   expect_in("report: out/report.html", outcome.out);
   expect_in("map:    out/static_map.ply", outcome.out);
 }
 
-TEST(Run, MetricsHaveTheKeysOfTheContract) {
+TEST(Run, MetricsHaveDocumentedKeys) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
-  expect_done(run_recording(folder));
+  expect_success(run_recording(folder));
   const auto metrics = json_file(folder.path() / "out/metrics.json");
   EXPECT_EQ(keys_of(metrics),
             (Keys{"frames", "frames_skipped", "hz", "ms_per_frame", "stages", "peak_rss_mb",
@@ -85,11 +85,11 @@ TEST(Run, MetricsHaveTheKeysOfTheContract) {
   EXPECT_EQ(keys_of(metrics["drift"]), (Keys{"poses", "atde_cm", "mtde_cm"}));
 }
 
-TEST(Run, WithoutTruthThereAreNoErrorsOfTheTrajectory) {
+TEST(Run, OmitsTrajectoryErrorsWithoutGroundTruth) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
   fs::remove(folder.path() / "data/groundtruth.txt");
-  expect_done(run_recording(folder));
+  expect_success(run_recording(folder));
   const Keys keys = keys_of(json_file(folder.path() / "out/metrics.json"));
   EXPECT_FALSE(keys.contains("trajectory"));
   EXPECT_FALSE(keys.contains("drift"));
@@ -98,7 +98,7 @@ TEST(Run, WithoutTruthThereAreNoErrorsOfTheTrajectory) {
 TEST(Run, ObjectsHaveIdClassBoxAndVelocity) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
-  expect_done(run_recording(folder));
+  expect_success(run_recording(folder));
   const auto objects = json_file(folder.path() / "out/objects.json");
   ASSERT_FALSE(objects["tracks"].empty());
   std::set<int> ids;
@@ -114,10 +114,10 @@ TEST(Run, ObjectsHaveIdClassBoxAndVelocity) {
   }
 }
 
-TEST(Run, TimingHasARowAFrameAndAColumnAStage) {
+TEST(Run, TimingHasRowPerFrameAndColumnPerStage) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
-  expect_done(run_recording(folder));
+  expect_success(run_recording(folder));
   const std::string timing = read_file(folder.path() / "out/timing.csv");
   EXPECT_EQ(count_lines(timing), kFrames + 1);
   expect_in(
@@ -125,10 +125,10 @@ TEST(Run, TimingHasARowAFrameAndAColumnAStage) {
       timing);
 }
 
-TEST(Run, TheReportStandsAlone) {
+TEST(Run, ReportHasNoExternalReferences) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
-  expect_done(run_recording(folder));
+  expect_success(run_recording(folder));
   const std::string report = read_file(folder.path() / "out/report.html");
   for (const char* part : {"<!DOCTYPE html>", "<svg", "data:image/", "</html>"}) {
     expect_in(part, report);
@@ -138,20 +138,20 @@ TEST(Run, TheReportStandsAlone) {
   }
 }
 
-TEST(Run, StartAndFramesChooseAPart) {
+TEST(Run, StartAndFramesSelectRange) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
-  expect_done(run_recording(folder, {"--start", "2", "--frames", "3"}));
+  expect_success(run_recording(folder, {"--start", "2", "--frames", "3"}));
   const Trajectory poses = read_trajectory_tum(folder.path() / "out/trajectory.tum");
   ASSERT_EQ(poses.size(), 3U);
   EXPECT_EQ(poses[0].stamp.to_string(), "100.133333333");
-  expect_fault(run_recording(folder, {"--start", "6"}), "--start: is 6, but data has 6 frames");
+  expect_error(run_recording(folder, {"--start", "6"}), "--start: is 6, but data has 6 frames");
 }
 
-TEST(Run, WithoutDataItPlaysTheWarehouseIntoResults) {
+TEST(Run, RunsWarehouseWithoutData) {
   const TempFolder folder;
   const Outcome outcome = run_mms(folder.path(), {"run", "--frames", "5"});
-  expect_done(outcome);
+  expect_success(outcome);
   const fs::path latest = folder.path() / "results/latest";
   EXPECT_TRUE(fs::is_symlink(latest));
   EXPECT_TRUE(fs::is_regular_file(latest / "report.html"));
@@ -159,38 +159,38 @@ TEST(Run, WithoutDataItPlaysTheWarehouseIntoResults) {
   expect_in("report: results/", outcome.out);
 }
 
-TEST(Run, LatestPointsToTheLastRun) {
+TEST(Run, LatestLinksToLastRun) {
   const TempFolder folder;
   const std::string small = "sim:corridor?width=320&frames=2";
-  expect_done(run_mms(folder.path(), {"run", small, "--segmenter", "masks"}));
+  expect_success(run_mms(folder.path(), {"run", small, "--segmenter", "masks"}));
   const fs::path first = fs::canonical(folder.path() / "results/latest");
-  expect_done(run_mms(folder.path(), {"run", small, "--segmenter", "masks"}));
+  expect_success(run_mms(folder.path(), {"run", small, "--segmenter", "masks"}));
   const fs::path second = fs::canonical(folder.path() / "results/latest");
   EXPECT_NE(first, second);
   EXPECT_TRUE(fs::exists(first / "metrics.json"));
 }
 
-TEST(Run, WithoutMasksNothingIsDynamic) {
+TEST(Run, NothingIsDynamicWithoutMasks) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--segmenter", "none"}, {"--fusion", "none"}}) {
-    expect_done(run_recording(folder, more));
+    expect_success(run_recording(folder, more));
     EXPECT_EQ(json_file(folder.path() / "out/metrics.json")["dynamic_share"], 0.0) << more[0];
   }
 }
 
-TEST(Run, TheFusionOfTheCommandLineIsTheEffectiveOne) {
+TEST(Run, FusionOptionOverridesConfig) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
   folder.write("settings.yaml", "fusion:\n  mode: none\nstatic_map:\n  voxel_size: 0.05\n");
-  expect_done(run_recording(folder, {"-c", "settings.yaml", "--fusion", "vision"}));
+  expect_success(run_recording(folder, {"-c", "settings.yaml", "--fusion", "vision"}));
   const std::string effective = read_file(folder.path() / "out/config.yaml");
   expect_in("mode: vision", effective);
   expect_in("voxel_size: 0.05", effective);
 }
 
-TEST(Run, WithoutRoomForPicturesAllElseIsWritten) {
+TEST(Run, WritesOtherResultsWhenPicturesFail) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
   folder.write("out/pictures", "a file");
@@ -201,37 +201,37 @@ TEST(Run, WithoutRoomForPicturesAllElseIsWritten) {
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/static_map.ply"));
 }
 
-TEST(Run, MasksMayLieElsewhere) {
+TEST(Run, ReadsMasksFromOtherFolder) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
   fs::rename(folder.path() / "data/masks", folder.path() / "people");
-  expect_fault(run_recording(folder, {"--segmenter", "masks"}), "data: has no masks (put label");
-  expect_done(run_recording(folder, {"--segmenter", "masks", "--masks", "people"}));
+  expect_error(run_recording(folder, {"--segmenter", "masks"}), "data: has no masks (put label");
+  expect_success(run_recording(folder, {"--segmenter", "masks", "--masks", "people"}));
   EXPECT_GT(json_file(folder.path() / "out/metrics.json")["dynamic_share"], 0.0);
 }
 
-TEST(Run, TakesAnotherNetwork) {
+TEST(Run, AcceptsOtherNetwork) {
   const TempFolder folder;
   const auto with = [&](const std::vector<std::string>& words) {
     std::vector<std::string> arguments = {"run", "sim:corridor?width=320&frames=2", "-o", "out"};
     arguments.insert(arguments.end(), words.begin(), words.end());
     return run_mms(folder.path(), arguments);
   };
-  expect_done(with({"--weights", MMS_SOURCE_DIR "/weights/nano.safetensors"}));
-  expect_fault(with({"--weights", "no.safetensors"}), "no.safetensors: ");
-  expect_usage_fault(with({"--weights", "no.safetensors", "--segmenter", "none"}),
+  expect_success(with({"--weights", MMS_SOURCE_DIR "/weights/nano.safetensors"}));
+  expect_error(with({"--weights", "no.safetensors"}), "no.safetensors: ");
+  expect_usage_error(with({"--weights", "no.safetensors", "--segmenter", "none"}),
                      "--weights: is for masks of the network, but they come from none");
 }
 
-TEST(Run, InRealTimeEveryFrameIsProcessedOrCounted) {
+TEST(Run, RealTimeProcessesOrCountsEveryFrame) {
   const TempFolder folder;
-  expect_done(run_mms(folder.path(), {"run", "sim:corridor?width=320&frames=8&hz=40", "--realtime",
-                                      "--segmenter", "masks", "-o", "out"}));
+  expect_success(run_mms(folder.path(), {"run", "sim:corridor?width=320&frames=8&hz=40",
+                                         "--realtime", "--segmenter", "masks", "-o", "out"}));
   const auto metrics = json_file(folder.path() / "out/metrics.json");
   EXPECT_EQ(metrics["frames"].get<int>() + metrics["frames_skipped"].get<int>(), 8);
 }
 
-TEST(Run, PipedProgressIsPlainLines) {
+TEST(Run, PipedProgressHasPlainLines) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
   const Outcome outcome = run_recording(folder);
@@ -239,10 +239,10 @@ TEST(Run, PipedProgressIsPlainLines) {
   EXPECT_EQ(outcome.err.find('\r'), std::string::npos);
 }
 
-TEST(Run, LocalisesALidar) {
+TEST(Run, LocalizesLidar) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 4);
-  expect_done(run_recording(folder));
+  expect_success(run_recording(folder));
   const Trajectory poses = read_trajectory_tum(folder.path() / "out/trajectory.tum");
   ASSERT_EQ(poses.size(), 4U);
   EXPECT_EQ(poses[3].stamp.to_string(), "0.300000000");

@@ -16,10 +16,10 @@ using namespace testing;  // NOLINT: helpers of the tests
 
 constexpr const char* kWeights = MMS_SOURCE_DIR "/weights/nano.safetensors";
 
-TEST(Segment, FindsThePeopleOfTheSimulation) {
+TEST(Segment, FindsPeopleOfSimulation) {
   const TempFolder folder;
   const Outcome outcome = run_mms(folder.path(), {"segment", "sim:crowd?frames=3", "-o", "out"});
-  expect_done(outcome);
+  expect_success(outcome);
   expect_in("out: 3 pictures, ", outcome.out);
   const CocoDataset images = read_coco(folder.path() / "out/images.json");
   ASSERT_EQ(images.images.size(), 3U);
@@ -39,7 +39,7 @@ TEST(Segment, FindsThePeopleOfTheSimulation) {
   EXPECT_EQ(list_folder(folder.path() / "out/overlays").size(), 3U);
 }
 
-TEST(Segment, KeepsTheIdsOfACocoFile) {
+TEST(Segment, KeepsIdsOfCocoFile) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "data");
   CocoDataset dataset;
@@ -54,21 +54,21 @@ TEST(Segment, KeepsTheIdsOfACocoFile) {
                               .split = id == 7 ? "train" : "holdout"});
   }
   write_coco(folder.path() / "truth.json", dataset);
-  expect_done(run_mms(folder.path(), {"segment", "data", "--annotations", "truth.json", "--split",
-                                      "holdout", "--json-only", "-o", "out"}));
+  expect_success(run_mms(folder.path(), {"segment", "data", "--annotations", "truth.json",
+                                         "--split", "holdout", "--json-only", "-o", "out"}));
   const CocoDataset images = read_coco(folder.path() / "out/images.json");
   ASSERT_EQ(images.images.size(), 1U);
   EXPECT_EQ(images.images[0].id, 9);
   EXPECT_FALSE(fs::exists(folder.path() / "out/masks"));
 }
 
-TEST(Segment, PicturesThatDifferInTheirExtensionKeepIt) {
+TEST(Segment, KeepsExtensionOfAmbiguousNames) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "data");
   write_file(folder.path() / "data/a.jpg", encode_jpeg(Image<Rgb>(64, 48)));
   write_png(folder.path() / "data/a.png", Image<Rgb>(80, 60));
   write_png(folder.path() / "data/b.png", Image<Rgb>(96, 72));
-  expect_done(run_mms(folder.path(), {"segment", "data", "-o", "out"}));
+  expect_success(run_mms(folder.path(), {"segment", "data", "-o", "out"}));
   EXPECT_EQ(list_folder(folder.path() / "out/masks"),
             (std::vector<std::string>{"a.jpg.png", "a.png.png", "b.png"}));
   EXPECT_EQ(list_folder(folder.path() / "out/overlays"),
@@ -80,8 +80,8 @@ TEST(Segment, PicturesThatDifferInTheirExtensionKeepIt) {
   EXPECT_EQ(images.images[1].file_name, "a.png");
 }
 
-/// Pictures of one name in two folders, and one that is named as a longer name would be.
-TEST(Segment, PicturesOfOneNameAreNumbered) {
+/// Images of one name in two folders, and one with the name that an extension would give.
+TEST(Segment, NumbersImagesOfEqualName) {
   const TempFolder folder;
   CocoDataset dataset;
   dataset.categories = {{1, "person"}};
@@ -92,7 +92,7 @@ TEST(Segment, PicturesOfOneNameAreNumbered) {
     dataset.images.push_back({.id = id, .file_name = name, .width = 64, .height = 48});
   }
   write_coco(folder.path() / "truth.json", dataset);
-  expect_done(
+  expect_success(
       run_mms(folder.path(), {"segment", "data", "--annotations", "truth.json", "-o", "out"}));
   EXPECT_EQ(list_folder(folder.path() / "out/masks"),
             (std::vector<std::string>{"a.png-2.png", "a.png-3.png", "a.png.png"}));
@@ -106,49 +106,49 @@ Outcome segment_with(const TempFolder& folder, const std::string& bytes) {
                  {"segment", "picture.png", "--weights", "bad.safetensors", "-o", "out"});
 }
 
-TEST(Segment, DamagedWeightsAreOneLine) {
+TEST(Segment, DamagedWeightsAreOneLineError) {
   const TempFolder folder;
-  const std::string good = read_file(kWeights);
-  expect_fault(segment_with(folder, ""), "bad.safetensors: ");
-  expect_fault(segment_with(folder, good.substr(0, 100)), "bad.safetensors: ");
-  expect_fault(segment_with(folder, good.substr(0, good.size() - 7)), "bad.safetensors: ");
-  expect_fault(segment_with(folder, std::string(64, '\xff')), "bad.safetensors: ");
-  expect_fault(segment_with(folder, "<html>not found</html>"), "bad.safetensors: ");
+  const std::string valid = read_file(kWeights);
+  expect_error(segment_with(folder, ""), "bad.safetensors: ");
+  expect_error(segment_with(folder, valid.substr(0, 100)), "bad.safetensors: ");
+  expect_error(segment_with(folder, valid.substr(0, valid.size() - 7)), "bad.safetensors: ");
+  expect_error(segment_with(folder, std::string(64, '\xff')), "bad.safetensors: ");
+  expect_error(segment_with(folder, "<html>not found</html>"), "bad.safetensors: ");
 }
 
-TEST(Segment, WeightsOfAnotherNetworkAreOneLine) {
+TEST(Segment, WeightsOfOtherNetworkAreOneLineError) {
   const TempFolder folder;
   Weights weights = read_safetensors(kWeights);
   weights.tensors.erase("neck.fpn_convs.1.conv.weight");
   write_safetensors(folder.path() / "made.safetensors", weights);
-  expect_fault(segment_with(folder, read_file(folder.path() / "made.safetensors")),
+  expect_error(segment_with(folder, read_file(folder.path() / "made.safetensors")),
                "lacks the network's tensor neck.fpn_convs.1.conv.weight");
   weights.metadata.clear();
   write_safetensors(folder.path() / "made.safetensors", weights);
-  expect_fault(segment_with(folder, read_file(folder.path() / "made.safetensors")),
+  expect_error(segment_with(folder, read_file(folder.path() / "made.safetensors")),
                "does not say what network it is for");
 }
 
-TEST(Segment, MissingThingsAreOneLine) {
+TEST(Segment, MissingFilesAreOneLineErrors) {
   const TempFolder folder;
-  expect_fault(run_mms(folder.path(), {"segment", "none", "-o", "out"}),
+  expect_error(run_mms(folder.path(), {"segment", "none", "-o", "out"}),
                "none: there is no such recording");
   write_png(folder.path() / "picture.png", Image<Rgb>(64, 48));
-  expect_fault(run_mms(folder.path(),
+  expect_error(run_mms(folder.path(),
                        {"segment", "picture.png", "--weights", "no.safetensors", "-o", "out"}),
                "no.safetensors: ");
   folder.write("broken.json", "{\"images\": [");
-  expect_fault(
+  expect_error(
       run_mms(folder.path(), {"segment", ".", "--annotations", "broken.json", "-o", "out"}),
       "broken.json: ");
 }
 
-TEST(Import, SaysWhatACheckpointLacks) {
+TEST(Import, ErrorNamesMissingTensors) {
   const TempFolder folder;
   Weights weights;
   weights.tensors["conv1.weight"] = {{1}, {0.0F}};
   write_safetensors(folder.path() / "other.safetensors", weights);
-  expect_fault(run_mms(folder.path(), {"import", "other.safetensors", "-o", "out.safetensors"}),
+  expect_error(run_mms(folder.path(), {"import", "other.safetensors", "-o", "out.safetensors"}),
                "other.safetensors: ");
   EXPECT_FALSE(fs::exists(folder.path() / "out.safetensors"));
 }

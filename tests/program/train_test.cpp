@@ -21,28 +21,30 @@ half_precision: false
 schedule: {images: 8, batch: 2, warm_up: 2}
 )";
 
-/// The whole way of a user: images of the simulator, a short training, its weights in use.
-TEST(Train, GivesWeightsThatSegment) {
+/// Complete workflow: simulated images, a short training, segmentation with its weights.
+TEST(Train, TrainsUsableWeights) {
   if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
-  expect_done(run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
+  expect_success(
+      run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
   folder.write("train.yaml", kConfig);
   const Outcome outcome = run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"});
-  expect_done(outcome);
+  expect_success(outcome);
   expect_in("weights: out/weights.safetensors", outcome.out);
   for (const char* file : {"checkpoint.pt", "log.json", "report.html", "config.yaml"}) {
     EXPECT_TRUE(fs::is_regular_file(folder.path() / "out" / file)) << file;
   }
-  expect_done(run_mms(folder.path(), {"segment", "data/images", "--weights",
-                                      "out/weights.safetensors", "-o", "found"}));
-  expect_done(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}));  // has ended
+  expect_success(run_mms(folder.path(), {"segment", "data/images", "--weights",
+                                         "out/weights.safetensors", "-o", "found"}));
+  expect_success(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}));  // has ended
 }
 
-/// The shipped weights are a plain network's: one with more parts goes on from them.
-TEST(Train, GoesOnFromAPlainerNetwork) {
+/// A network with more parts starts from the shipped weights of a simpler one.
+TEST(Train, StartsFromSimplerNetwork) {
   if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
-  expect_done(run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "2"}));
+  expect_success(
+      run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "2"}));
   folder.write("train.yaml", R"(
 network: {variant: solov2+detectors, long_side: 128, short_side: 96}
 initial_weights: )" MMS_SOURCE_DIR R"(/weights/nano.safetensors
@@ -51,24 +53,24 @@ data:
 half_precision: false
 schedule: {images: 2, batch: 2}
 )");
-  expect_done(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}));
+  expect_success(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}));
   const Outcome outcome = run_mms(folder.path(), {"info", "out/weights.safetensors"});
   expect_in("variant: solov2+detectors", outcome.out);
 }
 
-TEST(Train, FaultsAreOneLine) {
+TEST(Train, ErrorsAreOneLine) {
   if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
   const TempFolder folder;
   folder.write("train.yaml", "data:\n  - {annotations: none.json, splitt: x}\n");
-  expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
+  expect_error(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
                "train.yaml:2: unknown key 'data[0].splitt' (did you mean 'split'?)");
   folder.write("train.yaml", "data: {annotations: none.json}\n");
-  expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
+  expect_error(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
                "train.yaml:1: data is a group, expected a list of groups");
   folder.write("train.yaml", "data:\n  - {annotations: none.json}\n");
-  expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}), "none.json: ");
+  expect_error(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}), "none.json: ");
   folder.write("train.yaml", "network: {size: huge}\n");
-  expect_fault(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
+  expect_error(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
                "network.size is 'huge', allowed is one of nano, r18, r50");
 }
 

@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr int kFrames = 12;
 
-/// The port in the line that says where the viewer is, once it is there; 0 when it is not.
+/// The port in the viewer's address line; 0 if none appears.
 std::uint16_t port_of(const TempFolder& folder) {
   const std::string line = "viewer: http://localhost:";
   for (int i = 0; i < 6000; ++i) {
@@ -41,7 +41,7 @@ void run_scene(const TempFolder& folder, const std::vector<std::string>& more = 
   write_scene(folder.path() / "data", small_scene(kFrames));
   std::vector<std::string> words = {"run", "data", "--segmenter", "masks", "-o", "out"};
   words.insert(words.end(), more.begin(), more.end());
-  expect_done(run_mms(folder.path(), words));
+  expect_success(run_mms(folder.path(), words));
 }
 
 /// The first frame message with pictures.
@@ -52,7 +52,7 @@ DecodedMessage wait_for_pictures(ViewerClient& client) {
   }
 }
 
-TEST(View, ShowsAFinishedRunWithItsPictures) {
+TEST(View, ShowsFinishedRunWithPictures) {
   const TempFolder folder;
   run_scene(folder);
   RunningMms program(folder.path(), {"view", "out", "--port", "0"});
@@ -81,7 +81,7 @@ TEST(View, ShowsAFinishedRunWithItsPictures) {
   EXPECT_EQ(program.wait().exit_code, 0);
 }
 
-TEST(View, SaysWhyThereAreNoPicturesWhenTheRecordingIsGone) {
+TEST(View, ExplainsMissingPicturesWithoutRecording) {
   const TempFolder folder;
   run_scene(folder);
   fs::remove_all(folder.path() / "data");
@@ -93,17 +93,17 @@ TEST(View, SaysWhyThereAreNoPicturesWhenTheRecordingIsGone) {
   EXPECT_EQ(client.wait_for("frame").json["pictures"], "none");
   program.send(SIGTERM);
   const Outcome outcome = program.wait();
-  expect_done(outcome);
+  expect_success(outcome);
   EXPECT_EQ(lines_with(outcome, "warning: no images and scans to show"), 1);
 }
 
-TEST(View, SaysWhyThereAreNoPicturesWhenTheNetworkIsGone) {
+TEST(View, ExplainsMissingPicturesWithoutNetwork) {
   const TempFolder folder;
   const fs::path weights = folder.path() / "own.safetensors";
   fs::copy(MMS_SOURCE_DIR "/weights/nano.safetensors", weights);
   write_scene(folder.path() / "data", small_scene(3));
   folder.write("own.yaml", "segmentation: {weights: " + weights.string() + "}\n");
-  expect_done(run_mms(folder.path(), {"run", "data", "-c", "own.yaml", "-o", "out"}));
+  expect_success(run_mms(folder.path(), {"run", "data", "-c", "own.yaml", "-o", "out"}));
   fs::remove(weights);
   RunningMms program(folder.path(), {"view", "out", "--port", "0"});
   ViewerClient client(port_of(folder));
@@ -112,7 +112,7 @@ TEST(View, SaysWhyThereAreNoPicturesWhenTheNetworkIsGone) {
   expect_in("own.safetensors", hello["pictures_note"].get<std::string>());
 }
 
-TEST(View, ShowsWhatAKilledRunLeft) {
+TEST(View, ShowsKilledRun) {
   const TempFolder folder;
   run_scene(folder, {"--keep-journal"});
   fs::create_directories(folder.path() / "killed");
@@ -123,7 +123,7 @@ TEST(View, ShowsWhatAKilledRunLeft) {
   EXPECT_GT(client.wait_for("map").values<float>("points").size(), 0U);
 }
 
-TEST(View, ShowsARunWhileItGoesOn) {
+TEST(View, ShowsLiveRun) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(30));
   RunningMms program(folder.path(), {"run", "data", "--segmenter", "masks", "-o", "out",
@@ -138,12 +138,12 @@ TEST(View, ShowsARunWhileItGoesOn) {
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(pose[axis], truth[axis], 0.05F);
   client.wait_for("map");
   const Outcome outcome = program.wait();
-  expect_done(outcome);
+  expect_success(outcome);
   EXPECT_EQ(lines_with(outcome, "the viewer ends with the run"), 1);
   EXPECT_TRUE(fs::exists(folder.path() / "out/trajectory.tum"));
 }
 
-TEST(View, TheResultsAreTheSameBitsWithAndWithoutViewers) {
+TEST(View, ViewersDoNotChangeResults) {
   const TempFolder folder;
   run_scene(folder);
   RunningMms program(folder.path(),
@@ -151,13 +151,13 @@ TEST(View, TheResultsAreTheSameBitsWithAndWithoutViewers) {
   ViewerClient client(port_of(folder));
   while (client.read_bytes()) {
   }
-  expect_done(program.wait());
+  expect_success(program.wait());
   for (const char* file : {"trajectory.tum", "static_map.ply", "objects.json"}) {
     EXPECT_EQ(read_file(folder.path() / "out" / file), read_file(folder.path() / "seen" / file));
   }
 }
 
-TEST(View, WarnsWhenItIsOpenToTheNetwork) {
+TEST(View, WarnsWhenOpenToNetwork) {
   const TempFolder folder;
   run_scene(folder);
   RunningMms program(folder.path(), {"view", "out", "--port", "0", "--bind", "0.0.0.0"});
@@ -167,31 +167,31 @@ TEST(View, WarnsWhenItIsOpenToTheNetwork) {
   EXPECT_EQ(lines_with(program.wait(), "the viewer is open to the network"), 1);
 }
 
-TEST(View, NamesWhatIsWrong) {
+TEST(View, ErrorsExplainProblem) {
   const TempFolder folder;
   folder.write("empty/readme.txt", "x");
   folder.write("broken/trajectory.tum", "1 2 3\n");
   const auto view = [&](const std::string& where) {
     return run_mms(folder.path(), {"view", where, "--port", "0"});
   };
-  expect_fault(view("nowhere"), "nowhere: is not there");
-  expect_fault(view("empty/readme.txt"), "is no folder");
-  expect_fault(view("empty"), "holds no results of a run");
-  expect_fault(view("broken"), "trajectory.tum:1");
-  expect_usage_fault(run_mms(folder.path(), {"view", "empty", "--port", "70000"}), "70000");
-  expect_usage_fault(run_mms(folder.path(), {"run", "data", "--view", "99999"}), "is no port");
+  expect_error(view("nowhere"), "nowhere: is not there");
+  expect_error(view("empty/readme.txt"), "is no folder");
+  expect_error(view("empty"), "holds no results of a run");
+  expect_error(view("broken"), "trajectory.tum:1");
+  expect_usage_error(run_mms(folder.path(), {"view", "empty", "--port", "70000"}), "70000");
+  expect_usage_error(run_mms(folder.path(), {"run", "data", "--view", "99999"}), "is no port");
 }
 
-TEST(View, NamesAPortThatIsTaken) {
+TEST(View, ErrorNamesUsedPort) {
   const TempFolder folder;
   run_scene(folder);
   ServerOptions options;
   options.port = 0;
   const ViewerServer other(options, std::make_shared<Scene>(SceneInfo{}));
   const std::string port = std::to_string(other.port());
-  expect_fault(run_mms(folder.path(), {"view", "out", "--port", port}),
+  expect_error(run_mms(folder.path(), {"view", "out", "--port", port}),
                "port " + port + ": is in use");
-  expect_fault(run_mms(folder.path(), {"run", "data", "--segmenter", "masks", "--view", port}),
+  expect_error(run_mms(folder.path(), {"run", "data", "--segmenter", "masks", "--view", port}),
                "--view PORT");
   EXPECT_FALSE(fs::exists(folder.path() / "results")) << "no run began";
 }
