@@ -27,7 +27,7 @@ ConvLayerPtr with_weights(ConvLayer layer) {
   return std::make_shared<ConvLayer>(std::move(layer));
 }
 
-/// The definition, loop by loop.
+/// The definition, with a loop for every sum.
 std::vector<float> convolved(const ConvLayer& layer, const std::vector<float>& weight,
                              const Shape& in, const std::vector<float>& x, const Shape& out,
                              const std::vector<float>& residual) {
@@ -77,7 +77,7 @@ std::vector<Case> cases() {
   };
 }
 
-TEST(ConvolutionKernel, EqualsTheDefinition) {
+TEST(ConvolutionKernel, EqualsDefinition) {
   ConvolutionLibrary library;
   for (const Case& c : cases()) {
     const ConvLayerPtr layer = with_weights(c.layer);
@@ -93,13 +93,14 @@ TEST(ConvolutionKernel, EqualsTheDefinition) {
                              c.residual ? std::optional<Format>(Format{}) : std::nullopt);
     kernel.run(library.stream());
     library.stream().wait();
-    const auto wanted = convolved(*layer, layer->weight, in, x.values(), out, residual);
-    const auto got = y.values();
-    for (std::size_t i = 0; i < wanted.size(); ++i) ASSERT_NEAR(got[i], wanted[i], 1e-3F) << i;
+    const auto expected = convolved(*layer, layer->weight, in, x.values(), out, residual);
+    const auto actual = y.values();
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      ASSERT_NEAR(actual[i], expected[i], 1e-3F) << i;
   }
 }
 
-/// The weights as the bytes stand for them.
+/// The weights after quantization to int8.
 std::vector<float> stored_weights(const ConvLayer& layer, const std::vector<float>& scales) {
   std::vector<float> weight = layer.weight;
   const auto count = static_cast<std::size_t>(layer.inputs_per_output());
@@ -110,7 +111,7 @@ std::vector<float> stored_weights(const ConvLayer& layer, const std::vector<floa
   return weight;
 }
 
-TEST(ConvolutionKernel, InBytesRoundsNothingButItsOutput) {
+TEST(ConvolutionKernel, Int8RoundsOnlyOutput) {
   ConvolutionLibrary library;
   for (const Number number : {Number::kUnsigned8, Number::kSigned8}) {
     for (const Case& c : cases()) {
@@ -131,21 +132,21 @@ TEST(ConvolutionKernel, InBytesRoundsNothingButItsOutput) {
                                c.residual ? std::optional(residual_format) : std::nullopt);
       kernel.run(library.stream());
       library.stream().wait();
-      const auto wanted =
+      const auto expected =
           convolved(*layer, stored_weights(*layer, library.weight_scales(layer)), in, x.values(),
                     out, c.residual ? residual.values() : std::vector<float>{});
-      const auto got = y.values();
-      for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const auto actual = y.values();
+      for (std::size_t i = 0; i < expected.size(); ++i) {
         const bool positive = c.layer.relu;
-        const float limited = std::clamp(wanted[i], format.scale * (positive ? 0.0F : -128.0F),
+        const float limited = std::clamp(expected[i], format.scale * (positive ? 0.0F : -128.0F),
                                          format.scale * (positive ? 255.0F : 127.0F));
-        ASSERT_NEAR(got[i], limited, 0.51F * format.scale + 1e-4F) << i;
+        ASSERT_NEAR(actual[i], limited, 0.51F * format.scale + 1e-4F) << i;
       }
     }
   }
 }
 
-TEST(ConvolutionLibrary, KeepsOneCopyOfWeightsOfOneForm) {
+TEST(ConvolutionLibrary, KeepsOneCopyOfEqualWeights) {
   ConvolutionLibrary library;
   const ConvLayerPtr layer = with_weights({.in = 16, .out = 16, .kernel = 3});
   const dnnl::memory::desc plain({16, 16, 3, 3}, dnnl::memory::data_type::f32,

@@ -21,7 +21,7 @@ inline std::vector<float> random_numbers(std::size_t count, float deviation, uns
   return values;
 }
 
-/// A map with memory of its own.
+/// A tensor that owns its memory.
 struct OwnTensor {
   OwnTensor(const engine::Shape& shape, const engine::Format& format = {})
       : memory(static_cast<std::size_t>(shape.count()) * sizeof(float) + engine_alignment),
@@ -56,12 +56,12 @@ struct OwnTensor {
   }
 };
 
-/// Spread of a convolution's weights with which the maps keep their size.
-inline float fitting_spread(const TensorShape& shape) {
+/// Standard deviation of a convolution's weights that keeps the magnitude of maps.
+inline float fitting_deviation(const TensorShape& shape) {
   return std::sqrt(1.5F / static_cast<float>(shape[1] * shape[2] * shape[3]));
 }
 
-/// A network with chance weights.
+/// A network with random weights.
 inline SegmentationModel random_model(const NetworkConfig& config, unsigned seed) {
   SegmentationModel model{config, {"person", "agv"}, {}};
   const TensorShapes shapes = expected_tensors(config);
@@ -75,14 +75,14 @@ inline SegmentationModel random_model(const NetworkConfig& config, unsigned seed
       tensor.values.assign(count, 0.0F);
     } else if (name.ends_with("weight_gamma")) {
       const std::string weight = name.substr(0, name.size() - std::string("_gamma").size());
-      tensor.values.assign(count, fitting_spread(shapes.at(weight)));
+      tensor.values.assign(count, fitting_deviation(shapes.at(weight)));
     } else if (name.ends_with("switch.bias")) {
       tensor.values.assign(count, 0.8F);
     } else if (name.find("switch") != std::string::npos || name.ends_with("weight_diff") ||
                name.find("context") != std::string::npos) {
       tensor.values = random_numbers(count, 0.01F, seed);
     } else if (shape.size() == 4) {
-      tensor.values = random_numbers(count, fitting_spread(shape), seed);
+      tensor.values = random_numbers(count, fitting_deviation(shape), seed);
     } else if (name.ends_with("weight")) {
       tensor.values = random_numbers(count, 0.1F, seed, 1.0F);
     } else {

@@ -23,14 +23,14 @@ ConvLayerPtr pointwise(std::vector<float> weight, std::vector<float> bias) {
   return std::make_shared<ConvLayer>(std::move(layer));
 }
 
-TEST(Resizer, DoublesARowAsLibtorchDoes) {
+TEST(Resizer, DoublesRowAsLibtorch) {
   const OwnTensor x({1, 2, 1}, {0.0F, 4.0F});
   const OwnTensor y({1, 4, 1});
   Resizer({.bilinear = true}, x.tensor.shape, y.tensor.shape).run(x.tensor, nullptr, y.tensor);
   EXPECT_EQ(y.values(), (std::vector<float>{0.0F, 1.0F, 3.0F, 4.0F}));
 }
 
-TEST(Resizer, LeavesAMapOfThatSizeAsItIs) {
+TEST(Resizer, KeepsMapOfEqualSize) {
   const Shape shape = {5, 7, 66};
   const OwnTensor x(shape, numbers(shape, 1));
   const OwnTensor y(shape);
@@ -40,7 +40,7 @@ TEST(Resizer, LeavesAMapOfThatSizeAsItIs) {
   }
 }
 
-TEST(Resizer, RepeatsTheNearestAndAdds) {
+TEST(Resizer, RepeatsNearestAndAdds) {
   const OwnTensor x({1, 2, 2}, {1.0F, 2.0F, 3.0F, 4.0F});
   const OwnTensor addend({2, 4, 2}, std::vector<float>(16, 10.0F));
   const OwnTensor y({2, 4, 2});
@@ -52,7 +52,7 @@ TEST(Resizer, RepeatsTheNearestAndAdds) {
   EXPECT_EQ(y.at(1, 3, 1), 14.0F);
 }
 
-TEST(Resizer, KeepsAPlaneAPlaneInside) {
+TEST(Resizer, KeepsPlaneInside) {
   const Shape from = {8, 8, 1};
   std::vector<float> plane;
   for (int y = 0; y < 8; ++y) {
@@ -71,7 +71,7 @@ TEST(Resizer, KeepsAPlaneAPlaneInside) {
   }
 }
 
-TEST(Concatenation, LaysChannelsSideBySide) {
+TEST(Concatenation, ConcatenatesChannels) {
   const Shape a = {3, 4, 2};
   const Shape b = {3, 4, 3};
   const OwnTensor first(a, numbers(a, 2));
@@ -83,7 +83,7 @@ TEST(Concatenation, LaysChannelsSideBySide) {
   EXPECT_EQ(y.at(0, 3, 4), second.at(0, 3, 2));
 }
 
-TEST(GlobalContextOperation, AddsALayerOfTheMeanScalesAndLimits) {
+TEST(GlobalContextOperation, AddsLayerOfMeanScalesAndLimits) {
   const OwnTensor x({1, 2, 2}, {1.0F, -2.0F, 3.0F, -4.0F});  // mean (2, -3)
   const OwnTensor residual({1, 2, 2}, {0.0F, 0.0F, 0.0F, 100.0F});
   const OwnTensor y({1, 2, 2});
@@ -96,7 +96,7 @@ TEST(GlobalContextOperation, AddsALayerOfTheMeanScalesAndLimits) {
   EXPECT_EQ(y.values(), (std::vector<float>{7.0F, 0.0F, 11.0F, 91.0F}));
 }
 
-TEST(GateOperation, AveragesAMirroredBoxAtEverySecondPixel) {
+TEST(GateOperation, AveragesMirroredBoxWithStride) {
   std::vector<float> values(25, 0.0F);
   values[0] = 25.0F;  // a corner: mirrored, it is itself once, its neighbours twice
   values[1] = 50.0F;
@@ -110,7 +110,7 @@ TEST(GateOperation, AveragesAMirroredBoxAtEverySecondPixel) {
   EXPECT_FLOAT_EQ(y.at(2, 2, 0), 0.0F);
 }
 
-TEST(GateOperation, WeighsChannelsThroughASigmoid) {
+TEST(GateOperation, WeightsChannelsThroughSigmoid) {
   const OwnTensor x({1, 1, 2}, {1.0F, 2.0F});
   const OwnTensor y({1, 1, 1});
   std::vector<float> scratch(1);
@@ -119,7 +119,7 @@ TEST(GateOperation, WeighsChannelsThroughASigmoid) {
   EXPECT_FLOAT_EQ(y.at(0, 0, 0), 0.5F);
 }
 
-TEST(Blend, TakesSharesByTheGate) {
+TEST(Blend, MixesByGate) {
   const OwnTensor a({1, 2, 2}, {1.0F, 2.0F, 3.0F, 4.0F});
   const OwnTensor b({1, 2, 2}, {5.0F, 6.0F, 7.0F, 8.0F});
   const OwnTensor gate({1, 2, 1}, {1.0F, 0.25F});
@@ -128,23 +128,23 @@ TEST(Blend, TakesSharesByTheGate) {
   EXPECT_EQ(y.values(), (std::vector<float>{1.0F, 2.0F, 6.0F, 7.0F}));
 }
 
-TEST(GlobalBranchOperation, IsTheSameEverywhere) {
+TEST(GlobalBranchOperation, IsConstantOverImage) {
   const OwnTensor x({1, 2, 1}, {1.0F, 3.0F});
   const OwnTensor y({1, 2, 2});
   compute_global_branch({pointwise({2.0F, -1.0F}, {1.0F, 0.0F})}, x.tensor, y.tensor);
   EXPECT_EQ(y.values(), (std::vector<float>{5.0F, 0.0F, 5.0F, 0.0F}));
 }
 
-TEST(GroupNormOperation, NormalisesEachGroupAndLimits) {
+TEST(GroupNormOperation, NormalizesEachGroupAndLimits) {
   const OwnTensor x({1, 2, 4}, {1.0F, 3.0F, 10.0F, 10.0F, 1.0F, 3.0F, 30.0F, 30.0F});
   const OwnTensor y({1, 2, 4});
   normalise_groups({.groups = 2, .gamma = {1, 1, 2, 1}, .beta = {0, 0, 0, 5}}, x.tensor, y.tensor);
-  const std::vector<float> wanted = {0.0F, 1.0F, 0.0F, 4.0F, 0.0F, 1.0F, 2.0F, 6.0F};
-  const std::vector<float> got = y.values();
-  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(got[i], wanted[i], 1e-4F) << i;
+  const std::vector<float> expected = {0.0F, 1.0F, 0.0F, 4.0F, 0.0F, 1.0F, 2.0F, 6.0F};
+  const std::vector<float> actual = y.values();
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(actual[i], expected[i], 1e-4F) << i;
 }
 
-TEST(Conversion, RoundsToTheNearestByteAndLimits) {
+TEST(Conversion, RoundsToInt8AndLimits) {
   const OwnTensor x({1, 6, 1}, {-1000.0F, -0.76F, -0.2F, 0.26F, 1.0F, 1000.0F});
   const OwnTensor bytes({1, 6, 1}, Format{Number::kSigned8, 0.5F});
   convert(x.tensor, bytes.tensor);

@@ -22,7 +22,7 @@ std::vector<float> mask_features(NetworkEngine& engine, const PreparedImage& ima
   return {maps.mask_features.data, maps.mask_features.data + count};
 }
 
-TEST(NetworkEngine, HasMapsOfTheHeadsSizes) {
+TEST(NetworkEngine, HasMapsOfHeadSizes) {
   NetworkEngine engine(random_model({}, 1), "net", {});
   const HeadMaps maps = engine.run(random_image(96, 128, 1));
   EXPECT_EQ(maps.mask_height, 24);
@@ -32,7 +32,7 @@ TEST(NetworkEngine, HasMapsOfTheHeadsSizes) {
   EXPECT_EQ(maps.kernels[4].pitch, 64);
 }
 
-TEST(NetworkEngine, GivesTheSameHoweverManySizesCameBetween) {
+TEST(NetworkEngine, IsIndependentOfEarlierSizes) {
   NetworkEngine engine(random_model({}, 1), "net", {});
   const PreparedImage image = random_image(96, 128, 1);
   const std::vector<float> first = mask_features(engine, image);
@@ -40,7 +40,7 @@ TEST(NetworkEngine, GivesTheSameHoweverManySizesCameBetween) {
   EXPECT_EQ(mask_features(engine, image), first);
 }
 
-TEST(NetworkEngine, GivesTheSameWithAnyNumberOfThreads) {
+TEST(NetworkEngine, SameResultForAnyThreadCount) {
   const NetworkConfig config =
       NetworkConfig::preset(NetworkSize::kNano, NetworkVariant::kDetectors);
   NetworkEngine engine(random_model(config, 1), "net", {});
@@ -53,18 +53,18 @@ TEST(NetworkEngine, GivesTheSameWithAnyNumberOfThreads) {
   omp_set_num_threads(before);
 }
 
-TEST(NetworkEngine, SaysWhatDoesNotFit) {
-  SegmentationModel lacking = random_model({}, 1);
-  lacking.weights.tensors.erase("mask_head.conv_cls.bias");
+TEST(NetworkEngine, ErrorsExplainMismatch) {
+  SegmentationModel incomplete = random_model({}, 1);
+  incomplete.weights.tensors.erase("mask_head.conv_cls.bias");
   expect_in("net.file: lacks the network's tensor mask_head.conv_cls.bias",
-            message_of<DataError>([&] { NetworkEngine(lacking, "net.file", {}); }));
+            message_of<DataError>([&] { NetworkEngine(incomplete, "net.file", {}); }));
   SegmentationModel deformable{
       NetworkConfig::preset(NetworkSize::kR50, NetworkVariant::kSac), {"person", "agv"}, {}};
   expect_in("deformable",
             message_of<DataError>([&] { NetworkEngine(deformable, "net.file", {}); }));
 }
 
-TEST(EngineDetector, TakesPicturesOfAnySize) {
+TEST(EngineDetector, AcceptsImagesOfAnySize) {
   EngineDetector detector(random_model({}, 1), "net", {}, {}, 1);
   EXPECT_EQ(detector.classes().size(), 2U);
   for (const auto& [width, height] : {std::pair{640, 480}, {1, 1}, {480, 640}, {2000, 50}}) {

@@ -18,7 +18,7 @@ void drop_counters(Weights& weights) {
                 [](const auto& item) { return item.first.ends_with("num_batches_tracked"); });
 }
 
-/// Weights of the smallest network: quick to make, and named as the network names them.
+/// Weights of the smallest network, with its own tensor names.
 Weights small_checkpoint() {
   Weights weights;
   for (const auto& [name, shape] : expected_tensors(NetworkConfig())) {
@@ -27,14 +27,14 @@ Weights small_checkpoint() {
   return weights;
 }
 
-std::string fault_of(const Weights& weights) {
+std::string error_of(const Weights& weights) {
   const std::string message =
       message_of<DataError>([&] { import_checkpoint(weights, "net.safetensors"); });
   EXPECT_TRUE(message.starts_with("net.safetensors: ")) << message;
   return message;
 }
 
-TEST(CheckpointImport, TakesMmdetectionAsItIs) {
+TEST(CheckpointImport, ImportsMmdetectionUnchanged) {
   Weights published = published_checkpoint(Naming{}, kFullHead);
   published.metadata["format"] = "pt";
   EXPECT_EQ(published.tensors.at("backbone.layer4.0.downsample.0.weight").shape,
@@ -60,40 +60,40 @@ TEST(CheckpointImport, TakesMmdetectionAsItIs) {
   EXPECT_FALSE(config.head.shared_tower);
 }
 
-TEST(CheckpointImport, TakesSolo) {
+TEST(CheckpointImport, ImportsSolo) {
   const Weights solo = published_checkpoint(solo_names(), kLightHead);
   ASSERT_TRUE(solo.tensors.contains("state_dict.module.bbox_head.solo_cate.weight"));
   ASSERT_TRUE(solo.tensors.contains("state_dict.module.mask_feat_head.conv_pred.0.gn.bias"));
   const ImportedNetwork imported = import_checkpoint(solo, "net");
-  Weights wanted = published_checkpoint(Naming{}, kLightHead);
-  drop_counters(wanted);
-  EXPECT_EQ(imported.weights, wanted);
+  Weights expected = published_checkpoint(Naming{}, kLightHead);
+  drop_counters(expected);
+  EXPECT_EQ(imported.weights, expected);
   EXPECT_EQ(imported.config.long_side, 768);
   EXPECT_EQ(imported.config.head.kernel_channels, 128);
 }
 
-TEST(CheckpointImport, TakesAdelaidetWithOurColours) {
+TEST(CheckpointImport, ImportsAdelaidetWithSwappedColors) {
   Weights adelaidet = published_checkpoint(adelaidet_names(), kLightHead);
   ASSERT_TRUE(adelaidet.tensors.contains("backbone.bottom_up.res5.2.conv3.norm.running_var"));
   ASSERT_TRUE(adelaidet.tensors.contains("ins_head.cate_tower.4.bias"));
-  WeightTensor& theirs = adelaidet.tensors.at("backbone.bottom_up.stem.conv1.weight");
-  for (std::size_t i = 0; i < theirs.values.size(); ++i) theirs.values[i] = static_cast<float>(i);
+  WeightTensor& source = adelaidet.tensors.at("backbone.bottom_up.stem.conv1.weight");
+  for (std::size_t i = 0; i < source.values.size(); ++i) source.values[i] = static_cast<float>(i);
 
   Weights imported = import_checkpoint(adelaidet, "net").weights;
-  Weights wanted = published_checkpoint(Naming{}, kLightHead);
-  drop_counters(wanted);
-  const WeightTensor ours = imported.tensors.at("backbone.conv1.weight");
+  Weights expected = published_checkpoint(Naming{}, kLightHead);
+  drop_counters(expected);
+  const WeightTensor converted = imported.tensors.at("backbone.conv1.weight");
   const auto at = [](std::size_t out, std::size_t channel) { return (out * 3 + channel) * 49 + 5; };
-  EXPECT_FLOAT_EQ(ours.values[at(7, 0)], theirs.values[at(7, 2)] * 58.395F);  // red
-  EXPECT_FLOAT_EQ(ours.values[at(7, 1)], theirs.values[at(7, 1)] * 57.12F);
-  EXPECT_FLOAT_EQ(ours.values[at(7, 2)], theirs.values[at(7, 0)] * 57.375F);  // blue
+  EXPECT_FLOAT_EQ(converted.values[at(7, 0)], source.values[at(7, 2)] * 58.395F);  // red
+  EXPECT_FLOAT_EQ(converted.values[at(7, 1)], source.values[at(7, 1)] * 57.12F);
+  EXPECT_FLOAT_EQ(converted.values[at(7, 2)], source.values[at(7, 0)] * 57.375F);  // blue
   expect_in("has the stride in the 1x1 convolutions", imported.metadata.at("note"));
   imported.tensors.erase("backbone.conv1.weight");
-  wanted.tensors.erase("backbone.conv1.weight");
-  EXPECT_EQ(imported.tensors, wanted.tensors);
+  expected.tensors.erase("backbone.conv1.weight");
+  EXPECT_EQ(imported.tensors, expected.tensors);
 }
 
-TEST(CheckpointImport, TakesDetectors) {
+TEST(CheckpointImport, ImportsDetectors) {
   Weights published = detectors_checkpoint(kLightHead);
   drop_counters(published);
   TensorShapes shapes;
@@ -106,56 +106,56 @@ TEST(CheckpointImport, TakesDetectors) {
   EXPECT_TRUE(imported.config.neck.recursive);
 }
 
-TEST(CheckpointImport, SaysWhichTensorsItHasNoPlaceFor) {
+TEST(CheckpointImport, ErrorsNameUnknownTensors) {
   Weights weights = small_checkpoint();
   weights.tensors["module.rpn_head.conv.weight"] = {{1}, {1}};
   expect_in("has 1 tensors that its network has no place for: 'module.rpn_head.conv.weight'",
-            fault_of(weights));
+            error_of(weights));
   for (const char* name : {"fc.bias", "fc.weight", "mask_head.conv_cls.scale"}) {
     weights.tensors[name] = {{1}, {1}};
   }
   expect_in(
       "has 4 tensors that its network has no place for: 'fc.bias', 'fc.weight', "
       "'mask_head.conv_cls.scale', ...",
-      fault_of(weights));
+      error_of(weights));
   weights = small_checkpoint();
   weights.tensors["backbone.layer3.0.conv2.conv_offset.weight"] = {{1}, {1}};
-  expect_in("(deformable convolutions are only supported as part of SAC)", fault_of(weights));
+  expect_in("(deformable convolutions are only supported as part of SAC)", error_of(weights));
 }
 
-TEST(CheckpointImport, SaysWhichTensorsAreMissing) {
+TEST(CheckpointImport, ErrorsNameMissingTensors) {
   Weights weights = small_checkpoint();
   weights.tensors.erase("neck.fpn_convs.1.conv.bias");
   expect_in("lacks 1 tensors of its network, the first is 'neck.fpn_convs.1.conv.bias' (64)",
-            fault_of(weights));
+            error_of(weights));
   weights.tensors.erase("backbone.layer1.1.conv2.weight");
   expect_in(
       "lacks 2 tensors of its network, the first is 'backbone.layer1.1.conv2.weight' (64, 64,",
-      fault_of(weights));
-  expect_in("is no SOLOv2 network", fault_of({}));
+      error_of(weights));
+  expect_in("is no SOLOv2 network", error_of({}));
 }
 
-TEST(CheckpointImport, SaysWhichShapesAreWrong) {
+TEST(CheckpointImport, ErrorsNameWrongShapes) {
   Weights weights = small_checkpoint();
   weights.tensors["bbox_head.solo_cate.weight"] = {{2, 128, 1, 1}, std::vector<float>(256)};
   weights.tensors.erase("mask_head.conv_cls.weight");
   expect_in(
       "tensor 'bbox_head.solo_cate.weight' is of shape (2, 128, 1, 1), expected "
       "(2, 128, 3, 3)",
-      fault_of(weights));
+      error_of(weights));
   weights = small_checkpoint();
   weights.tensors["mask_head.conv_cls.bias"].values.push_back(0.0F);
-  expect_in("tensor 'mask_head.conv_cls.bias' has 3 values, its shape makes 2", fault_of(weights));
+  expect_in("tensor 'mask_head.conv_cls.bias' has 3 values, its shape makes 2", error_of(weights));
 }
 
-TEST(CheckpointImport, RefusesTwoTensorsForOnePlace) {
+TEST(CheckpointImport, RejectsDuplicateTensors) {
   Weights weights = small_checkpoint();
   weights.tensors["module.backbone.bn1.bias"] = weights.tensors["backbone.bn1.bias"];
   expect_in("'backbone.bn1.bias' and 'module.backbone.bn1.bias' are the same tensor",
-            fault_of(weights));
+            error_of(weights));
 }
 
-TEST(CheckpointNames, OddNamesStayWhatTheyAre) {
+TEST(CheckpointNames, KeepsUnknownNames) {
   for (const char* name :
        {"", "ins_head.cate_tower.", "ins_head.cate_tower.x.weight", "ins_head.cate_tower.2.weight",
         "ins_head.cate_tower.-3.weight", "ins_head.kernel_tower.99999999999.weight",

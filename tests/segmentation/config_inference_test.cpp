@@ -12,35 +12,35 @@ namespace {
 using testing::expect_in;
 using testing::message_of;
 
-/// Expects everything that shapes can tell.
-void expect_same_architecture(const NetworkConfig& actual, const NetworkConfig& wanted) {
-  EXPECT_EQ(actual.variant, wanted.variant);
-  EXPECT_EQ(actual.classes, wanted.classes);
-  EXPECT_EQ(actual.backbone.depth, wanted.backbone.depth);
-  EXPECT_EQ(actual.backbone.last_planes, wanted.backbone.last_planes);
-  EXPECT_EQ(actual.backbone.sac, wanted.backbone.sac);
-  EXPECT_EQ(actual.neck.channels, wanted.neck.channels);
-  EXPECT_EQ(actual.neck.recursive, wanted.neck.recursive);
-  EXPECT_EQ(actual.head.tower_channels, wanted.head.tower_channels);
-  EXPECT_EQ(actual.head.tower_depth, wanted.head.tower_depth);
-  EXPECT_EQ(actual.head.shared_tower, wanted.head.shared_tower);
-  EXPECT_EQ(actual.head.kernel_channels, wanted.head.kernel_channels);
-  EXPECT_EQ(actual.head.mask_channels, wanted.head.mask_channels);
-  EXPECT_EQ(actual.head.norm, wanted.head.norm);
+/// Expects equal values of all fields that follow from shapes.
+void expect_same_architecture(const NetworkConfig& actual, const NetworkConfig& expected) {
+  EXPECT_EQ(actual.variant, expected.variant);
+  EXPECT_EQ(actual.classes, expected.classes);
+  EXPECT_EQ(actual.backbone.depth, expected.backbone.depth);
+  EXPECT_EQ(actual.backbone.last_planes, expected.backbone.last_planes);
+  EXPECT_EQ(actual.backbone.sac, expected.backbone.sac);
+  EXPECT_EQ(actual.neck.channels, expected.neck.channels);
+  EXPECT_EQ(actual.neck.recursive, expected.neck.recursive);
+  EXPECT_EQ(actual.head.tower_channels, expected.head.tower_channels);
+  EXPECT_EQ(actual.head.tower_depth, expected.head.tower_depth);
+  EXPECT_EQ(actual.head.shared_tower, expected.head.shared_tower);
+  EXPECT_EQ(actual.head.kernel_channels, expected.head.kernel_channels);
+  EXPECT_EQ(actual.head.mask_channels, expected.head.mask_channels);
+  EXPECT_EQ(actual.head.norm, expected.head.norm);
   EXPECT_EQ(actual.head.grid_density, 1.0);
 }
 
-TEST(ConfigInference, FindsEveryPresetAgain) {
+TEST(ConfigInference, InfersEveryPreset) {
   for (const auto size : {NetworkSize::kNano, NetworkSize::kR18, NetworkSize::kR50}) {
     for (const auto variant : {NetworkVariant::kSolov2, NetworkVariant::kRfp, NetworkVariant::kSac,
                                NetworkVariant::kDetectors}) {
-      const NetworkConfig wanted = NetworkConfig::preset(size, variant);
-      expect_same_architecture(infer_config(expected_tensors(wanted), "net"), wanted);
+      const NetworkConfig expected = NetworkConfig::preset(size, variant);
+      expect_same_architecture(infer_config(expected_tensors(expected), "net"), expected);
     }
   }
 }
 
-TEST(ConfigInference, TheTowersTellTheImageSize) {
+TEST(ConfigInference, InfersImageSizeFromTowers) {
   NetworkConfig config = NetworkConfig::preset(NetworkSize::kR50, NetworkVariant::kSolov2);
   config.backbone.depth = 34;
   const NetworkConfig full = infer_config(expected_tensors(config), "net");
@@ -57,36 +57,36 @@ TEST(ConfigInference, TheTowersTellTheImageSize) {
   EXPECT_EQ(light.head.object_scale, 56);
 }
 
-TEST(ConfigInference, SaysWhatItDoesNotKnow) {
-  const TensorShapes good = expected_tensors(NetworkConfig());
-  const auto fault = [&](const auto& change) {
-    TensorShapes tensors = good;
+TEST(ConfigInference, ErrorsExplainUnknownNetworks) {
+  const TensorShapes valid = expected_tensors(NetworkConfig());
+  const auto error = [&](const auto& change) {
+    TensorShapes tensors = valid;
     change(tensors);
     const std::string message = message_of<DataError>([&] { infer_config(tensors, "net"); });
     EXPECT_TRUE(message.starts_with("net: ")) << message;
     return message;
   };
   expect_in("is no SOLOv2 network: it has no tensor 'mask_head.kernel_convs.0.conv.weight' (check",
-            fault([](TensorShapes& t) { t.clear(); }));
+            error([](TensorShapes& t) { t.clear(); }));
   expect_in("it has no tensor 'mask_head.conv_cls.weight'",
-            fault([](TensorShapes& t) { t.erase("mask_head.conv_cls.weight"); }));
+            error([](TensorShapes& t) { t.erase("mask_head.conv_cls.weight"); }));
   expect_in("stages of 2, 2, 23, 2 plain blocks, allowed are ResNet-18 (2, 2, 2, 2 plain)",
-            fault([](TensorShapes& t) { t["backbone.layer3.22.conv1.weight"] = {}; }));
+            error([](TensorShapes& t) { t["backbone.layer3.22.conv1.weight"] = {}; }));
   expect_in("stages of 2, 2, 2, 2 bottleneck blocks",
-            fault([](TensorShapes& t) { t["backbone.layer1.0.conv3.weight"] = {}; }));
+            error([](TensorShapes& t) { t["backbone.layer1.0.conv3.weight"] = {}; }));
   expect_in("tensor 'mask_head.conv_cls.weight' is of shape (2), a convolution's (out, in, height",
-            fault([](TensorShapes& t) { t["mask_head.conv_cls.weight"] = {2}; }));
-  expect_in("is of shape (4294967296, 0, 1, 1)", fault([](TensorShapes& t) {
+            error([](TensorShapes& t) { t["mask_head.conv_cls.weight"] = {2}; }));
+  expect_in("is of shape (4294967296, 0, 1, 1)", error([](TensorShapes& t) {
               t["mask_head.conv_cls.weight"] = {1LL << 32, 0, 1, 1};
             }));
-  expect_in("a network whose classes is 0, allowed is 1 to 1000", fault([](TensorShapes& t) {
+  expect_in("a network whose classes is 0, allowed is 1 to 1000", error([](TensorShapes& t) {
               t["mask_head.conv_cls.weight"] = {0, 128, 3, 3};
             }));
   expect_in("a network whose tower_depth is 100, allowed is 1 to 8",
-            fault([](TensorShapes& t) { t["mask_head.kernel_convs.99.conv.weight"] = {}; }));
+            error([](TensorShapes& t) { t["mask_head.kernel_convs.99.conv.weight"] = {}; }));
 }
 
-TEST(ConfigInference, NumbersThatAreNoneCountForNothing) {
+TEST(ConfigInference, IgnoresInvalidNumbersInNames) {
   TensorShapes tensors = expected_tensors(NetworkConfig());
   for (const char* number : {"-1", "x", "99999999999999999999", "2147483647", ""}) {
     tensors[std::string("backbone.layer1.") + number + ".conv1.weight"] = {};

@@ -43,21 +43,21 @@ Weights folded() {
   return weights;
 }
 
-TEST(ImagenetBackbone, TakesAllOfTorchvisions) {
+TEST(ImagenetBackbone, TakesAllTorchvisionTensors) {
   const Weights given = torchvision_resnet50();
   const NetworkConfig config = r50(NetworkVariant::kSolov2);
   const ImagenetBackbone result = imagenet_backbone(given, config, "net");
   EXPECT_TRUE(result.left_out.empty());
-  std::size_t wanted = 0;
+  std::size_t expected = 0;
   for (const auto& [name, shape] : expected_tensors(config)) {
     if (!name.starts_with("backbone.")) continue;
-    ++wanted;
+    ++expected;
     EXPECT_EQ(result.weights.tensors.at(name), given.tensors.at(name.substr(9))) << name;
   }
-  EXPECT_EQ(result.weights.tensors.size(), wanted);
+  EXPECT_EQ(result.weights.tensors.size(), expected);
 }
 
-TEST(ImagenetBackbone, BothBackbonesGetThem) {
+TEST(ImagenetBackbone, FillsBothBackbones) {
   const ImagenetBackbone result =
       imagenet_backbone(torchvision_resnet50(), r50(NetworkVariant::kRfp), "net");
   const auto& tensors = result.weights.tensors;
@@ -82,7 +82,7 @@ TEST(ImagenetBackbone, UnfoldsBatchNorm) {
   EXPECT_EQ(result.weights.tensors.size(), 10U);
 }
 
-TEST(ImagenetBackbone, NamesWhatItLeavesOut) {
+TEST(ImagenetBackbone, ListsOmittedTensors) {
   const ImagenetBackbone result = imagenet_backbone(folded(), r18(512), "net");
   EXPECT_EQ(result.left_out.size(), 5U * 18);  // 20 convolutions of a ResNet-18, 2 of them given
   for (const char* name : {"backbone.layer1.0.conv2.weight", "backbone.layer1.0.bn2.running_var",
@@ -91,7 +91,7 @@ TEST(ImagenetBackbone, NamesWhatItLeavesOut) {
   }
 }
 
-TEST(ImagenetBackbone, AnotherShapeIsLeftOut) {
+TEST(ImagenetBackbone, OmitsTensorsOfOtherShape) {
   Weights weights = folded();
   weights.tensors["layer1.0.conv1.bias"] = {{32}, std::vector<float>(32)};
   EXPECT_FALSE(imagenet_backbone(weights, r18(512), "net")
@@ -101,7 +101,7 @@ TEST(ImagenetBackbone, AnotherShapeIsLeftOut) {
             message_of<DataError>([&] { imagenet_backbone(weights, r18(512), "net"); }));
 }
 
-TEST(ImagenetBackbone, StandardisedWeightsAreThoseGiven) {
+TEST(ImagenetBackbone, StandardizedWeightsEqualGiven) {
   NetworkConfig config = r18(512);
   config.backbone.sac = SacMode::kPlain;
   const Weights given = folded();
@@ -129,8 +129,8 @@ TEST(ImagenetBackbone, StandardisedWeightsAreThoseGiven) {
   EXPECT_EQ(tensors.at("backbone.conv1.weight_beta").values[0], 0.25F);
 }
 
-/// A safetensors file that is known to be a good one and to hold floats only. (`read_safetensors`
-/// is of io, which this module does not know.)
+/// Reads a valid safetensors file of floats. (`read_safetensors` belongs to io, which this module
+/// does not include.)
 Weights trusted_floats(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
@@ -149,18 +149,18 @@ Weights trusted_floats(const std::filesystem::path& path) {
   return weights;
 }
 
-TEST(ImagenetBackbone, TakesTheSharedFile) {
+TEST(ImagenetBackbone, ReadsSharedFile) {
   const auto path = std::filesystem::path(MMS_SOURCE_DIR) /
                     "../shared/data/weights/resnet18_imagenet_partial.safetensors";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";
   const Weights given = trusted_floats(path);
-  const ImagenetBackbone whole = imagenet_backbone(given, r18(512), path);
-  EXPECT_EQ(whole.left_out.size(), 5U * 4);  // layer4's 3x3 convolutions
-  for (const std::string& name : whole.left_out) {
+  const ImagenetBackbone wide = imagenet_backbone(given, r18(512), path);
+  EXPECT_EQ(wide.left_out.size(), 5U * 4);  // layer4's 3x3 convolutions
+  for (const std::string& name : wide.left_out) {
     EXPECT_TRUE(name.starts_with("backbone.layer4.")) << name;
-    EXPECT_FALSE(whole.weights.tensors.contains(name)) << name;
+    EXPECT_FALSE(wide.weights.tensors.contains(name)) << name;
   }
-  EXPECT_EQ(whole.weights.tensors.at("backbone.layer4.0.downsample.0.weight"),
+  EXPECT_EQ(wide.weights.tensors.at("backbone.layer4.0.downsample.0.weight"),
             given.tensors.at("layer4.0.downsample.0.weight"));
   const ImagenetBackbone narrow = imagenet_backbone(given, r18(256), path);
   EXPECT_EQ(narrow.left_out.size(), 5U * 5);

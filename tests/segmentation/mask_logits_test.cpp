@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-/// Logits of a picture of this many pixels, most of them far below 0 and in no mask.
+/// Logits of `count` pixels, most of them far below 0 and in no mask.
 std::vector<float> random_logits(std::size_t count, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<float> normal(0.0F, 4.0F);
@@ -18,7 +18,7 @@ std::vector<float> random_logits(std::size_t count, std::uint32_t seed) {
 
 class MaskLogitsOf : public ::testing::TestWithParam<std::size_t> {};
 
-TEST_P(MaskLogitsOf, EqualTheirDefinitionPixelByPixel) {
+TEST_P(MaskLogitsOf, EqualDefinitionPixelByPixel) {
   const std::vector<float> logits = random_logits(GetParam(), 1);
   const BitMask mask = bit_mask(logits, 0.0F);
   const std::vector<float> soft = probabilities(logits);
@@ -40,7 +40,7 @@ TEST_P(MaskLogitsOf, EqualTheirDefinitionPixelByPixel) {
 INSTANTIATE_TEST_SUITE_P(NumbersOfPixels, MaskLogitsOf,
                          ::testing::Values(1U, 63U, 64U, 65U, 640U, 1001U));
 
-TEST(MaskLogits, OfNoPixelsAreNothing) {
+TEST(MaskLogits, AreEmptyWithoutPixels) {
   const BitMask mask = bit_mask(std::vector<float>(), 0.0F);
   EXPECT_EQ(mask.area, 0);
   EXPECT_EQ(probability_sum({}, mask), 0.0F);

@@ -22,7 +22,7 @@ Frame frame_with(const std::vector<std::vector<int>>& rows) {
   return frame;
 }
 
-TEST(MaskSegmenter, OneInstancePerEightConnectedComponent) {
+TEST(MaskSegmenter, OneInstancePerComponent) {
   const Frame frame = frame_with({{1, 0, 0, 0, 1},  //
                                   {0, 1, 0, 0, 0},  //
                                   {0, 0, 0, 1, 0},  //
@@ -41,14 +41,14 @@ TEST(MaskSegmenter, OneInstancePerEightConnectedComponent) {
   EXPECT_EQ(found.instances[2].mask(0, 1), 1);
 }
 
-TEST(MaskSegmenter, ArmsThatJoinFurtherDownAreOneInstance) {
+TEST(MaskSegmenter, JoinsArmsThatMeetBelow) {
   const Frame frame = frame_with({{1, 0, 1, 0, 1},  //
                                   {1, 0, 1, 0, 1},  //
                                   {1, 1, 1, 1, 1}});
   EXPECT_EQ(MaskSegmenter().segment(frame).instances.size(), 1U);
 }
 
-TEST(MaskSegmenter, ClassesAreApartAndUnknownValuesArePersons) {
+TEST(MaskSegmenter, SeparatesClassesAndMapsUnknownToPerson) {
   const Frame frame = frame_with({{1, 2, 255}});
   const Segmentation found = MaskSegmenter().segment(frame);
   ASSERT_EQ(found.instances.size(), 3U);
@@ -57,7 +57,7 @@ TEST(MaskSegmenter, ClassesAreApartAndUnknownValuesArePersons) {
   EXPECT_EQ(found.instances[2].object_class, ObjectClass::kPerson);
 }
 
-TEST(MaskSegmenter, NoMaskNoInstances) {
+TEST(MaskSegmenter, NoInstancesWithoutMask) {
   const Segmentation found = MaskSegmenter().segment(Frame());
   EXPECT_EQ(found.width, 0);
   EXPECT_TRUE(found.instances.empty());

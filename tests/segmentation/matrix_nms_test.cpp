@@ -9,7 +9,7 @@
 namespace mms {
 namespace {
 
-/// Masks as they are, scores as SOLOv2's paper defines them, with a loop for every sum.
+/// Scores as defined in SOLOv2's paper, with a loop for every sum.
 std::vector<double> naive_scores(const std::vector<std::vector<float>>& masks,
                                  const std::vector<NmsCandidate>& candidates) {
   const std::size_t n = masks.size();
@@ -42,7 +42,7 @@ std::vector<double> naive_scores(const std::vector<std::vector<float>>& masks,
   return scores;
 }
 
-TEST(MatrixNms, EqualsTheDoubleLoopOnRandomMasks) {
+TEST(MatrixNms, EqualsDoubleLoopOnRandomMasks) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
   for (int round = 0; round < 50; ++round) {
@@ -63,14 +63,14 @@ TEST(MatrixNms, EqualsTheDoubleLoopOnRandomMasks) {
   }
 }
 
-TEST(MatrixNms, SecondOfTwoEqualMasksFallsToEToTheMinusTwo) {
+TEST(MatrixNms, SecondOfEqualMasksDecaysByExpMinusTwo) {
   const BitMask mask = bit_mask({1.0F, 1.0F, 0.0F}, 0.5F);
   const std::vector<float> scores = matrix_nms({{0, 0.9F, mask}, {0, 0.8F, mask}});
   EXPECT_FLOAT_EQ(scores[0], 0.9F);
   EXPECT_NEAR(scores[1], 0.8 * std::exp(-2.0), 1e-6);
 }
 
-TEST(MatrixNms, OtherCategoriesAndDisjointMasksAreLeftAlone) {
+TEST(MatrixNms, KeepsOtherCategoriesAndDisjointMasks) {
   const BitMask left = bit_mask({1.0F, 1.0F, 0.0F, 0.0F}, 0.5F);
   const BitMask right = bit_mask({0.0F, 0.0F, 1.0F, 1.0F}, 0.5F);
   EXPECT_EQ(matrix_nms({{0, 0.9F, left}, {1, 0.8F, left}, {0, 0.7F, right}}),

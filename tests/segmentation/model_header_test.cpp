@@ -19,7 +19,7 @@ using testing::tiny_onnx;
 using testing::TinyOnnx;
 using Names = std::vector<std::string>;
 
-std::string fault_of(const std::string& bytes) {
+std::string error_of(const std::string& bytes) {
   const std::string message = message_of<DataError>([&] { read_model_header(bytes, "net.onnx"); });
   EXPECT_TRUE(message.starts_with("net.onnx: ")) << message;
   return message;
@@ -32,48 +32,48 @@ TEST(ModelHeader, ReadsInputAndClasses) {
   EXPECT_EQ(header.classes, (Names{"r", "b"}));
 }
 
-TEST(ModelHeader, SidesMayBeOpen) {
+TEST(ModelHeader, AcceptsOpenSides) {
   const ModelHeader header = read_model_header(tiny_onnx({.batch = 0, .side = 0}), "net");
   EXPECT_EQ(header.width, 0);
   EXPECT_EQ(header.height, 0);
 }
 
-TEST(ModelHeader, NamesThatAreNoneAreNone) {
+TEST(ModelHeader, IgnoresMissingAndInvalidNames) {
   EXPECT_TRUE(read_model_header(tiny_onnx({.names = "person"}), "net").classes.empty());
   const std::string graph_only = tiny_onnx({}).substr(0, tiny_onnx({}).find("task") - 4);
   EXPECT_TRUE(read_model_header(graph_only, "net").classes.empty());
 }
 
-TEST(ModelHeader, RefusesOtherInputs) {
+TEST(ModelHeader, RejectsOtherInputs) {
   expect_in("takes an input of shape (1, 1, 64, 64), expected (1, 3, height, width)",
-            fault_of(tiny_onnx({.channels = 1})));
-  expect_in("shape (2, 3, any, any), expected", fault_of(tiny_onnx({.batch = 2, .side = 0})));
+            error_of(tiny_onnx({.channels = 1})));
+  expect_in("shape (2, 3, any, any), expected", error_of(tiny_onnx({.batch = 2, .side = 0})));
   expect_in("(1, 3, 5000, 5000), expected (1, 3, height, width) with sides of at most 4096",
-            fault_of(tiny_onnx({.side = 5000})));
-  expect_in("(18446744073709551615, 3, 64, 64), expected", fault_of(tiny_onnx({.batch = -1})));
+            error_of(tiny_onnx({.side = 5000})));
+  expect_in("(18446744073709551615, 3, 64, 64), expected", error_of(tiny_onnx({.batch = -1})));
   expect_in("takes an input of shape (), expected",
-            fault_of(ProtobufWriter().bytes(7, "").message()));
+            error_of(ProtobufWriter().bytes(7, "").message()));
 }
 
-TEST(ModelHeader, RefusesWhatIsNoOnnx) {
-  expect_in("is no ONNX model: it has no graph", fault_of(""));
-  expect_in("is no ONNX model: it has no graph", fault_of(ProtobufWriter().number(1, 7).message()));
+TEST(ModelHeader, RejectsOtherFiles) {
+  expect_in("is no ONNX model: it has no graph", error_of(""));
+  expect_in("is no ONNX model: it has no graph", error_of(ProtobufWriter().number(1, 7).message()));
   expect_in(
       "is no whole ONNX model: it has a field without a number (is it an .onnx file, and was it",
-      fault_of("PK\x03\x04 a zip file, as of TorchScript"));
-  expect_in("it has a field of 111 bytes where 2 are left", fault_of("\x3aoop"));
-  expect_in("it has a field of the unknown type", fault_of("<html><body>404</body></html>"));
-  expect_in("it has a field without a number", fault_of(std::string(100, '\0')));
-  expect_in("it has a number of more than 64 bits", fault_of("\x08" + std::string(11, '\xff')));
+      error_of("PK\x03\x04 a zip file, as of TorchScript"));
+  expect_in("it has a field of 111 bytes where 2 are left", error_of("\x3aoop"));
+  expect_in("it has a field of the unknown type", error_of("<html><body>404</body></html>"));
+  expect_in("it has a field without a number", error_of(std::string(100, '\0')));
+  expect_in("it has a number of more than 64 bits", error_of("\x08" + std::string(11, '\xff')));
   expect_in("it has a field of 18446744073709551615 bytes where 0 are left",
-            fault_of("\x3a" + std::string(9, '\xff') + "\x01"));
-  expect_in("it has a field of 8 bytes where 3 are left", fault_of("\x09"
+            error_of("\x3a" + std::string(9, '\xff') + "\x01"));
+  expect_in("it has a field of 8 bytes where 3 are left", error_of("\x09"
                                                                    "abc"));
-  expect_in("it has a field of 1 bytes where 0 are left", fault_of("\x08"));
-  expect_in("it has a field of 4 bytes where 0 are left", fault_of("\x0d"));
+  expect_in("it has a field of 1 bytes where 0 are left", error_of("\x08"));
+  expect_in("it has a field of 4 bytes where 0 are left", error_of("\x0d"));
 }
 
-TEST(ModelHeader, NoCutAndNoWrongBitIsWorseThanAnError) {
+TEST(ModelHeader, DamagedFilesCauseAtMostDataErrors) {
   const std::string whole = tiny_onnx({});
   const auto survives = [](const std::string& bytes) {
     try {
@@ -90,7 +90,7 @@ TEST(ModelHeader, NoCutAndNoWrongBitIsWorseThanAnError) {
   }
 }
 
-/// A graph that is given "image" and "weights" and has layers, each with what it takes and makes.
+/// A graph with the inputs "image" and "weights" and layers with their inputs and output.
 std::string graph_of(const std::vector<std::pair<Names, std::string>>& layers) {
   ProtobufWriter graph;
   for (const auto& [inputs, output] : layers) {
@@ -102,19 +102,19 @@ std::string graph_of(const std::vector<std::pair<Names, std::string>>& layers) {
   return graph.bytes(11, ProtobufWriter().bytes(1, "image").message()).message();
 }
 
-TEST(GraphCheck, LayersTakeWhatIsThere) {
+TEST(GraphCheck, RejectsUnknownLayerInputs) {
   check_graph(graph_of({}), "net");
   check_graph(graph_of({{{"image", "weights", ""}, "a"}, {{"a", "a"}, "b"}, {{}, "c"}}), "net");
-  const auto fault = [](const std::vector<std::pair<Names, std::string>>& layers) {
+  const auto error = [](const std::vector<std::pair<Names, std::string>>& layers) {
     return message_of<DataError>([&] { check_graph(graph_of(layers), "net"); });
   };
-  EXPECT_EQ(fault({{{"image", "b"}, "a"}, {{"a"}, "b"}}),
+  EXPECT_EQ(error({{{"image", "b"}, "a"}, {{"a"}, "b"}}),
             "net: has a layer Conv that takes 'b', which nothing before it makes (export it anew)");
-  expect_in("takes 'a', which nothing", fault({{{"a"}, "a"}}));
-  expect_in("takes 'imagf', which nothing", fault({{{"image"}, "a"}, {{"a", "imagf"}, "b"}}));
+  expect_in("takes 'a', which nothing", error({{{"a"}, "a"}}));
+  expect_in("takes 'imagf', which nothing", error({{{"image"}, "a"}, {{"a", "imagf"}, "b"}}));
 }
 
-TEST(ClassNames, ReadsPythonsTexts) {
+TEST(ClassNames, ReadsPythonTexts) {
   EXPECT_EQ(python_names("{0: 'person', 1: 'traffic light'}"), (Names{"person", "traffic light"}));
   EXPECT_EQ(python_names(" [ 'person' ,\"driver's cab\"] "), (Names{"person", "driver's cab"}));
   EXPECT_EQ(python_names("{1:'b',0:'a',}"), Names{});
@@ -123,7 +123,7 @@ TEST(ClassNames, ReadsPythonsTexts) {
   EXPECT_EQ(python_names("{0: ''}"), (Names{""}));
 }
 
-TEST(ClassNames, AnythingElseIsNone) {
+TEST(ClassNames, ReturnsNoneForOtherText) {
   for (const char* text : {"",
                            " ",
                            "{",

@@ -11,7 +11,7 @@ namespace {
 using testing::expect_in;
 using testing::message_of;
 
-SegmentationModel some_model() {
+SegmentationModel sample_model() {
   SegmentationModel model;
   model.network = NetworkConfig::preset(NetworkSize::kR18, NetworkVariant::kDetectors);
   model.network.head.object_scale = 41.5;
@@ -20,8 +20,8 @@ SegmentationModel some_model() {
   return model;
 }
 
-TEST(Model, SaysItselfWhatItIs) {
-  const SegmentationModel model = some_model();
+TEST(Model, RoundTrips) {
+  const SegmentationModel model = sample_model();
   const SegmentationModel back = unpack_model(pack_model(model), "file");
   EXPECT_EQ(back.classes, model.classes);
   EXPECT_EQ(back.network.variant, NetworkVariant::kDetectors);
@@ -31,20 +31,20 @@ TEST(Model, SaysItselfWhatItIs) {
   EXPECT_EQ(pack_model(back), pack_model(model));
 }
 
-std::string fault_of(const std::string& key, const std::string& value) {
-  Weights packed = pack_model(some_model());
+std::string error_of(const std::string& key, const std::string& value) {
+  Weights packed = pack_model(sample_model());
   packed.metadata[key] = value;
   return message_of<DataError>([&] { unpack_model(packed, "file"); });
 }
 
-TEST(Model, FaultsAreNamed) {
+TEST(Model, ErrorsNameField) {
   expect_in("file: does not say what network it is for: no 'network.size'",
             message_of<DataError>([] { unpack_model({}, "file"); }));
-  expect_in("network.head.norm is 'x', expected one of gn, bn", fault_of("network.head.norm", "x"));
+  expect_in("network.head.norm is 'x', expected one of gn, bn", error_of("network.head.norm", "x"));
   expect_in("network.neck.channels is '-5', expected a whole number in [8, 512]",
-            fault_of("network.neck.channels", "-5"));
-  expect_in("network.head.tower_depth is '2x'", fault_of("network.head.tower_depth", "2x"));
-  expect_in("names 3 classes, but its network has 2", fault_of("classes", "a,b,c"));
+            error_of("network.neck.channels", "-5"));
+  expect_in("network.head.tower_depth is '2x'", error_of("network.head.tower_depth", "2x"));
+  expect_in("names 3 classes, but its network has 2", error_of("classes", "a,b,c"));
 }
 
 }  // namespace

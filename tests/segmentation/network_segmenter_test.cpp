@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-/// Finds the same objects in every picture.
+/// Detects the same objects in every image.
 class FixedDetector : public Detector {
  public:
   FixedDetector(std::vector<Detection> found, std::vector<std::string> classes)
@@ -35,7 +35,7 @@ Segmentation segment(const NetworkSegmenterConfig& config) {
   return segmenter.segment(frame);
 }
 
-TEST(NetworkSegmenter, TakesPeopleAndVehiclesAboveTheScore) {
+TEST(NetworkSegmenter, TakesPeopleAndVehiclesAboveScore) {
   const Segmentation found = segment({});
   EXPECT_EQ(found.width, 20);
   EXPECT_EQ(found.height, 10);
@@ -46,13 +46,13 @@ TEST(NetworkSegmenter, TakesPeopleAndVehiclesAboveTheScore) {
   EXPECT_EQ(found.instances[1].object_class, ObjectClass::kAgv);
 }
 
-TEST(NetworkSegmenter, ClassesCanBeLeftOut) {
+TEST(NetworkSegmenter, OmitsDisabledClasses) {
   EXPECT_EQ(segment({.score = 0.1, .agv = false}).instances.size(), 2U);
   EXPECT_EQ(segment({.person = false}).instances.size(), 1U);
   EXPECT_THROW(segment({.person = false, .agv = false}), DataError);
 }
 
-TEST(NetworkSegmenter, FramesWithoutAPictureHaveNoInstances) {
+TEST(NetworkSegmenter, NoInstancesWithoutImage) {
   NetworkSegmenter segmenter(
       std::make_unique<FixedDetector>(std::vector<Detection>{object(0, 1.0F)},
                                       std::vector<std::string>{"person"}),

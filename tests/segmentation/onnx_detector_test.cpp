@@ -28,8 +28,8 @@ OnnxDetector detector_of(const TempFolder& folder, const TinyOnnx& model,
   return {folder.write("net.onnx", tiny_onnx(model)), config, 1};
 }
 
-/// A square as a mask of prototypes with `stride` px each gives it: bilinear, so that the corners
-/// are rounded off.
+/// The mask of a square of prototypes with `stride` px each; bilinear interpolation rounds the
+/// corners.
 std::vector<std::uint8_t> square(int side, int stride) {
   const auto share = [&](int i) {
     const int inside = std::min(i, side - 1 - i);
@@ -42,7 +42,7 @@ std::vector<std::uint8_t> square(int side, int stride) {
   return pixels;
 }
 
-/// Expects a square of two prototypes a side.
+/// Expects a square of two prototypes per side.
 void expect_object(const Detection& found, int category, float score, int x, int y, int side) {
   EXPECT_EQ(found.category, category);
   EXPECT_NEAR(found.score, score, 1e-5);
@@ -52,7 +52,7 @@ void expect_object(const Detection& found, int category, float score, int x, int
   EXPECT_EQ(found.mask.pixels(), square(side, side / 2));
 }
 
-TEST(OnnxDetector, FindsWhatIsInThePicture) {
+TEST(OnnxDetector, DetectsObjects) {
   const TempFolder folder;
   Image<Rgb> image(64, 64);
   draw(image, 16, 8, 8, 8, kRed);
@@ -68,7 +68,7 @@ TEST(OnnxDetector, FindsWhatIsInThePicture) {
   }
 }
 
-TEST(OnnxDetector, PicturesMayBeOfAnyShape) {
+TEST(OnnxDetector, AcceptsImagesOfAnyShape) {
   const TempFolder folder;
   OnnxDetector detector = detector_of(folder, {});
   Image<Rgb> wide(128, 64);
@@ -87,7 +87,7 @@ TEST(OnnxDetector, PicturesMayBeOfAnyShape) {
   EXPECT_TRUE(detector.detect(Image<Rgb>(0, 0)).empty());
 }
 
-TEST(OnnxDetector, TheSameForAnyNumberOfThreads) {
+TEST(OnnxDetector, SameResultForAnyThreadCount) {
   const TempFolder folder;
   const auto model = folder.write("net.onnx", tiny_onnx({}));
   Image<Rgb> image(97, 131);
@@ -104,7 +104,7 @@ TEST(OnnxDetector, TheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(OnnxDetector, TheUserNamesClassesBeforeTheFile) {
+TEST(OnnxDetector, ConfiguredClassesOverrideFile) {
   const TempFolder folder;
   EXPECT_EQ(detector_of(folder, {}, {.classes = "person, agv"}).classes(),
             (Names{"person", "agv"}));
@@ -116,46 +116,46 @@ TEST(OnnxDetector, TheUserNamesClassesBeforeTheFile) {
             message_of<DataError>([&] { detector_of(folder, {}, {.classes = "person,"}); }));
 }
 
-TEST(OnnxDetector, TheUserSaysTheSideWhereTheFileDoesNot) {
+TEST(OnnxDetector, UsesConfiguredSideForOpenInput) {
   const TempFolder folder;
   Image<Rgb> image(64, 64);
   draw(image, 16, 8, 8, 8, kRed);
   OnnxDetector detector = detector_of(folder, {.side = 0}, {.input_side = 64});
   EXPECT_EQ(detector.detect(image).size(), 1U);
-  const std::string fault = message_of<DataError>([&] { detector_of(folder, {.side = 0}); });
-  expect_in("cannot run it on 640x640 px: ", fault);
+  const std::string error = message_of<DataError>([&] { detector_of(folder, {.side = 0}); });
+  expect_in("cannot run it on 640x640 px: ", error);
 }
 
-TEST(OnnxDetector, SaysWhichFileIsNoModel) {
+TEST(OnnxDetector, ErrorsNameInvalidModel) {
   const TempFolder folder;
-  const auto fault = [&](const std::string& bytes) {
+  const auto error = [&](const std::string& bytes) {
     const auto path = folder.write("net.onnx", bytes);
     const std::string message = message_of<DataError>([&] { OnnxDetector(path, {}, 1); });
     EXPECT_TRUE(message.starts_with(path.string() + ": ")) << message;
     return message;
   };
-  expect_in("has no graph", fault(""));
-  expect_in("is no whole ONNX model", fault("not a model at all"));
+  expect_in("has no graph", error(""));
+  expect_in("is no whole ONNX model", error("not a model at all"));
   const std::string whole = tiny_onnx({});
-  expect_in("is no whole ONNX model: it has a field of", fault(whole.substr(0, 5000)));
-  expect_in("gives (1, 8, 64), known with 2 classes", fault(tiny_onnx({.prototypes = false})));
-  expect_in("takes an input of shape (1, 1, 64, 64)", fault(tiny_onnx({.channels = 1})));
-  const std::string unknown = fault(tiny_onnx({.last = "Frobnicate"}));
+  expect_in("is no whole ONNX model: it has a field of", error(whole.substr(0, 5000)));
+  expect_in("gives (1, 8, 64), known with 2 classes", error(tiny_onnx({.prototypes = false})));
+  expect_in("takes an input of shape (1, 1, 64, 64)", error(tiny_onnx({.channels = 1})));
+  const std::string unknown = error(tiny_onnx({.last = "Frobnicate"}));
   expect_in("OpenCV ", unknown);
   expect_in("Frobnicate", unknown);
   expect_in("(export it with opset=12 simplify=True)", unknown);
 }
 
-TEST(OnnxDetector, SaysWhichFileCannotBeRead) {
+TEST(OnnxDetector, ErrorsNameUnreadableFile) {
   const TempFolder folder;
-  const auto fault = [](const std::filesystem::path& path) {
+  const auto error = [](const std::filesystem::path& path) {
     return message_of<FileError>([&] { OnnxDetector(path, {}, 1); });
   };
-  expect_in("nowhere.onnx: there is no such file", fault(folder.path() / "nowhere.onnx"));
-  expect_in(": is not a regular file", fault(folder.path()));
+  expect_in("nowhere.onnx: there is no such file", error(folder.path() / "nowhere.onnx"));
+  expect_in(": is not a regular file", error(folder.path()));
 }
 
-TEST(OnnxDetector, NoCutIsWorseThanAnError) {
+TEST(OnnxDetector, TruncationCausesDataError) {
   const TempFolder folder;
   const std::string whole = tiny_onnx({});
   for (std::size_t size = 0; size + 40 < whole.size(); size += 149) {

@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-TEST(Resize, KeepsAConstantPicture) {
+TEST(Resize, KeepsConstantImage) {
   const Image<Rgb> flat(37, 23, Rgb{10, 130, 250});
   for (const auto& [w, h] : {std::pair(20, 11), {80, 60}, {37, 23}, {1, 1}}) {
     const Image<Rgb> resized = resize(flat, w, h);
@@ -18,7 +18,7 @@ TEST(Resize, KeepsAConstantPicture) {
 }
 
 /// A ramp stays a ramp: pixel areas are aligned, so value(x) = 2 (x + 0.5) - 0.5 at half the size.
-TEST(Resize, KeepsARampInPlace) {
+TEST(Resize, KeepsRampInPlace) {
   Image<Rgb> ramp(100, 4);
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 100; ++x) ramp(x, y).r = static_cast<std::uint8_t>(2 * x);
@@ -29,14 +29,14 @@ TEST(Resize, KeepsARampInPlace) {
   for (int x = 2; x < 198; ++x) EXPECT_NEAR(twice(x, 3).r, 2 * ((x + 0.5) / 2 - 0.5), 1.0);
 }
 
-TEST(Resize, LooksAtEveryPixelWhenItShrinks) {
+TEST(Resize, AveragesAllPixelsWhenShrinking) {
   Image<Rgb> stripes(64, 1);
   for (int x = 0; x < 64; x += 2) stripes(x, 0) = {200, 200, 200};
   const Image<Rgb> small = resize(stripes, 8, 1);
   for (const Rgb& pixel : small.pixels()) EXPECT_NEAR(pixel.g, 100, 4);
 }
 
-TEST(PreparedImage, FitsThePaperSizeOfACameraImage) {
+TEST(PreparedImage, FitsCameraImageToNetworkSize) {
   const PreparedImage prepared = prepare_image(Image<Rgb>(640, 480), NetworkConfig());
   EXPECT_EQ(prepared.valid_width, 320);
   EXPECT_EQ(prepared.valid_height, 240);
@@ -45,7 +45,7 @@ TEST(PreparedImage, FitsThePaperSizeOfACameraImage) {
   EXPECT_EQ(prepared.planes.size(), 3U * 320 * 256);
 }
 
-TEST(PreparedImage, NormalisesAndPadsWithZero) {
+TEST(PreparedImage, NormalizesAndPadsWithZero) {
   const PreparedImage prepared =
       prepare_image(Image<Rgb>(640, 480, {255, 0, 128}), NetworkConfig());
   EXPECT_NEAR(prepared.planes[0], (255 - 123.675) / 58.395, 1e-4);
@@ -54,13 +54,13 @@ TEST(PreparedImage, NormalisesAndPadsWithZero) {
   EXPECT_EQ(prepared.planes[320 * 240], 0.0F);  // the first row of padding
 }
 
-TEST(PreparedImage, UprightPicturesStayUpright) {
+TEST(PreparedImage, KeepsPortraitOrientation) {
   const PreparedImage prepared = prepare_image(Image<Rgb>(480, 640), NetworkConfig());
   EXPECT_EQ(prepared.width, 256);
   EXPECT_EQ(prepared.height, 320);
 }
 
-TEST(PreparedImage, PanoramasAreHighEnoughForTheNetwork) {
+TEST(PreparedImage, PadsPanoramasToMinimumHeight) {
   const PreparedImage prepared = prepare_image(Image<Rgb>(2000, 100), NetworkConfig());
   EXPECT_EQ(prepared.valid_width, 320);
   EXPECT_EQ(prepared.valid_height, 16);

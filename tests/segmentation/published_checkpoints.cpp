@@ -9,7 +9,7 @@ using Shape = std::vector<std::int64_t>;
 
 constexpr int kClasses = 80;
 
-/// Puts the numbers where the pattern has %.
+/// Replaces each % of the pattern by a number.
 std::string numbered(std::string pattern, std::initializer_list<int> numbers) {
   for (const int number : numbers) pattern.replace(pattern.find('%'), 1, std::to_string(number));
   return pattern;
@@ -117,9 +117,9 @@ class Checkpoint {
                              {3, 0, 258},
                              {3, 1, 128},
                              {3, 2, 128}}) {
-      const auto place = {unit.level, unit.number};
-      add(numbered(naming_.mask_conv, place) + ".weight", {128, unit.in, 3, 3});
-      group_norm(numbered(naming_.mask_norm, place), 128);
+      const auto unit_number = {unit.level, unit.number};
+      add(numbered(naming_.mask_conv, unit_number) + ".weight", {128, unit.in, 3, 3});
+      group_norm(numbered(naming_.mask_norm, unit_number), 128);
     }
     add(naming_.mask_out_conv + ".weight", {size.kernel, 128, 1, 1});
     group_norm(naming_.mask_out_norm, size.kernel);
@@ -129,8 +129,8 @@ class Checkpoint {
   float next_value_ = 1.0F;
 };
 
-/// A backbone of DetectoRS: SAC in stages 2 to 4, and what is fed back where it is the second one.
-void add_detectors_backbone(const std::string& prefix, bool second, Checkpoint& checkpoint) {
+/// A backbone of DetectoRS: SAC in stages 2 to 4, and the feedback connections in the second one.
+void add_detectors_backbone(const std::string& prefix, bool is_second, Checkpoint& checkpoint) {
   const auto standardised = [&](const std::string& name, Shape shape) {
     const std::int64_t out = shape[0];
     checkpoint.add(name + ".weight", std::move(shape));
@@ -161,7 +161,7 @@ void add_detectors_backbone(const std::string& prefix, bool second, Checkpoint& 
     const std::string block = prefix + numbered("layer%.0.", {s.number});
     standardised(block + "downsample.0", {s.out, s.in, 1, 1});
     checkpoint.norm(block + "downsample.1", s.out);
-    if (second && s.number > 1) checkpoint.biased(block + "rfp_conv", {s.out, 256, 1, 1});
+    if (is_second && s.number > 1) checkpoint.biased(block + "rfp_conv", {s.out, 256, 1, 1});
   }
 }
 

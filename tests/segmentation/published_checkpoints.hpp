@@ -6,7 +6,7 @@
 
 namespace mms::testing {
 
-/// How a framework calls the tensors of SOLOv2 with a ResNet-50, written down from its source; by
+/// Names of a framework for the tensors of SOLOv2 with a ResNet-50, taken from its source; by
 /// default MMDetection. Names end before ".weight", ".bias", ...; each % is a number.
 struct Naming {
   std::string prefix;  ///< of the whole checkpoint
@@ -20,8 +20,8 @@ struct Naming {
   int first_level = 0;
   std::string lateral = "neck.lateral_convs.%.conv";
   std::string output = "neck.fpn_convs.%.conv";
-  int layers_of_unit = 1;  ///< how far the numbers of a tower's units are apart
-  int norm_of_unit = 0;    ///< how far a unit's norm is from its convolution
+  int layers_of_unit = 1;  ///< difference between the numbers of a tower's units
+  int norm_of_unit = 0;    ///< offset of a unit's norm from its convolution
   std::string category_conv = "mask_head.cls_convs.%.conv";
   std::string category_norm = "mask_head.cls_convs.%.gn";
   std::string kernel_conv = "mask_head.kernel_convs.%.conv";
@@ -47,8 +47,8 @@ struct HeadSize {
 inline constexpr HeadSize kFullHead = {512, 4, 256};
 inline constexpr HeadSize kLightHead = {256, 2, 128};
 
-/// A checkpoint of SOLOv2 with a ResNet-50 for COCO. Each tensor is filled with one number, the
-/// same for the same tensor whatever its name.
+/// A checkpoint of SOLOv2 with a ResNet-50 for COCO. Each tensor is filled with one number, which
+/// does not depend on the naming.
 Weights published_checkpoint(const Naming& naming, HeadSize head);
 
 /// The same of MMDetection's DetectoRS: SAC in the backbone and RFP.

@@ -8,10 +8,10 @@
 namespace mms {
 namespace {
 
-/// Hand-made maps of the head: nothing is found until a cell is given an object.
-class HandMadeMaps {
+/// Synthetic maps of the head, without an object until a cell gets one.
+class SyntheticMaps {
  public:
-  HandMadeMaps() {
+  SyntheticMaps() {
     config_.head.kernel_channels = kChannels;
     const auto grids = config_.head.grids();
     for (std::size_t i = 0; i < grids.size(); ++i) {
@@ -34,14 +34,14 @@ class HandMadeMaps {
              float outside = -8.0F) {
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
-        const bool in = x >= left && x <= right && y >= top && y <= bottom;
+        const bool is_inside = x >= left && x <= right && y >= top && y <= bottom;
         features_[static_cast<std::size_t>((y * kWidth + x) * kFeaturePitch) + channel] =
-            in ? inside : outside;
+            is_inside ? inside : outside;
       }
     }
   }
 
-  /// Lets a cell see the object of a channel.
+  /// Assigns the object of a channel to a cell.
   void set_cell(std::size_t level, int row, int column, int category, float logit,
                 std::size_t channel) {
     const int side = config_.head.grids()[level];
@@ -73,35 +73,35 @@ float sigmoid(float x) {
   return 1.0F / (1.0F + std::exp(-x));
 }
 
-TEST(SoloDecoder, FindsNothingInEmptyMaps) {
-  EXPECT_TRUE(HandMadeMaps().decoded().empty());
+TEST(SoloDecoder, NoDetectionsInEmptyMaps) {
+  EXPECT_TRUE(SyntheticMaps().decoded().empty());
 }
 
-TEST(SoloDecoder, GivesAnObjectWithItsScoreClassAndPlace) {
-  HandMadeMaps maps;
+TEST(SoloDecoder, DetectsObjectWithScoreClassAndPosition) {
+  SyntheticMaps maps;
   maps.paint(1, 4, 3, 9, 8, 4.0F);
   maps.set_cell(1, 5, 5, 1, 2.0F, 1);
   const std::vector<Detection> found = maps.decoded();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].category, 1);
   EXPECT_NEAR(found[0].score, sigmoid(2.0F) * sigmoid(4.0F), 1e-5);  // class times maskness
-  EXPECT_NEAR(found[0].x, 4 * 8, 3);  // the box's corner at eight picture pixels a mask pixel
+  EXPECT_NEAR(found[0].x, 4 * 8, 3);  // the box's corner, at eight image pixels per mask pixel
   EXPECT_NEAR(found[0].y, 3 * 8, 3);
   EXPECT_NEAR(found[0].mask.width(), 6 * 8, 5);
   EXPECT_NEAR(found[0].mask.height(), 6 * 8, 5);
   EXPECT_EQ(found[0].mask(10, 10), 1);
 }
 
-TEST(SoloDecoder, CellsBesideAHigherOneAreSilent) {
-  HandMadeMaps maps;
+TEST(SoloDecoder, SuppressesCellsBesideHigherOne) {
+  SyntheticMaps maps;
   maps.paint(0, 2, 2, 6, 6, 4.0F);
   maps.set_cell(1, 5, 5, 0, 2.0F, 0);
-  maps.set_cell(1, 6, 6, 0, 1.0F, 0);  // up and left of it is a higher one
+  maps.set_cell(1, 6, 6, 0, 1.0F, 0);  // a higher one is up and left of it
   EXPECT_EQ(maps.decoded().size(), 1U);
 }
 
-TEST(SoloDecoder, TheSameObjectFromTwoLevelsLosesItsSecondScore) {
-  HandMadeMaps maps;
+TEST(SoloDecoder, MatrixNmsDecaysDuplicateOfOtherLevel) {
+  SyntheticMaps maps;
   maps.paint(0, 2, 2, 6, 6, 4.0F);
   maps.set_cell(1, 5, 5, 0, 2.0F, 0);
   maps.set_cell(2, 3, 3, 0, 1.5F, 0);
@@ -112,8 +112,8 @@ TEST(SoloDecoder, TheSameObjectFromTwoLevelsLosesItsSecondScore) {
 }
 
 /// Twelve objects that overlap, of two classes and three levels.
-HandMadeMaps crowded_maps() {
-  HandMadeMaps maps;
+SyntheticMaps crowded_maps() {
+  SyntheticMaps maps;
   for (int i = 0; i < 4; ++i) {
     maps.paint(static_cast<std::size_t>(i), 2 * i, i, 2 * i + 6, i + 6,
                1.0F + static_cast<float>(i));
@@ -126,8 +126,8 @@ HandMadeMaps crowded_maps() {
   return maps;
 }
 
-TEST(SoloDecoder, WhatCannotReachTheScoreMakesNoDifferenceToTheRest) {
-  const HandMadeMaps maps = crowded_maps();
+TEST(SoloDecoder, ScoreThresholdDoesNotChangeRemaining) {
+  const SyntheticMaps maps = crowded_maps();
   const std::vector<Detection> all = maps.decoded({.score = 0.0});
   ASSERT_GT(all.size(), 8U);
   for (const double score : {0.05, 0.3, 0.5, 0.7}) {
@@ -143,15 +143,15 @@ TEST(SoloDecoder, WhatCannotReachTheScoreMakesNoDifferenceToTheRest) {
   }
 }
 
-TEST(SoloDecoder, TooSmallMasksAreDropped) {
-  HandMadeMaps maps;
-  maps.paint(0, 2, 2, 4, 3, 4.0F);  // 6 pixels, the first levels want more than 8
+TEST(SoloDecoder, DropsTooSmallMasks) {
+  SyntheticMaps maps;
+  maps.paint(0, 2, 2, 4, 3, 4.0F);  // 6 pixels; the first levels need more than 8
   maps.set_cell(0, 5, 5, 0, 2.0F, 0);
   EXPECT_TRUE(maps.decoded().empty());
 }
 
-TEST(SoloDecoder, KeepsAtMostSoManyInstances) {
-  HandMadeMaps maps;
+TEST(SoloDecoder, LimitsNumberOfInstances) {
+  SyntheticMaps maps;
   maps.paint(0, 0, 0, 4, 4, 4.0F);
   maps.paint(1, 8, 6, 12, 10, 4.0F);
   maps.set_cell(1, 2, 2, 0, 1.0F, 0);

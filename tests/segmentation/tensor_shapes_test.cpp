@@ -20,7 +20,7 @@ TensorShapes backbone(const BackboneConfig& config) {
   return layers.shapes();
 }
 
-TEST(TensorShapes, BackbonesAreTorchvisions) {
+TEST(TensorShapes, BackbonesEqualTorchvision) {
   struct Case {
     int depth;
     std::size_t parameters;  // of torchvision's, without fc
@@ -35,7 +35,7 @@ TEST(TensorShapes, BackbonesAreTorchvisions) {
   }
 }
 
-TEST(TensorShapes, BlocksThatKeepTheirSizeHaveNoDownsampling) {
+TEST(TensorShapes, NoDownsamplingInBlocksOfEqualSize) {
   const TensorShapes plain = backbone({.depth = 18, .last_planes = 256});
   EXPECT_FALSE(plain.contains("layer1.0.downsample.0.weight"));
   EXPECT_EQ(plain.at("layer2.0.downsample.0.weight"), (TensorShape{128, 64, 1, 1}));
@@ -44,7 +44,7 @@ TEST(TensorShapes, BlocksThatKeepTheirSizeHaveNoDownsampling) {
   EXPECT_TRUE(backbone({}).contains("layer1.0.downsample.0.weight"));
 }
 
-TEST(TensorShapes, SwitchesAreInTheSecondConvolutionsOfStages2To4) {
+TEST(TensorShapes, SacIsInSecondConvolutionsOfStages2To4) {
   const TensorShapes plain = backbone({.depth = 18, .sac = SacMode::kPlain});
   EXPECT_EQ(plain.at("layer2.0.conv2.weight_diff"), (TensorShape{128, 128, 3, 3}));
   EXPECT_EQ(plain.at("layer4.1.conv2.switch.weight"), (TensorShape{1, 512, 1, 1}));
@@ -57,7 +57,7 @@ TEST(TensorShapes, SwitchesAreInTheSecondConvolutionsOfStages2To4) {
             (TensorShape{18, 256, 3, 3}));
 }
 
-TEST(TensorShapes, TheSmallNetworkSharesItsTower) {
+TEST(TensorShapes, SmallNetworkSharesTower) {
   const TensorShapes tensors = expected_tensors(NetworkConfig());
   EXPECT_EQ(tensors.at("mask_head.kernel_convs.0.conv.weight"), (TensorShape{128, 66, 3, 3}));
   EXPECT_EQ(tensors.at("mask_head.kernel_convs.1.bn.running_var"), (TensorShape{128}));
@@ -66,7 +66,7 @@ TEST(TensorShapes, TheSmallNetworkSharesItsTower) {
   EXPECT_FALSE(tensors.contains("neck.rfp_weight.weight"));
 }
 
-TEST(TensorShapes, RecursionAddsASecondBackbone) {
+TEST(TensorShapes, RecursionAddsSecondBackbone) {
   const auto config = NetworkConfig::preset(NetworkSize::kR50, NetworkVariant::kRfp);
   const TensorShapes tensors = expected_tensors(config);
   EXPECT_EQ(tensors.at("neck.rfp_modules.0.layer4.0.rfp_conv.weight"),
@@ -77,7 +77,7 @@ TEST(TensorShapes, RecursionAddsASecondBackbone) {
   EXPECT_EQ(tensors.at("neck.rfp_aspp.aspp.2.weight"), (TensorShape{64, 256, 3, 3}));
 }
 
-TEST(TensorShapes, Text) {
+TEST(TensorShapes, FormatsShapes) {
   EXPECT_EQ(shape_text({}), "()");
   EXPECT_EQ(shape_text({64, 3, 7, 7}), "(64, 3, 7, 7)");
 }

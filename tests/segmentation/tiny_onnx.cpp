@@ -9,7 +9,7 @@ namespace {
 
 using Shape = std::vector<std::int64_t>;
 
-constexpr int kCells = 8;  // a side
+constexpr int kCells = 8;  // per side
 constexpr int kCount = kCells * kCells;
 
 // Field numbers of onnx.proto.
@@ -78,8 +78,8 @@ std::string value_info(const std::string& name, const Shape& shape) {
   return ProtobufWriter().bytes(1, name).bytes(2, holder).message();
 }
 
-/// Weights of a convolution over squares of side x side px: what each output channel takes from
-/// the mean of red, green and blue.
+/// Weights of a convolution over squares of side x side px: factors of each output channel for the
+/// mean of red, green and blue.
 std::vector<float> mean_weights(const std::vector<std::vector<float>>& colors, int side) {
   std::vector<float> weights;
   for (const std::vector<float>& color : colors) {
@@ -103,14 +103,14 @@ void add_convolution(ProtobufWriter& graph, const std::string& output, int side,
                            ints_attribute("strides", {side, side})}));
 }
 
-/// A reshape to a row of cells a channel.
+/// A reshape to a row of cells per channel.
 void add_rows(ProtobufWriter& graph, const std::string& input, const std::string& output,
               std::int64_t channels) {
   graph.bytes(kInitializer, ints(output + "_shape", {1, channels, kCount}));
   graph.bytes(kNode, node("Reshape", {input, output + "_shape"}, output));
 }
 
-/// "boxes": centre and size, first in cells, then in pixels by the factor (1, cells) as in YOLOv8.
+/// "boxes": center and size, first in cells, then in pixels by the factor (1, cells) as in YOLOv8.
 void add_boxes(ProtobufWriter& graph) {
   const std::vector<float> none(3, 0.0F);
   add_convolution(graph, "sizes", 8, {none, none, none, none}, {0.5F, 0.5F, 4.0F, 4.0F});
@@ -126,7 +126,7 @@ void add_boxes(ProtobufWriter& graph) {
   graph.bytes(kNode, node("Mul", {"cell_boxes", "strides"}, "boxes"));
 }
 
-/// "rows": the boxes and behind them, cell by cell, classes and the mask's two coefficients.
+/// "rows": the boxes, then, cell by cell, classes and the mask's two coefficients.
 void add_predictions(ProtobufWriter& graph, bool objectness) {
   std::vector<std::vector<float>> colors = {{0.9F, -0.9F, 0.0F}, {0.0F, -0.9F, 0.9F}};
   std::vector<float> bias = {0.0F, 0.0F, 1.0F, -2.0F};
@@ -146,9 +146,10 @@ std::string graph_of(const TinyOnnx& model) {
   ProtobufWriter graph;
   add_predictions(graph, columns);
   if (columns) {
-    graph.bytes(kNode, node("Transpose", {"rows"}, "turned", {ints_attribute("perm", {0, 2, 1})}));
+    graph.bytes(kNode,
+                node("Transpose", {"rows"}, "transposed", {ints_attribute("perm", {0, 2, 1})}));
   }
-  graph.bytes(kNode, node(model.last, {columns ? "turned" : "rows"}, "output0"));
+  graph.bytes(kNode, node(model.last, {columns ? "transposed" : "rows"}, "output0"));
   if (model.prototypes) {
     add_convolution(graph, "output1", 4, {{24.0F, -48.0F, 24.0F}, {0.0F, 0.0F, 0.0F}},
                     {-10.0F, 1.0F});

@@ -22,20 +22,20 @@ std::vector<float> convolved_with(const Weights& weights) {
   return values;
 }
 
-TEST(WeightStandardisation, IsMmcvsFormula) {
+TEST(WeightStandardisation, EqualsMmcv) {
   const std::vector<float> values = convolved_with(one_conv());
   const double first = std::sqrt(7.0 + 1e-5);    // unbiased variance of 1, 2, 6
   const double second = std::sqrt(0.03 + 1e-5);  // of 0.1, 0.1, 0.4
-  const std::vector<double> wanted = {-2.0 / first,
-                                      -1.0 / first,
-                                      3.0 / first,
-                                      3.0 - 0.5 * 0.1 / second,
-                                      3.0 - 0.5 * 0.1 / second,
-                                      3.0 + 0.5 * 0.2 / second};
-  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(values[i], wanted[i], 1e-6);
+  const std::vector<double> expected = {-2.0 / first,
+                                        -1.0 / first,
+                                        3.0 / first,
+                                        3.0 - 0.5 * 0.1 / second,
+                                        3.0 - 0.5 * 0.1 / second,
+                                        3.0 + 0.5 * 0.2 / second};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(values[i], expected[i], 1e-6);
 }
 
-TEST(WeightStandardisation, KeepsAWeight) {
+TEST(WeightStandardisation, KeepsWeight) {
   Weights weights = one_conv();
   keep_weight("c", weights);
   const std::vector<float> values = convolved_with(weights);
@@ -44,7 +44,7 @@ TEST(WeightStandardisation, KeepsAWeight) {
   }
 }
 
-TEST(WeightStandardisation, SettledWeightsAreConvolvedWith) {
+TEST(WeightStandardisation, SettledWeightsAreStandardized) {
   Weights weights = one_conv();
   settle_standardisation(weights);
   EXPECT_EQ(weights.tensors.at("c.weight").values, convolved_with(one_conv()));

@@ -15,11 +15,11 @@ namespace {
 
 constexpr int kSide = 64;  // of the input
 constexpr int kMask = 16;  // of the prototypes
-constexpr float kSure = 30.0F;
+constexpr float kCertain = 30.0F;
 
 /// One proposed object of two classes with two coefficients.
 struct Proposal {
-  std::array<float, 4> box = {32, 32, 16, 16};  ///< centre, size
+  std::array<float, 4> box = {32, 32, 16, 16};  ///< center, size
   std::array<float, 2> classes = {0.9F, 0.0F};
   std::array<float, 2> coefficients = {1.0F, 0.0F};
   float objectness = 1.0F;  ///< YOLOv5 only
@@ -29,7 +29,7 @@ struct Proposal {
 struct Outputs {
   YoloLayout layout;
   std::vector<float> predictions;
-  std::vector<float> prototypes = std::vector<float>(2 * kMask * kMask, kSure);
+  std::vector<float> prototypes = std::vector<float>(2 * kMask * kMask, kCertain);
 
   std::vector<Detection> decode(const Letterbox& letterbox, const OnnxConfig& config = {}) const {
     return decode_yolo({predictions.data(), prototypes.data()}, layout, letterbox, config);
@@ -51,7 +51,7 @@ std::vector<float> channels_of(const Proposal& proposal, YoloFormat format) {
   return channels;
 }
 
-/// Written as the formats say, not with YoloLayout::index.
+/// In the layout of the formats, without YoloLayout::index.
 Outputs outputs_of(const std::vector<Proposal>& proposals, YoloFormat format = YoloFormat::kV8) {
   const int count = static_cast<int>(proposals.size());
   const std::size_t channels = channels_of({}, format).size();
@@ -83,7 +83,7 @@ void expect_rectangle(const Detection& found, int x, int y, int width, int heigh
   EXPECT_EQ(area(found), width * height);
 }
 
-TEST(YoloDecoder, BothFormatsGiveTheSameObjects) {
+TEST(YoloDecoder, BothFormatsGiveSameObjects) {
   const std::vector<Proposal> proposals = {
       {.box = {20, 20, 8, 8}, .classes = {0.1F, 0.5F}},
       {.box = {40, 30, 16, 12}, .classes = {0.75F, 0.2F}},
@@ -101,7 +101,7 @@ TEST(YoloDecoder, BothFormatsGiveTheSameObjects) {
   }
 }
 
-TEST(YoloDecoder, ObjectnessCountsInYolo5) {
+TEST(YoloDecoder, MultipliesObjectnessInYolo5) {
   const std::vector<Proposal> proposals = {{.classes = {0.8F, 0.5F}, .objectness = 0.5F},
                                            {.classes = {0.8F, 0.5F}, .objectness = 0.3F}};
   const std::vector<Detection> found = outputs_of(proposals, YoloFormat::kV5).decode();
@@ -109,7 +109,7 @@ TEST(YoloDecoder, ObjectnessCountsInYolo5) {
   EXPECT_FLOAT_EQ(found[0].score, 0.4F);
 }
 
-TEST(YoloDecoder, TheMaskIsTheSumOfPrototypes) {
+TEST(YoloDecoder, MaskIsSumOfPrototypes) {
   Outputs outputs = outputs_of({{.box = {32, 32, 64, 64}, .coefficients = {2.0F, -1.0F}}});
   for (int y = 0; y < kMask; ++y) {
     for (int x = 0; x < kMask; ++x) {
@@ -129,35 +129,35 @@ TEST(YoloDecoder, TheMaskIsTheSumOfPrototypes) {
   EXPECT_EQ(object.mask(0, 0) + object.mask(19, 0) + object.mask(0, 7) + object.mask(19, 7), 0);
 }
 
-TEST(YoloDecoder, ProbabilitiesAreBilinear) {
+TEST(YoloDecoder, InterpolatesProbabilitiesBilinearly) {
   Outputs outputs = outputs_of({{.box = {32, 32, 64, 64}}});
   for (int y = 0; y < kMask; ++y) {
     for (int x = 0; x < kMask; ++x) {
-      outputs.prototype(0, x, y) = x < 4 ? -std::log(3.0F) : kSure;  // 1/4 and 1
+      outputs.prototype(0, x, y) = x < 4 ? -std::log(3.0F) : kCertain;  // 1/4 and 1
     }
   }
   const std::vector<Detection> found = outputs.decode();
   ASSERT_EQ(found.size(), 1U);
-  // 1/2 is a third of the way from the centre of prototype 3, at 14, to that of 4, at 18 [px].
+  // 1/2 is at a third of the distance from the center of prototype 3, 14, to that of 4, 18 [px].
   expect_rectangle(found[0], 15, 0, kSide - 15, kSide);
 }
 
-TEST(YoloDecoder, TheBoxCutsTheMaskOut) {
+TEST(YoloDecoder, CropsMaskToBox) {
   const Outputs outputs = outputs_of({{.box = {15.5F, 30.0F, 10.2F, 21.0F}}});
   const std::vector<Detection> found = outputs.decode();
   ASSERT_EQ(found.size(), 1U);
-  // 10.4 to 20.6, and 19.5 to 40.5: the pixels whose centres are in there.
+  // 10.4 to 20.6, and 19.5 to 40.5: the pixels with their centers inside.
   expect_rectangle(found[0], 10, 19, 11, 21);
 }
 
-TEST(YoloDecoder, BoxesEndWithThePicture) {
+TEST(YoloDecoder, ClipsBoxesToImage) {
   const Outputs outputs = outputs_of({{.box = {0.0F, 60.0F, 20.0F, 20.0F}}});
   const std::vector<Detection> found = outputs.decode();
   ASSERT_EQ(found.size(), 1U);
   expect_rectangle(found[0], 0, 50, 10, 14);
 }
 
-TEST(YoloDecoder, GoesBackThroughTheLetterbox) {
+TEST(YoloDecoder, MapsBackThroughLetterbox) {
   const Outputs outputs = outputs_of({{.box = {24, 32, 16, 16}}});
   const std::vector<Detection> wide = outputs.decode(fit_letterbox(128, 64, kSide, kSide));
   ASSERT_EQ(wide.size(), 1U);  // 16 px of padding above, then twice the size
@@ -167,19 +167,19 @@ TEST(YoloDecoder, GoesBackThroughTheLetterbox) {
   expect_rectangle(tall[0], 0, 12, 8, 8);
 }
 
-TEST(YoloDecoder, AnUnevenLetterboxEndsWhereThePictureDoes) {
+TEST(YoloDecoder, UnevenLetterboxCoversImage) {
   const Outputs outputs = outputs_of({{.box = {32, 32, 64, 64}}});
   const std::vector<Detection> found = outputs.decode(fit_letterbox(100, 33, kSide, kSide));
   ASSERT_EQ(found.size(), 1U);
   expect_rectangle(found[0], 0, 0, 100, 33);
 }
 
-TEST(YoloDecoder, WhatLiesInThePaddingIsNoObject) {
+TEST(YoloDecoder, IgnoresObjectsInPadding) {
   const Outputs outputs = outputs_of({{.box = {32, 8, 16, 15}}, {.box = {32, 56, 16, 15}}});
   EXPECT_TRUE(outputs.decode(fit_letterbox(128, 64, kSide, kSide)).empty());
 }
 
-TEST(YoloDecoder, BetterBoxesOfTheSameClassSuppress) {
+TEST(YoloDecoder, NmsSuppressesWithinClass) {
   const std::vector<Proposal> proposals = {
       {.box = {30, 32, 16, 16}, .classes = {0.5F, 0.0F}},   // over the best
       {.box = {32, 32, 16, 16}, .classes = {0.9F, 0.0F}},   // the best
@@ -195,7 +195,7 @@ TEST(YoloDecoder, BetterBoxesOfTheSameClassSuppress) {
   EXPECT_EQ(found[2].category, 1);
 }
 
-TEST(YoloDecoder, OverlapAndNumberAreLimits) {
+TEST(YoloDecoder, LimitsOverlapAndNumber) {
   const std::vector<Proposal> proposals = {{.box = {20, 20, 16, 16}, .classes = {0.9F, 0.0F}},
                                            {.box = {20, 24, 16, 8}, .classes = {0.8F, 0.0F}},
                                            {.box = {50, 50, 8, 8}, .classes = {0.7F, 0.0F}}};
@@ -207,14 +207,14 @@ TEST(YoloDecoder, OverlapAndNumberAreLimits) {
   EXPECT_EQ(outputs.decode(letterbox, {.score = 0.75, .overlap = 1.0}).size(), 2U);
 }
 
-TEST(YoloDecoder, TheScoreHasToBeAboveTheLeast) {
+TEST(YoloDecoder, KeepsScoresAboveThreshold) {
   const std::vector<Proposal> proposals = {{.classes = {0.25F, 0.0F}}, {.classes = {0.0F, 0.26F}}};
   const std::vector<Detection> found = outputs_of(proposals).decode();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].category, 1);
 }
 
-TEST(YoloDecoder, ScoresAndBoxesThatAreNoneAreLeftOut) {
+TEST(YoloDecoder, IgnoresInvalidScoresAndBoxes) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInf = std::numeric_limits<float>::infinity();
   constexpr float kMost = std::numeric_limits<float>::max();
@@ -239,11 +239,11 @@ TEST(YoloDecoder, ScoresAndBoxesThatAreNoneAreLeftOut) {
 /// The mask's definition, pixel by pixel, in double.
 bool set_by_definition(const Outputs& outputs, const Proposal& p, const Letterbox& l, int x,
                        int y) {
-  const auto place = [](const LetterboxAxis& axis, int pixel) {
+  const auto position = [](const LetterboxAxis& axis, int pixel) {
     return (pixel + 0.5) * axis.scaled / axis.image + axis.offset;
   };
-  const double u = place(l.x, x);
-  const double v = place(l.y, y);
+  const double u = position(l.x, x);
+  const double v = position(l.y, y);
   if (std::abs(u - p.box[0]) > p.box[2] / 2 || std::abs(v - p.box[1]) > p.box[3] / 2) return false;
   const double s = std::clamp(u * kMask / l.x.input - 0.5, 0.0, kMask - 1.0);
   const double t = std::clamp(v * kMask / l.y.input - 0.5, 0.0, kMask - 1.0);
@@ -261,7 +261,7 @@ bool set_by_definition(const Outputs& outputs, const Proposal& p, const Letterbo
   return sum > 0.5;
 }
 
-TEST(YoloDecoder, AgreesWithTheDefinition) {
+TEST(YoloDecoder, EqualsDefinition) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> number(-1.0F, 1.0F);
   for (const auto& [width, height] : {std::pair(97, 41), {30, 77}, {64, 64}, {13, 200}}) {
@@ -283,7 +283,7 @@ TEST(YoloDecoder, AgreesWithTheDefinition) {
   }
 }
 
-TEST(Letterbox, KeepsTheAspectAndCentres) {
+TEST(Letterbox, KeepsAspectAndCenters) {
   const auto expect_axis = [](const LetterboxAxis& axis, int scaled, int offset) {
     EXPECT_EQ(axis.scaled, scaled);
     EXPECT_EQ(axis.offset, offset);
@@ -297,12 +297,12 @@ TEST(Letterbox, KeepsTheAspectAndCentres) {
   const Letterbox odd = fit_letterbox(33, 100, 64, 64);  // 33 * 0.64 is 21.12
   expect_axis(odd.x, 21, 21);
   expect_axis(odd.y, 64, 0);
-  const Letterbox thread = fit_letterbox(10000, 1, 64, 64);
-  expect_axis(thread.x, 64, 0);
-  expect_axis(thread.y, 1, 31);
+  const Letterbox line = fit_letterbox(10000, 1, 64, 64);
+  expect_axis(line.x, 64, 0);
+  expect_axis(line.y, 1, 31);
 }
 
-TEST(Letterbox, GoesThereAndBack) {
+TEST(Letterbox, RoundTrips) {
   const Letterbox letterbox = fit_letterbox(1280, 720, 640, 640);
   EXPECT_FLOAT_EQ(letterbox.y.to_input(0.0F), 140.0F);
   EXPECT_FLOAT_EQ(letterbox.y.to_input(720.0F), 500.0F);

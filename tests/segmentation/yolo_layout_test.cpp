@@ -11,7 +11,7 @@ namespace {
 using testing::expect_in;
 using testing::message_of;
 
-TEST(YoloLayout, KnowsTheShapesOfCocosModels) {
+TEST(YoloLayout, RecognizesShapesOfCocoModels) {
   const YoloLayout v8 = find_layout({{1, 116, 8400}, {1, 32, 160, 160}}, 80, "net");
   EXPECT_EQ(v8.format, YoloFormat::kV8);
   EXPECT_EQ(v8.predictions, 0U);
@@ -35,24 +35,24 @@ TEST(YoloLayout, KnowsTheShapesOfCocosModels) {
   EXPECT_EQ(v5.index(7, 3), 7U * 117 + 3);
 }
 
-TEST(YoloLayout, SaysWhatItFoundAndWhatItKnows) {
-  const auto fault = [](const std::vector<Shape>& outputs, int classes) {
+TEST(YoloLayout, ErrorsNameFoundAndSupportedShapes) {
+  const auto error = [](const std::vector<Shape>& outputs, int classes) {
     return message_of<DataError>([&] { find_layout(outputs, classes, "net.onnx"); });
   };
-  EXPECT_EQ(fault({{1, 116, 8400}, {1, 32, 160, 160}}, 2),
+  EXPECT_EQ(error({{1, 116, 8400}, {1, 32, 160, 160}}, 2),
             "net.onnx: gives (1, 116, 8400) and (1, 32, 160, 160), known with 2 classes are "
             "(1, 4 + 2 + M, N) of YOLOv8-seg and YOLO11-seg and (1, N, 5 + 2 + M) of YOLOv5-seg, "
             "each with (1, M, H, W) (take a model for segmentation, exported without NMS, and name "
             "its classes in their order)");
-  expect_in("gives (1, 84, 8400), known", fault({{1, 84, 8400}}, 80));
-  expect_in("gives nothing, known", fault({}, 80));
+  expect_in("gives (1, 84, 8400), known", error({{1, 84, 8400}}, 80));
+  expect_in("gives nothing, known", error({}, 80));
   expect_in("gives (2, 116, 8400) and (1, 32, 160, 160)",
-            fault({{2, 116, 8400}, {1, 32, 160, 160}}, 80));
-  expect_in("gives (1, 116, 0) and", fault({{1, 116, 0}, {1, 32, 160, 160}}, 80));
-  expect_in("gives (1, 300, 38) and", fault({{1, 300, 38}, {1, 32, 160, 160}}, 80));
-  expect_in("gives (1, 116, 8400) and (1, 116, 8400)", fault({{1, 116, 8400}, {1, 116, 8400}}, 80));
-  expect_in("gives (1, 32, 4, 4) and () and ()", fault({{1, 32, 4, 4}, {}, {}}, 80));
-  expect_in("gives (1, 32, 4, 4) and (1, 32, 4, 4)", fault({{1, 32, 4, 4}, {1, 32, 4, 4}}, 80));
+            error({{2, 116, 8400}, {1, 32, 160, 160}}, 80));
+  expect_in("gives (1, 116, 0) and", error({{1, 116, 0}, {1, 32, 160, 160}}, 80));
+  expect_in("gives (1, 300, 38) and", error({{1, 300, 38}, {1, 32, 160, 160}}, 80));
+  expect_in("gives (1, 116, 8400) and (1, 116, 8400)", error({{1, 116, 8400}, {1, 116, 8400}}, 80));
+  expect_in("gives (1, 32, 4, 4) and () and ()", error({{1, 32, 4, 4}, {}, {}}, 80));
+  expect_in("gives (1, 32, 4, 4) and (1, 32, 4, 4)", error({{1, 32, 4, 4}, {1, 32, 4, 4}}, 80));
 }
 
 }  // namespace

@@ -15,11 +15,11 @@ Weights stem() {
   return weights;
 }
 
-TEST(WeightTransfer, APlainNetworkGetsNothing) {
+TEST(WeightTransfer, AddsNothingForPlainNetwork) {
   EXPECT_EQ(grown_to(nano(NetworkVariant::kSolov2), stem()), stem());
 }
 
-TEST(WeightTransfer, BothBackbonesAreStandardised) {
+TEST(WeightTransfer, StandardizesBothBackbones) {
   const Weights grown = grown_to(nano(NetworkVariant::kDetectors), stem());
   EXPECT_EQ(grown.tensors.size(), 6U);
   for (const char* backbone : {"backbone.", "neck.rfp_modules.0."}) {
@@ -29,7 +29,7 @@ TEST(WeightTransfer, BothBackbonesAreStandardised) {
   }
 }
 
-TEST(WeightTransfer, WhatIsGivenStays) {
+TEST(WeightTransfer, KeepsGivenTensors) {
   Weights given = stem();
   given.tensors["backbone.conv1.weight_gamma"] = {{64, 1, 1, 1}, std::vector<float>(64, 7.0F)};
   given.tensors["neck.rfp_modules.0.conv1.weight"] = {{64, 3, 7, 7}, std::vector<float>(9408)};

@@ -14,7 +14,7 @@ struct Case {
   PreparedImage prepared;
 };
 
-/// A picture whose scaled part fills all of a mask but for its lowest rows.
+/// An image whose scaled part fills a mask except its lowest rows.
 Case case_of(int image_width, int image_height) {
   Case c{20, 16, {}};
   c.prepared.image_width = image_width;
@@ -24,14 +24,14 @@ Case case_of(int image_width, int image_height) {
   return c;
 }
 
-/// The probability at a pixel of the picture, as the definition has it.
-double naive(const Case& c, const std::vector<float>& soft, int x, int y) {
-  const auto place = [](int pixel, int image, int valid, int mask) {
+/// The probability at an image pixel by definition.
+double expected_probability(const Case& c, const std::vector<float>& soft, int x, int y) {
+  const auto position = [](int pixel, int image, int valid, int mask) {
     const double at = (pixel + 0.5) * valid / image / 4.0 - 0.5;
     return std::clamp(at, 0.0, mask - 1.0);
   };
-  const double u = place(x, c.prepared.image_width, c.prepared.valid_width, c.mask_width);
-  const double v = place(y, c.prepared.image_height, c.prepared.valid_height, c.mask_height);
+  const double u = position(x, c.prepared.image_width, c.prepared.valid_width, c.mask_width);
+  const double v = position(y, c.prepared.image_height, c.prepared.valid_height, c.mask_height);
   const auto at = [&](int row, int column) {
     return soft[static_cast<std::size_t>(std::min(row, c.mask_height - 1) * c.mask_width +
                                          std::min(column, c.mask_width - 1))];
@@ -43,11 +43,11 @@ double naive(const Case& c, const std::vector<float>& soft, int x, int y) {
   return low + (v - j) * (high - low);
 }
 
-/// Checks an enlarged mask pixel by pixel.
+/// Checks an upsampled mask pixel by pixel.
 void expect_pixels(const Case& c, const std::vector<float>& soft, const Detection& found) {
   for (int y = 0; y < c.prepared.image_height; ++y) {
     for (int x = 0; x < c.prepared.image_width; ++x) {
-      const double probability = naive(c, soft, x, y);
+      const double probability = expected_probability(c, soft, x, y);
       if (std::abs(probability - 0.5) < 1e-5) continue;  // rounding decides
       const int u = x - found.x;
       const int v = y - found.y;
@@ -57,7 +57,7 @@ void expect_pixels(const Case& c, const std::vector<float>& soft, const Detectio
   }
 }
 
-/// Expects something in the first and last row and column.
+/// Expects set pixels in the first and last row and column.
 void expect_cropped(const Image<std::uint8_t>& mask) {
   if (mask.empty()) return;
   int left = 0, right = 0, top = 0, bottom = 0;
@@ -66,7 +66,7 @@ void expect_cropped(const Image<std::uint8_t>& mask) {
   for (const int count : {left, right, top, bottom}) EXPECT_GT(count, 0);
 }
 
-TEST(EnlargedMask, EqualsItsDefinitionPixelByPixel) {
+TEST(UpsampledMask, EqualsDefinitionPixelByPixel) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> column(0, 19);
   std::uniform_int_distribution<int> row(0, 15);
@@ -88,12 +88,12 @@ TEST(EnlargedMask, EqualsItsDefinitionPixelByPixel) {
   }
 }
 
-TEST(EnlargedMask, OfNothingIsEmpty) {
+TEST(UpsampledMask, IsEmptyWithoutPixels) {
   const Case c = case_of(160, 114);
   EXPECT_TRUE(upsampled_mask(std::vector<float>(20 * 16, 0.4F), 20, c.prepared).mask.empty());
 }
 
-TEST(EnlargedMask, OfEverythingIsThePicture) {
+TEST(UpsampledMask, FullMaskCoversImage) {
   const Case c = case_of(160, 114);
   const Detection all = upsampled_mask(std::vector<float>(20 * 16, 0.9F), 20, c.prepared);
   EXPECT_EQ(all.x, 0);
