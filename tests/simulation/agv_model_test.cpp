@@ -43,7 +43,7 @@ Size size_of(AgvKind kind) {
   return {{1.35F, 0.75F, 0.65F}, {1.45F, 0.9F, 1.5F}};
 }
 
-TEST(AgvModel, HasTheSizeOfItsKindAndStandsOnTheFloor) {
+TEST(AgvModel, HasSizeOfKindAndStandsOnFloor) {
   for (const AgvKind kind : kKinds) {
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
       const auto agv = make_agv(kind, seed);
@@ -63,7 +63,7 @@ TEST(AgvModel, HasTheSizeOfItsKindAndStandsOnTheFloor) {
   }
 }
 
-TEST(AgvModel, KindsHaveTheirNames) {
+TEST(AgvModel, KindsHaveNames) {
   const std::array<std::string, kAgvKindCount> names = {"grabbing_agv", "forklift", "scanning_agv",
                                                         "pioneer", "transport_agv"};
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
@@ -73,8 +73,8 @@ TEST(AgvModel, KindsHaveTheirNames) {
   }
 }
 
-/// Whether a part moves when the vehicle drives: a wheel, whose axle is the origin of the part.
-bool turns_with_way(const ArticulatedModel& agv, std::size_t part) {
+/// Whether a part moves when the vehicle drives: a wheel. Its axle is the origin of the part.
+bool rotates_with_distance(const ArticulatedModel& agv, std::size_t part) {
   return !agv.pose({}).at(part).isApprox(agv.pose({.travelled = 0.01}).at(part), 1e-6F);
 }
 
@@ -83,7 +83,7 @@ TEST(AgvModel, WheelsRollWithoutSlipping) {
     const auto agv = make_agv(kind, 5);
     int wheels = 0;
     for (std::size_t part = 0; part < agv->parts().size(); ++part) {
-      if (!turns_with_way(*agv, part)) continue;
+      if (!rotates_with_distance(*agv, part)) continue;
       ++wheels;
       constexpr float kStep = 2e-3F;  // [m]
       const Eigen::Isometry3f before = agv->pose({.travelled = 1.0}).at(part);
@@ -114,15 +114,16 @@ TEST(AgvModel, ArmMastHeadAndRollersMoveWithTime) {
 
 TEST(AgvModel, ForksLiftAndLower) {
   const auto agv = make_agv(AgvKind::kForklift, 1);
-  float most = 0.0F;
+  float max_lift = 0.0F;
   const auto start = agv->pose({});
   for (double t = 0.0; t < 20.0; t += 0.5) {
     const auto now = agv->pose({.seconds = t});
     for (std::size_t i = 0; i < now.size(); ++i) {
-      most = std::max(most, std::abs(now[i].translation().z() - start[i].translation().z()));
+      max_lift =
+          std::max(max_lift, std::abs(now[i].translation().z() - start[i].translation().z()));
     }
   }
-  EXPECT_GT(most, 0.2F);
+  EXPECT_GT(max_lift, 0.2F);
 }
 
 TEST(AgvModel, MovesContinuously) {
@@ -131,16 +132,16 @@ TEST(AgvModel, MovesContinuously) {
       const auto agv = make_agv(kind, seed);
       for (double t = 0.0; t < 15.0; t += 0.02) {
         const auto now = agv->pose({.seconds = t, .travelled = t, .speed = 1.0});
-        const auto soon = agv->pose({.seconds = t + 1e-3, .travelled = t + 1e-3, .speed = 1.0});
+        const auto next = agv->pose({.seconds = t + 1e-3, .travelled = t + 1e-3, .speed = 1.0});
         for (std::size_t i = 0; i < now.size(); ++i) {
-          EXPECT_LT((now[i].matrix() - soon[i].matrix()).norm(), 0.05F) << agv->kind() << ' ' << i;
+          EXPECT_LT((now[i].matrix() - next[i].matrix()).norm(), 0.05F) << agv->kind() << ' ' << i;
         }
       }
     }
   }
 }
 
-TEST(AgvModel, SameSeedSameVehicleOtherSeedAnother) {
+TEST(AgvModel, SeedDeterminesVehicle) {
   for (const AgvKind kind : kKinds) {
     const auto a = make_agv(kind, 4);
     const auto b = make_agv(kind, 4);

@@ -42,7 +42,7 @@ Statistics of_green(const Image<Rgb>& picture) {
   return {sum / count, std::sqrt(squares / count - sum / count * sum / count)};
 }
 
-TEST(ColorSensor, FollowsTheSrgbCurve) {
+TEST(ColorSensor, FollowsSrgbCurve) {
   for (int i = 0; i <= 200; ++i) {
     const double light = i / 200.0 * i / 200.0;
     const Rgb pixel = develop(plain(static_cast<float>(light), 1, 1), ideal(), 1)(0, 0);
@@ -52,12 +52,12 @@ TEST(ColorSensor, FollowsTheSrgbCurve) {
   }
 }
 
-TEST(ColorSensor, KeepsTheChannelsApart) {
+TEST(ColorSensor, KeepsChannelsApart) {
   Image<Eigen::Vector3f> radiance(5, 4, {1.0F, 0.0F, 0.2140411F});
   EXPECT_EQ(develop(radiance, ideal(), 1)(2, 1), (Rgb{255, 0, 128}));
 }
 
-TEST(ColorSensor, CutsWhatIsTooBrightNegativeOrNoNumber) {
+TEST(ColorSensor, ClampsInvalidAndExtremeValues) {
   Image<Eigen::Vector3f> radiance = plain(0.2F, 9, 1);
   radiance(0, 0).setConstant(std::numeric_limits<float>::infinity());
   radiance(4, 0).setConstant(-3.0F);
@@ -71,15 +71,15 @@ TEST(ColorSensor, CutsWhatIsTooBrightNegativeOrNoNumber) {
   EXPECT_EQ(develop(radiance, soft, 1)(2, 0), develop(plain(0.2F, 1, 1), ideal(), 1)(0, 0));
 }
 
-TEST(ColorSensor, NoiseIsAsStrongAsItSays) {
+TEST(ColorSensor, NoiseHasConfiguredDeviation) {
   ColorSensor sensor = ideal();
   sensor.read_noise = 1.5;
   sensor.shot_noise = 3.0;
   for (const double light : {0.1, 0.3, 0.6}) {
-    const Statistics seen = of_green(develop(plain(static_cast<float>(light)), sensor, 5));
+    const Statistics measured = of_green(develop(plain(static_cast<float>(light)), sensor, 5));
     const double rounding = 1.0 / 12.0;
-    EXPECT_NEAR(seen.mean, 255.0 * srgb(light), 0.1);
-    EXPECT_NEAR(seen.deviation, std::sqrt(2.25 + 9.0 * light + rounding), 0.06);
+    EXPECT_NEAR(measured.mean, 255.0 * srgb(light), 0.1);
+    EXPECT_NEAR(measured.deviation, std::sqrt(2.25 + 9.0 * light + rounding), 0.06);
   }
 }
 
@@ -98,7 +98,7 @@ TEST(ColorSensor, NoiseDiffersBetweenFramesPixelsAndChannels) {
   EXPECT_LT(std::abs(product / square), 0.04);
 }
 
-TEST(ColorSensor, VignettingTakesItsShareInTheCorners) {
+TEST(ColorSensor, VignettingDarkensCornersByShare) {
   ColorSensor sensor = ideal();
   sensor.vignetting = 0.25;
   const Image<Rgb> picture = develop(plain(0.5F, 161, 121), sensor, 1);
@@ -108,7 +108,7 @@ TEST(ColorSensor, VignettingTakesItsShareInTheCorners) {
   }
 }
 
-TEST(ColorSensor, SoftnessSpreadsAPointAsAGaussian) {
+TEST(ColorSensor, SoftnessBlursPointAsGaussian) {
   ColorSensor sensor = ideal();
   sensor.softness = 0.8;
   Image<Eigen::Vector3f> radiance = plain(0.0F, 21, 21);
@@ -124,7 +124,7 @@ TEST(ColorSensor, SoftnessSpreadsAPointAsAGaussian) {
             develop(plain(0.4F, 21, 21), ideal(), 1).pixels());
 }
 
-TEST(ColorSensor, IsTheSameForAnyNumberOfThreads) {
+TEST(ColorSensor, SameImageForAnyThreadCount) {
   Image<Eigen::Vector3f> radiance = plain(0.0F, 150, 101);
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     radiance[i].setConstant(static_cast<float>(i % 97) / 90.0F);
@@ -136,7 +136,7 @@ TEST(ColorSensor, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.pixels(), two.pixels());
 }
 
-TEST(ColorSensor, DevelopsAnEmptyPicture) {
+TEST(ColorSensor, AcceptsEmptyImage) {
   EXPECT_TRUE(develop(Image<Eigen::Vector3f>(), ColorSensor{}, 3).empty());
 }
 

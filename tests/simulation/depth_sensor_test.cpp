@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-/// A bright wall seen straight on.
+/// A bright wall in frontal view.
 ExactView wall(float z, int width = 320, int height = 240) {
   return {.depth = {width, height, z},
           .cosine = {width, height, 1.0F},
@@ -64,21 +64,21 @@ Statistics of(const Image<float>& depth) {
 
 class DepthPreset : public testing::TestWithParam<const char*> {};
 
-TEST_P(DepthPreset, DeviatesAsItsCurveSays) {
+TEST_P(DepthPreset, DeviatesByNoiseCurve) {
   const DepthSensor sensor = *sensor_preset(GetParam()).depth;
   for (const double z : {0.5, 0.83, 1.0, 1.7, 2.5, 4.0, 5.5, 7.0}) {
-    const Statistics seen = of(measured_depth(wall(static_cast<float>(z)), sensor, 7));
+    const Statistics measured = of(measured_depth(wall(static_cast<float>(z)), sensor, 7));
     const bool by_disparity = sensor.quantisation == DepthQuantisation::kDisparity;
     const double step = by_disparity ? sensor.step * z * z : sensor.step;
     const double sigma = sensor.noise.sigma(z);
     const double expected = std::sqrt(sigma * sigma + step * step / 12.0);
-    EXPECT_NEAR(seen.deviation, expected, 0.1 * expected) << z;
-    EXPECT_NEAR(seen.mean, z, 0.1 * expected) << z;
-    EXPECT_GT(seen.share, 0.99) << z;
+    EXPECT_NEAR(measured.deviation, expected, 0.1 * expected) << z;
+    EXPECT_NEAR(measured.mean, z, 0.1 * expected) << z;
+    EXPECT_GT(measured.share, 0.99) << z;
   }
 }
 
-TEST_P(DepthPreset, GivesNoDepthOutsideItsRange) {
+TEST_P(DepthPreset, NoDepthOutsideRange) {
   const DepthSensor sensor = *sensor_preset(GetParam()).depth;
   for (const double z : {0.0, 0.9, 0.99, 1.0, 1.01, 1.1}) {
     for (const double limit : {sensor.min_range, sensor.max_range}) {
@@ -95,7 +95,7 @@ TEST_P(DepthPreset, GivesNoDepthOutsideItsRange) {
 
 INSTANTIATE_TEST_SUITE_P(All, DepthPreset, testing::Values("l515", "d435", "kinect"));
 
-TEST(DepthSensor, SurvivesDepthsThatAreNoNumbers) {
+TEST(DepthSensor, IgnoresInvalidDepths) {
   for (const float z : {kInfinite, -kInfinite, std::numeric_limits<float>::quiet_NaN(), -1.0F}) {
     ExactView view = wall(2.0F, 64, 48);
     view.depth(30, 20) = z;
@@ -112,7 +112,7 @@ TEST(DepthSensor, SurvivesDepthsThatAreNoNumbers) {
   EXPECT_TRUE(measured_depth(ExactView{}, DepthSensor{}, 7).empty());
 }
 
-TEST(DepthSensor, QuantisesDepthOrDisparity) {
+TEST(DepthSensor, QuantizesDepthOrDisparity) {
   DepthSensor sensor = ideal();
   sensor.step = 0.1;
   EXPECT_NEAR(measured_depth(wall(2.04F, 4, 4), sensor, 1)(1, 1), 2.0, 1e-6);
@@ -121,7 +121,7 @@ TEST(DepthSensor, QuantisesDepthOrDisparity) {
   EXPECT_NEAR(measured_depth(wall(2.4F, 4, 4), sensor, 1)(1, 1), 1.0 / 0.4, 1e-5);
 }
 
-TEST(DepthSensor, IsNoisierAtAnAngle) {
+TEST(DepthSensor, NoiseGrowsWithIncidence) {
   DepthSensor sensor;
   sensor.noise = {.base = 0.01, .quadratic = 0.0};
   sensor.lost_cosine = 0.0;
@@ -132,7 +132,7 @@ TEST(DepthSensor, IsNoisierAtAnAngle) {
   }
 }
 
-TEST(DepthSensor, LosesGrazedDarkAndMirroringSurfaces) {
+TEST(DepthSensor, LosesGrazingDarkAndGlossySurfaces) {
   const auto share = [](float z, float cosine, float reflectance, float gloss) {
     ExactView view = wall(z);
     view.cosine = {320, 240, cosine};
@@ -156,7 +156,7 @@ TEST(DepthSensor, LosesGrazedDarkAndMirroringSurfaces) {
   EXPECT_NEAR(share(2.0F, 0.6F, 0.9F, 0.5F), 0.75, 0.02);
 }
 
-TEST(DepthSensor, LosesAndMixesPixelsOnlyAtRims) {
+TEST(DepthSensor, LosesAndMixesPixelsOnlyAtBoundaries) {
   const Image<float> depth = measured_depth(step_at(150, 2.0F, 5.0F), ideal(), 7);
   double lost = 0.0;
   double mixed = 0.0;
@@ -175,12 +175,12 @@ TEST(DepthSensor, LosesAndMixesPixelsOnlyAtRims) {
   EXPECT_NEAR(mixed / (4.0 * 240.0), 0.2, 0.05);
 }
 
-TEST(DepthSensor, MixesNothingWithTheSky) {
+TEST(DepthSensor, DoesNotMixWithSky) {
   const Image<float> depth = measured_depth(step_at(150, 2.0F, kInfinite), ideal(), 7);
   for (const float z : depth.pixels()) EXPECT_TRUE(z == 0.0F || z == 2.0F) << z;
 }
 
-TEST(DepthSensor, TakesNoSlopeForARim) {
+TEST(DepthSensor, DoesNotTakeSlopeForBoundary) {
   ExactView view = wall(2.0F);
   for (int y = 0; y < 240; ++y) {  // a floor 0.5 m below a camera of f = 300 px
     for (int x = 0; x < 320; ++x) view.depth(x, y) = 0.5F * 300.0F / static_cast<float>(y + 15);
@@ -190,7 +190,7 @@ TEST(DepthSensor, TakesNoSlopeForARim) {
   EXPECT_EQ(measured_depth(view, sensor, 7).pixels(), view.depth.pixels());
 }
 
-TEST(DepthSensor, IsTheSameForAnyNumberOfThreadsAndAnotherForTheNextFrame) {
+TEST(DepthSensor, DependsOnFrameNotOnThreads) {
   const ExactView view = step_at(100, 2.0F, 4.0F);
   Image<float> one;
   Image<float> two;

@@ -31,7 +31,7 @@ double azimuth_of(const Beam& beam) {
 
 class LidarPreset : public testing::TestWithParam<const char*> {};
 
-TEST_P(LidarPreset, ShootsUnitDirectionsInTheOrderOfTimeWithinTheScan) {
+TEST_P(LidarPreset, BeamsAreUnitVectorsOrderedByTime) {
   for (const int index : {0, 1, 17, 5000}) {
     const std::vector<Beam> shots = beams(lidar_of(GetParam()), index, kPeriod);
     EXPECT_TRUE(std::is_sorted(shots.begin(), shots.end(), [](const Beam& a, const Beam& b) {
@@ -60,7 +60,7 @@ TEST_P(LidarPreset, ScansAreRepeatableAndDifferent) {
 
 INSTANTIATE_TEST_SUITE_P(All, LidarPreset, testing::Values("lidar16", "lidar64", "livox"));
 
-TEST(LidarSensor, SpinningOneCoversTheTurnWithAllItsRings) {
+TEST(LidarSensor, SpinningLidarCoversFullTurnWithAllRings) {
   const LidarSensor lidar = lidar_of("lidar16");
   const std::vector<Beam> shots = beams(lidar, 3, kPeriod);
   ASSERT_EQ(shots.size(), 16U * 1800U);
@@ -75,7 +75,7 @@ TEST(LidarSensor, SpinningOneCoversTheTurnWithAllItsRings) {
   EXPECT_GT(azimuth_of(shots[16]), azimuth_of(shots[16 * 5]));
 }
 
-TEST(LidarSensor, RosetteFillsItsFieldScanByScan) {
+TEST(LidarSensor, RosetteFillsFieldScanByScan) {
   const LidarSensor lidar = lidar_of("livox");
   constexpr int kCells = 60;
   std::set<int> hit;
@@ -102,14 +102,14 @@ TEST(LidarSensor, RosetteFillsItsFieldScanByScan) {
   EXPECT_GT(shares[9], 0.95);
 }
 
-TEST(LidarSensor, RosetteGoesOnWhereTheScanBeforeEnded) {
+TEST(LidarSensor, RosetteContinuesAcrossScans) {
   const LidarSensor lidar = lidar_of("livox");
   const Beam last = beams(lidar, 7, kPeriod).back();
   const Beam next = beams(lidar, 8, kPeriod).front();
   EXPECT_LT((last.direction - next.direction).norm(), 0.01F);
 }
 
-TEST(LidarSensor, RangeHasItsNoiseAndNoBias) {
+TEST(LidarSensor, RangeHasNoiseWithoutBias) {
   const LidarSensor lidar = lidar_of("lidar16");
   double sum = 0.0;
   double squares = 0.0;
@@ -129,14 +129,14 @@ double returns(float range, float cosine, float reflectance, float gloss) {
   const LidarSensor lidar = lidar_of("livox");
   int count = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
-    const float seen = measured_range(range, cosine, reflectance, gloss, lidar, hash_of(9, i));
-    EXPECT_TRUE(seen == 0.0F || (seen >= lidar.min_range && seen <= lidar.max_range));
-    if (seen != 0.0F) ++count;
+    const float measured = measured_range(range, cosine, reflectance, gloss, lidar, hash_of(9, i));
+    EXPECT_TRUE(measured == 0.0F || (measured >= lidar.min_range && measured <= lidar.max_range));
+    if (measured != 0.0F) ++count;
   }
   return count / 2000.0;
 }
 
-TEST(LidarSensor, RangeFollowsTheLightReturned) {
+TEST(LidarSensor, DetectionFollowsReturnedLight) {
   EXPECT_EQ(returns(10.0F, 1.0F, 0.5F, 0.0F), 1.0);
   EXPECT_GT(returns(70.0F, 1.0F, 0.1F, 0.0F), 0.9);  // the data sheet: 90 m at 10 %
   EXPECT_LT(returns(100.0F, 1.0F, 0.1F, 0.0F), 0.1);
@@ -148,15 +148,15 @@ TEST(LidarSensor, RangeFollowsTheLightReturned) {
   EXPECT_EQ(returns(10.0F, 1.0F, 0.9F, 1.0F), 1.0);
 }
 
-TEST(LidarSensor, GivesNothingForWhatIsOutOfRangeOrNoNumber) {
-  const float none = std::numeric_limits<float>::quiet_NaN();
+TEST(LidarSensor, NoReturnForInvalidOrDistantRange) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinite = std::numeric_limits<float>::infinity();
-  for (const float range : {none, infinite, -1.0F, 0.0F, 0.3F, 261.0F}) {
+  for (const float range : {nan, infinite, -1.0F, 0.0F, 0.3F, 261.0F}) {
     EXPECT_EQ(returns(range, 1.0F, 1.0F, 0.0F), 0.0) << range;
   }
-  EXPECT_EQ(returns(5.0F, none, 1.0F, 0.0F), 0.0);
-  EXPECT_EQ(returns(5.0F, 1.0F, none, 0.0F), 0.0);
-  EXPECT_EQ(returns(5.0F, 1.0F, 1.0F, none), 1.0);
+  EXPECT_EQ(returns(5.0F, nan, 1.0F, 0.0F), 0.0);
+  EXPECT_EQ(returns(5.0F, 1.0F, nan, 0.0F), 0.0);
+  EXPECT_EQ(returns(5.0F, 1.0F, 1.0F, nan), 1.0);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ Mask scene(int width = 640) {
   return instances;
 }
 
-/// Errors that are all off.
+/// A configuration with all errors zero.
 MaskErrorConfig none() {
   MaskErrorConfig config;
   config.enabled = true;
@@ -49,7 +49,7 @@ Mask exact(const Mask& instances) {
   return labels;
 }
 
-TEST(MaskErrors, AreExactWhereDisabledOrAllZero) {
+TEST(MaskErrors, AreExactWhenDisabledOrZero) {
   MaskErrorConfig config;
   EXPECT_FALSE(config.enabled);
   for (const int index : {0, 5, 99}) {
@@ -60,7 +60,7 @@ TEST(MaskErrors, AreExactWhereDisabledOrAllZero) {
   }
 }
 
-TEST(MaskErrors, TakeUnknownObjectsForStaticOnes) {
+TEST(MaskErrors, OmitUnknownObjects) {
   const std::vector<ObjectClass> two{ObjectClass::kPerson, ObjectClass::kAgv};
   for (const bool enabled : {false, true}) {
     MaskErrorConfig config = none();
@@ -86,20 +86,21 @@ Gaps gaps_of(const MaskErrorConfig& config) {
   const std::vector<ObjectClass> classes(kObjects, ObjectClass::kAgv);
   std::vector<bool> before(kObjects, false);
   int missed = 0;
-  int begun = 0;
+  int started = 0;
   for (int index = 0; index < kFrames; ++index) {
     const Mask labels = imperfect_masks(instances, classes, config, 3, index);
     for (int i = 0; i < kObjects; ++i) {
       const bool gap = labels(i, 0) == 0;
       missed += gap ? 1 : 0;
-      begun += gap && !before[static_cast<std::size_t>(i)] ? 1 : 0;
+      started += gap && !before[static_cast<std::size_t>(i)] ? 1 : 0;
       before[static_cast<std::size_t>(i)] = gap;
     }
   }
-  return {static_cast<double>(missed) / (kFrames * kObjects), static_cast<double>(missed) / begun};
+  return {static_cast<double>(missed) / (kFrames * kObjects),
+          static_cast<double>(missed) / started};
 }
 
-TEST(MaskErrors, MissTheirShareInSpellsOfTheirLength) {
+TEST(MaskErrors, GapsHaveConfiguredShareAndLength) {
   for (const double share : {0.02, 0.15, 0.5, 0.8}) {
     for (const double spell : {1.0, 4.0, 12.0}) {
       MaskErrorConfig config = none();
@@ -113,7 +114,7 @@ TEST(MaskErrors, MissTheirShareInSpellsOfTheirLength) {
   }
 }
 
-TEST(MaskErrors, MissObjectsAtTimesOfTheirOwn) {
+TEST(MaskErrors, MissObjectsIndependently) {
   MaskErrorConfig config = none();
   config.missed = 0.5;
   std::set<std::vector<bool>> seen;
@@ -126,7 +127,7 @@ TEST(MaskErrors, MissObjectsAtTimesOfTheirOwn) {
 
 class MaskWidth : public testing::TestWithParam<int> {};
 
-TEST_P(MaskWidth, RimRetreatsByThePixelsOfAnImage640Wide) {
+TEST_P(MaskWidth, ErosionScalesWithImageWidth) {
   const int width = GetParam();
   Mask instances(width, width * 3 / 4);
   const int side = width / 2;
@@ -139,8 +140,8 @@ TEST_P(MaskWidth, RimRetreatsByThePixelsOfAnImage640Wide) {
       double retreat = 0.0;
       constexpr int kFrames = 12;
       for (int i = 0; i < kFrames; ++i) {
-        const int left = count(imperfect_masks(instances, kClasses, config, 1, 7 * i), 1);
-        retreat += 0.5 * (side - std::sqrt(left)) / kFrames * 640.0 / width;
+        const int remaining = count(imperfect_masks(instances, kClasses, config, 1, 7 * i), 1);
+        retreat += 0.5 * (side - std::sqrt(remaining)) / kFrames * 640.0 / width;
       }
       EXPECT_NEAR(retreat, erosion, 0.08 * erosion + 0.1) << boundary_jitter;
     }
@@ -149,7 +150,7 @@ TEST_P(MaskWidth, RimRetreatsByThePixelsOfAnImage640Wide) {
 
 INSTANTIATE_TEST_SUITE_P(All, MaskWidth, testing::Values(320, 640, 1280));
 
-TEST(MaskErrors, RaggedRimsVaryAndChangeLittleBetweenFrames) {
+TEST(MaskErrors, JitteredBoundariesChangeSlowly) {
   MaskErrorConfig config = none();
   config.erosion = config.boundary_jitter = 4.0;
   const auto left_boundary = [&](int index) {
@@ -163,9 +164,9 @@ TEST(MaskErrors, RaggedRimsVaryAndChangeLittleBetweenFrames) {
     return columns;
   };
   const std::vector<int> now = left_boundary(8);
-  const auto [least, most] = std::minmax_element(now.begin(), now.end());
-  EXPECT_GE(*most - *least, 3);
-  EXPECT_LE(*most, 8);
+  const auto [min_retreat, max_retreat] = std::minmax_element(now.begin(), now.end());
+  EXPECT_GE(*max_retreat - *min_retreat, 3);
+  EXPECT_LE(*max_retreat, 8);
   const auto change = [&](int index) {
     const std::vector<int> other = left_boundary(index);
     double sum = 0.0;
@@ -185,7 +186,7 @@ TEST(MaskErrors, ThinObjectsDoNotVanish) {
   }
 }
 
-TEST(MaskErrors, ObjectsCutByTheImageGoOnBeyondIt) {
+TEST(MaskErrors, ErosionIgnoresImageBorder) {
   Mask instances(640, 480);
   fill(instances, 0, 100, 100, 200, 1);
   MaskErrorConfig config = none();
@@ -196,7 +197,7 @@ TEST(MaskErrors, ObjectsCutByTheImageGoOnBeyondIt) {
   EXPECT_EQ(labels(99, 200), 0);
 }
 
-TEST(MaskErrors, LosePartsInTheirShareOfFrames) {
+TEST(MaskErrors, LosePartsInConfiguredShareOfFrames) {
   MaskErrorConfig config = none();
   config.lost_parts = 0.3;
   const Mask instances = scene(128);
@@ -213,7 +214,7 @@ TEST(MaskErrors, LosePartsInTheirShareOfFrames) {
   EXPECT_NEAR(lost / 2000.0, 0.3, 0.03);
 }
 
-TEST(MaskErrors, SpillOverBackgroundButNeverOverOtherObjects) {
+TEST(MaskErrors, SpillOnlyOverBackground) {
   MaskErrorConfig config = none();
   config.spill = 0.3;
   config.erosion = config.boundary_jitter = 2.0;
@@ -235,7 +236,7 @@ TEST(MaskErrors, SpillOverBackgroundButNeverOverOtherObjects) {
   EXPECT_NEAR(spilled / 300.0, 0.3, 0.06);
 }
 
-TEST(MaskErrors, AreTheSameForTheSameSeedAndFrame) {
+TEST(MaskErrors, AreDeterministicPerSeedAndFrame) {
   MaskErrorConfig config;
   config.enabled = true;
   Mask after;
@@ -251,7 +252,7 @@ TEST(MaskErrors, AreTheSameForTheSameSeedAndFrame) {
             imperfect_masks(scene(), kClasses, config, 6, 3).pixels());
 }
 
-/// Notes the keys and checks that defaults are allowed.
+/// Collects the keys and checks that the defaults are in range.
 class KeyVisitor : public ConfigVisitor {
  public:
   std::vector<std::string> keys;
@@ -274,7 +275,7 @@ class KeyVisitor : public ConfigVisitor {
   void end_group() override {}
 };
 
-TEST(MaskErrors, DeclareAllTheirFields) {
+TEST(MaskErrors, DeclareAllFields) {
   KeyVisitor visitor;
   MaskErrorConfig config;
   config.visit(visitor);

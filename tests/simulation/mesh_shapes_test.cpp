@@ -13,7 +13,7 @@ using Eigen::Vector3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Volume enclosed by a mesh; negative where triangles are wound the wrong way round.
+/// Volume enclosed by a mesh; negative for reversed triangles.
 float volume(const Mesh& mesh) {
   float sum = 0.0F;
   for (const Triangle& triangle : mesh.triangles) {
@@ -37,23 +37,23 @@ void expect_normals_outwards(const Mesh& mesh) {
   }
 }
 
-Eigen::Isometry3f some_pose() {
+Eigen::Isometry3f sample_pose() {
   Eigen::Isometry3f T = at(0.3F, -0.2F, 0.5F);
   T.rotate(Eigen::AngleAxisf(0.7F, Vector3f(1.0F, 2.0F, -0.5F).normalized()));
   return T;
 }
 
-TEST(MeshShapes, BoxHasItsVolume) {
+TEST(MeshShapes, BoxHasExactVolume) {
   Mesh mesh;
-  add_box(mesh, some_pose(), {0.5F, 0.2F, 0.1F}, mesh.add({}));
+  add_box(mesh, sample_pose(), {0.5F, 0.2F, 0.1F}, mesh.add({}));
   EXPECT_EQ(mesh.triangles.size(), 12U);
   EXPECT_NEAR(volume(mesh), 8.0F * 0.5F * 0.2F * 0.1F, 1e-5F);
   expect_normals_outwards(mesh);
 }
 
-TEST(MeshShapes, BoxTextureIsInMetres) {
+TEST(MeshShapes, BoxTextureIsInMeters) {
   Mesh mesh;
-  add_box(mesh, some_pose(), {0.5F, 0.2F, 0.1F}, mesh.add({}));
+  add_box(mesh, sample_pose(), {0.5F, 0.2F, 0.1F}, mesh.add({}));
   for (const Triangle& triangle : mesh.triangles) {
     const Vertex& a = mesh.vertices[triangle.corners[0]];
     const Vertex& b = mesh.vertices[triangle.corners[1]];
@@ -61,36 +61,36 @@ TEST(MeshShapes, BoxTextureIsInMetres) {
   }
 }
 
-TEST(MeshShapes, EllipsoidComesNearItsVolume) {
+TEST(MeshShapes, EllipsoidApproximatesVolume) {
   Mesh mesh;
-  add_ellipsoid(mesh, some_pose(), {0.3F, 0.2F, 0.1F}, mesh.add({}), 48);
+  add_ellipsoid(mesh, sample_pose(), {0.3F, 0.2F, 0.1F}, mesh.add({}), 48);
   const float exact = 4.0F / 3.0F * kPi * 0.3F * 0.2F * 0.1F;
   EXPECT_NEAR(volume(mesh), exact, 0.01F * exact);
   expect_normals_outwards(mesh);
 }
 
-TEST(MeshShapes, CylinderComesNearItsVolume) {
+TEST(MeshShapes, CylinderApproximatesVolume) {
   Mesh mesh;
-  add_cylinder(mesh, some_pose(), 0.2F, 0.5F, mesh.add({}), 64);
+  add_cylinder(mesh, sample_pose(), 0.2F, 0.5F, mesh.add({}), 64);
   const float exact = kPi * 0.2F * 0.2F * 1.0F;
   EXPECT_NEAR(volume(mesh), exact, 0.01F * exact);
   expect_normals_outwards(mesh);
 }
 
-TEST(MeshShapes, LoftOfATruncatedConeComesNearItsVolume) {
+TEST(MeshShapes, TruncatedConeApproximatesVolume) {
   Mesh mesh;
   const std::array<Ring, 3> rings = {{{0.0F, 0.3F, 0.3F}, {0.5F, 0.2F, 0.2F}, {1.0F, 0.1F, 0.1F}}};
-  add_loft(mesh, some_pose(), rings, mesh.add({}), 64);
+  add_loft(mesh, sample_pose(), rings, mesh.add({}), 64);
   const float exact = kPi / 3.0F * (0.09F + 0.03F + 0.01F);
   EXPECT_NEAR(volume(mesh), exact, 0.01F * exact);
   expect_normals_outwards(mesh);
 }
 
-TEST(MeshShapes, PrismHasItsVolume) {
+TEST(MeshShapes, PrismHasExactVolume) {
   Mesh mesh;
   const std::array<Eigen::Vector2f, 4> outline = {
       {{0.0F, 0.0F}, {1.0F, 0.0F}, {0.8F, 0.5F}, {0.0F, 0.5F}}};
-  add_prism(mesh, some_pose(), outline, 0.25F, mesh.add({}));
+  add_prism(mesh, sample_pose(), outline, 0.25F, mesh.add({}));
   EXPECT_NEAR(volume(mesh), 0.45F * 0.5F, 1e-5F);
   expect_normals_outwards(mesh);
 }

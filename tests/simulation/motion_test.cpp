@@ -17,7 +17,7 @@ Route square() {
   return route;
 }
 
-TEST(Motion, VelocityIsTheDerivativeOfPosition) {
+TEST(Motion, VelocityIsDerivativeOfPosition) {
   const Motion motion = drive(square(), 20.0);
   constexpr double kStep = 1e-5;
   for (double t = 0.013; t < 20.0; t += 0.371) {
@@ -27,7 +27,7 @@ TEST(Motion, VelocityIsTheDerivativeOfPosition) {
   }
 }
 
-TEST(Motion, StandsStillBeforeAndAfter) {
+TEST(Motion, IsStaticBeforeAndAfter) {
   const Motion motion = drive(square(), 5.0);
   EXPECT_NEAR((motion.position(-3.0) - motion.position(-1.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((motion.position(50.0) - motion.position(90.0)).norm(), 0.0, 1e-12);
@@ -35,7 +35,7 @@ TEST(Motion, StandsStillBeforeAndAfter) {
   EXPECT_NEAR(motion.velocity(50.0).norm(), 0.0, 1e-12);
 }
 
-TEST(Motion, StillNeverMoves) {
+TEST(Motion, StillMotionNeverMoves) {
   const Motion motion = Motion::still({1.0, 2.0}, 0.5);
   for (const double t : {-1.0, 0.0, 0.7, 100.0}) {
     EXPECT_NEAR((motion.position(t) - Eigen::Vector2d(1.0, 2.0)).norm(), 0.0, 1e-12);
@@ -44,7 +44,7 @@ TEST(Motion, StillNeverMoves) {
   }
 }
 
-TEST(Route, KeepsToItsLinesAndSpeed) {
+TEST(Route, KeepsToLinesAndSpeed) {
   const Motion motion = drive(square(), 40.0);
   for (double t = 0.0; t < 40.0; t += 0.1) {
     const Eigen::Vector2d p = motion.position(t);
@@ -56,27 +56,27 @@ TEST(Route, KeepsToItsLinesAndSpeed) {
   }
 }
 
-TEST(Route, TravelledIsTheWaySoFar) {
+TEST(Route, TravelledIsPathLength) {
   const Motion motion = drive(square(), 20.0);
-  double way = 0.0;
+  double length = 0.0;
   for (double t = 0.0; t < 20.0; t += 0.01) {
-    way += (motion.position(t + 0.01) - motion.position(t)).norm();
+    length += (motion.position(t + 0.01) - motion.position(t)).norm();
   }
-  EXPECT_NEAR(motion.travelled(20.0) - motion.travelled(0.0), way, 0.02 * way);
+  EXPECT_NEAR(motion.travelled(20.0) - motion.travelled(0.0), length, 0.02 * length);
 }
 
-TEST(Route, GoesToAndFro) {
+TEST(Route, DrivesToAndFro) {
   Route route;
   route.corners = {{0.0, 0.0}, {4.0, 0.0}};
   route.end = RouteEnd::kToAndFro;
   const Motion motion = drive(route, 60.0);
-  double least = 9.0;
-  double most = -9.0;
+  double min_x = 9.0;
+  double max_x = -9.0;
   int turns = 0;
   double before = 1.0;
   for (double t = 0.0; t < 60.0; t += 0.1) {
-    least = std::min(least, motion.position(t).x());
-    most = std::max(most, motion.position(t).x());
+    min_x = std::min(min_x, motion.position(t).x());
+    max_x = std::max(max_x, motion.position(t).x());
     EXPECT_LT(std::abs(motion.position(t).y()), 0.6);
     const double v = motion.velocity(t).x();
     if (std::abs(v) > 0.5 && v * before < 0.0) {
@@ -84,8 +84,8 @@ TEST(Route, GoesToAndFro) {
       before = v;
     }
   }
-  EXPECT_NEAR(least, 0.0, 0.5);
-  EXPECT_NEAR(most, 4.0, 0.5);
+  EXPECT_NEAR(min_x, 0.0, 0.5);
+  EXPECT_NEAR(max_x, 4.0, 0.5);
   EXPECT_GE(turns, 6);
 }
 
@@ -97,7 +97,7 @@ TEST(Route, StopsAtItsEnd) {
   EXPECT_LT(motion.velocity(29.0).norm(), 0.01);
 }
 
-TEST(Route, PausesForItsShareOfTheTime) {
+TEST(Route, PausesForShareOfTime) {
   Route route = square();
   route.pause_share = 0.4;
   route.pause = 4.0;
@@ -113,7 +113,7 @@ TEST(Route, PausesForItsShareOfTheTime) {
   EXPECT_NEAR(static_cast<double>(standing) / all, 0.4, 0.1);
 }
 
-TEST(Route, StartsWhereItIsToldTo) {
+TEST(Route, StartsAtGivenDistance) {
   Route route = square();
   route.start = 10.0;
   EXPECT_NEAR((drive(route, 1.0).position(0.0) - Eigen::Vector2d(8.0, 2.0)).norm(), 0.0, 0.05);

@@ -38,22 +38,22 @@ float lowest(const ArticulatedModel& person, const Activity& activity, std::size
   return bounds_of(person, activity, part, part + 1).min().z();
 }
 
-/// Largest way of any corner of the bounds of any part between two instants.
+/// Largest motion of any corner of the bounds of any part between two instants.
 float motion(const ArticulatedModel& person, const Activity& a, const Activity& b) {
   const std::vector<Eigen::Isometry3f> before = person.pose(a);
   const std::vector<Eigen::Isometry3f> after = person.pose(b);
-  float most = 0.0F;
+  float max_motion = 0.0F;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const Eigen::AlignedBox3f box = bounds(person.parts()[i], Eigen::Isometry3f::Identity());
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3f p = box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner));
-      most = std::max(most, (after[i] * p - before[i] * p).norm());
+      max_motion = std::max(max_motion, (after[i] * p - before[i] * p).norm());
     }
   }
-  return most;
+  return max_motion;
 }
 
-TEST(PersonModel, StandsAsTallAsItsStyleSays) {
+TEST(PersonModel, HasHeightOfStyle) {
   for (const float height : {1.5F, 1.62F, 1.75F, 1.95F}) {
     PersonStyle style = style_of(height);
     for (const Headwear headwear : {Headwear::kHair, Headwear::kHardHat}) {
@@ -66,7 +66,7 @@ TEST(PersonModel, StandsAsTallAsItsStyleSays) {
   }
 }
 
-TEST(PersonModel, LowerFootTouchesTheFloorThroughoutTheGait) {
+TEST(PersonModel, LowerFootTouchesFloorDuringGait) {
   for (const float height : {1.52F, 1.75F, 1.93F}) {
     const auto person = make_person(style_of(height));
     for (const double speed : {0.0, 0.1, 0.3, 0.8, 1.4}) {
@@ -81,7 +81,7 @@ TEST(PersonModel, LowerFootTouchesTheFloorThroughoutTheGait) {
   }
 }
 
-TEST(PersonModel, FootThatBearsTheBodyStaysWhereItIs) {
+TEST(PersonModel, SupportingFootStaysInPlace) {
   const PersonStyle style = style_of(1.75F);
   const auto person = make_person(style);
   const double stride = 1.5 * static_cast<double>(PersonProportions(1.75F, 1.0F).leg());
@@ -103,14 +103,14 @@ TEST(PersonModel, MovesContinuously) {
     for (double t = 0.0; t < 12.0; t += 0.01) {
       const double speed = std::clamp(0.25 * (t - 3.0), 0.0, 1.5);
       const Activity now{.seconds = t, .travelled = 0.7 * t, .speed = speed};
-      const Activity soon{
+      const Activity next{
           .seconds = t + 1e-3, .travelled = 0.7 * t + 0.7e-3, .speed = speed + 1e-4};
-      EXPECT_LT(motion(*person, now, soon), 0.006F) << seed << " at " << t;
+      EXPECT_LT(motion(*person, now, next), 0.006F) << seed << " at " << t;
     }
   }
 }
 
-TEST(PersonModel, StandingPersonMovesOnlyALittle) {
+TEST(PersonModel, StandingPersonMovesLittle) {
   const auto person = make_person(style_of(1.8F));
   for (double t = 0.1; t < 20.0; t += 0.5) {
     const float moved = motion(*person, {.seconds = 0.0}, {.seconds = t});
@@ -125,7 +125,7 @@ void expect_joined(const std::vector<Eigen::Isometry3f>& poses, std::size_t uppe
   EXPECT_LT((end - poses[lower].translation()).norm(), 1e-3F) << upper;
 }
 
-TEST(PersonModel, JointsDoNotComeApart) {
+TEST(PersonModel, JointsStayConnected) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const PersonStyle style = random_person_style(seed);
     const PersonProportions body(style.height, style.build);
@@ -145,7 +145,7 @@ TEST(PersonModel, JointsDoNotComeApart) {
   }
 }
 
-TEST(PersonModel, StepsAsFarAsTheLegsAskForAndBendsTheKnees) {
+TEST(PersonModel, StepLengthFollowsLegsAndKneesBend) {
   const auto person = make_person(style_of(1.75F));
   const PersonProportions body(1.75F, 1.0F);
   float ahead = 0.0F;
@@ -176,7 +176,7 @@ TEST(PersonModel, WorkerReachesUpAndDown) {
   EXPECT_GT(high - low, 0.4F);
 }
 
-TEST(PersonModel, HandsHoldTheBox) {
+TEST(PersonModel, HandsHoldBox) {
   PersonStyle style = style_of(1.75F);
   style.carries_box = true;
   const auto person = make_person(style);
@@ -191,7 +191,7 @@ TEST(PersonModel, HandsHoldTheBox) {
   }
 }
 
-TEST(PersonModel, SameSeedSamePersonOtherSeedAnother) {
+TEST(PersonModel, SeedDeterminesPerson) {
   const Activity activity = walking(1.1, 1.2);
   const auto a = make_person(random_person_style(7));
   const auto b = make_person(random_person_style(7));
@@ -229,7 +229,7 @@ TEST(PersonModel, RandomStylesAreInRangeAndVaried) {
   }
 }
 
-TEST(PersonModel, ImpossibleStyleIsRefusedByName) {
+TEST(PersonModel, RejectsImpossibleStyle) {
   try {
     make_person(style_of(3.0F));
     FAIL();

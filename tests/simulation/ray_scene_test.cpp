@@ -20,7 +20,7 @@ Mesh box_mesh(const Vector3f& half) {
   return mesh;
 }
 
-/// Where a ray enters a box about the origin (slab method), or infinity.
+/// Entry distance of a ray into a box around the origin (slab method), or infinity.
 double entry(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
              const Eigen::Vector3d& half) {
   double enter = 0.0;
@@ -46,7 +46,7 @@ std::vector<Ray> random_rays(int count) {
   return rays;
 }
 
-TEST(RayScene, DistancesAgreeWithTheAnalyticBox) {
+TEST(RayScene, DistancesEqualAnalyticBox) {
   const Vector3f half(0.7F, 0.4F, 1.1F);
   const RayScene scene(box_mesh(half), {});
   const std::vector<Ray> rays = random_rays(1003);
@@ -65,10 +65,10 @@ TEST(RayScene, DistancesAgreeWithTheAnalyticBox) {
   EXPECT_GT(found, 200);
 }
 
-TEST(RayScene, PartsAreWhereTheyWerePlacedLast) {
+TEST(RayScene, PartsAreAtLastPlacement) {
   const Mesh wall = box_mesh({0.1F, 5.0F, 5.0F});
-  const Mesh ball = box_mesh({0.2F, 0.2F, 0.2F});
-  const std::vector<const Mesh*> parts = {&ball, &ball};
+  const Mesh cube = box_mesh({0.2F, 0.2F, 0.2F});
+  const std::vector<const Mesh*> parts = {&cube, &cube};
   RayScene scene(wall, parts);
   const std::vector<Ray> rays = {{{-5.0F, 0.0F, 0.0F}, Vector3f::UnitX()}};
   std::vector<RayHit> hits(1);
@@ -85,10 +85,10 @@ TEST(RayScene, PartsAreWhereTheyWerePlacedLast) {
   EXPECT_EQ(hits[0].part, 0);
 }
 
-TEST(RayScene, PartsCanBeLookedAtAlone) {
+TEST(RayScene, CastsAtSelectedParts) {
   const Mesh wall = box_mesh({0.1F, 5.0F, 5.0F});
-  const Mesh ball = box_mesh({0.2F, 0.2F, 0.2F});
-  const std::vector<const Mesh*> parts = {&ball, &ball};
+  const Mesh cube = box_mesh({0.2F, 0.2F, 0.2F});
+  const std::vector<const Mesh*> parts = {&cube, &cube};
   RayScene scene(wall, parts);
   scene.place(std::vector{at(2.0F, 0.0F, 0.0F), at(4.0F, 0.0F, 0.0F)});  // both behind the wall
   const std::vector<Ray> rays = {{{-5.0F, 0.0F, 0.0F}, Vector3f::UnitX()}};
@@ -110,7 +110,7 @@ TEST(RayScene, BlockedOnlyWithinReach) {
   EXPECT_EQ(blocked, (std::vector<std::uint8_t>{0, 1, 0}));
 }
 
-TEST(RayScene, WantsAPoseForEveryPart) {
+TEST(RayScene, NeedsPoseForEveryPart) {
   RayScene scene(box_mesh({1.0F, 1.0F, 1.0F}), {});
   EXPECT_THROW(scene.place(std::vector{at(0.0F, 0.0F, 0.0F)}), Error);
 }

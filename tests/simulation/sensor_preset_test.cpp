@@ -13,7 +13,7 @@
 namespace mms {
 namespace {
 
-TEST(SensorPreset, AreNamedInThisOrder) {
+TEST(SensorPreset, AreListedInOrder) {
   const std::vector<std::string_view> expected{"l515",    "d435",    "kinect",
                                                "lidar16", "lidar64", "livox"};
   const auto names = sensor_names();
@@ -21,7 +21,7 @@ TEST(SensorPreset, AreNamedInThisOrder) {
   for (const std::string_view name : names) EXPECT_EQ(sensor_preset(name).name, name);
 }
 
-TEST(SensorPreset, AnotherNameIsToldTheKnownOnes) {
+TEST(SensorPreset, ErrorListsKnownNames) {
   try {
     sensor_preset("l516");
     FAIL();
@@ -32,7 +32,7 @@ TEST(SensorPreset, AnotherNameIsToldTheKnownOnes) {
   }
 }
 
-TEST(SensorPreset, HaveOneThingThatMeasuresDepthAndACameraThatWorks) {
+TEST(SensorPreset, HaveOneRangeSensorAndValidCamera) {
   for (const std::string_view name : sensor_names()) {
     const SensorPreset head = sensor_preset(name);
     EXPECT_NE(head.depth.has_value(), head.lidar.has_value()) << name;
@@ -57,7 +57,7 @@ TEST(SensorPreset, DepthFitsIntoSixteenBits) {
   }
 }
 
-TEST(SensorPreset, DepthNoiseIsThePublishedOne) {
+TEST(SensorPreset, DepthNoiseEqualsPublished) {
   const DepthNoise l515 = sensor_preset("l515").depth->noise;
   EXPECT_NEAR(l515.sigma(1.0), 0.0025, 1e-5);
   EXPECT_NEAR(l515.sigma(9.0), 0.0155, 1e-5);
@@ -69,7 +69,7 @@ TEST(SensorPreset, DepthNoiseIsThePublishedOne) {
   EXPECT_NEAR(sensor_preset("kinect").depth->noise.sigma(2.4), 0.0012 + 0.0019 * 4.0, 1e-9);
 }
 
-TEST(SensorPreset, LidarsSitAboveTheCameraAndLookWhereItLooks) {
+TEST(SensorPreset, LidarsAreAboveCameraAndParallel) {
   for (const std::string_view name : {"lidar16", "lidar64", "livox"}) {
     const SensorPreset head = sensor_preset(name);
     const Eigen::Isometry3d& T = head.T_camera_lidar;

@@ -50,38 +50,38 @@ void expect_same(const SimulatedFrame& a, const SimulatedFrame& b) {
   EXPECT_EQ(a.exact.depth.pixels(), b.exact.depth.pixels());
 }
 
-TEST(SimulatedScene, IsTheSameForAnyNumberOfThreads) {
+TEST(SimulatedScene, SameFrameForAnyThreadCount) {
   SceneConfig config = small("crowd");
   config.blur_samples = 2;
   expect_same(rendered_by(1, config, 20), rendered_by(2, config, 20));
 }
 
-TEST(SimulatedScene, AFrameDoesNotDependOnThoseBefore) {
+TEST(SimulatedScene, FramesAreIndependent) {
   SimulatedScene scene(small("warehouse_loop"));
   scene.render(3);
   scene.render(40);
   expect_same(scene.render(7), rendered_by(2, small("warehouse_loop"), 7));
 }
 
-TEST(SimulatedScene, TheSeedChangesIt) {
+TEST(SimulatedScene, SeedChangesScene) {
   SceneConfig other = small("static");
   other.seed = 2;
   EXPECT_NE(rendered_by(2, small("static"), 0).frame.color.pixels(),
             rendered_by(2, other, 0).frame.color.pixels());
 }
 
-TEST(SimulatedScene, EveryBuiltInSceneShowsSomething) {
+TEST(SimulatedScene, EveryBuiltInSceneRenders) {
   for (const std::string_view name : scene_names()) {
     SimulatedScene scene(small(name));
     const SimulatedFrame frame = scene.render(30);
-    int seen = 0;
+    int visible = 0;
     double brightness = 0.0;
     for (std::size_t i = 0; i < frame.exact.depth.size(); ++i) {
-      seen += std::isfinite(frame.exact.depth[i]) ? 1 : 0;
+      visible += std::isfinite(frame.exact.depth[i]) ? 1 : 0;
       brightness += frame.frame.color[i].g;
     }
     const auto pixels = static_cast<double>(frame.exact.depth.size());
-    EXPECT_EQ(seen, static_cast<int>(pixels)) << name << " has holes";
+    EXPECT_EQ(visible, static_cast<int>(pixels)) << name << " has holes";
     EXPECT_GT(brightness / pixels, 40.0) << name;
     EXPECT_LT(brightness / pixels, 220.0) << name;
   }
@@ -94,7 +94,7 @@ TEST(SimulatedScene, OnlySomeScenesHaveActors) {
   }
 }
 
-TEST(SimulatedScene, ATruthPointLandsOnItsPixel) {
+TEST(SimulatedScene, PointsReprojectByGroundTruthPose) {
   SimulatedScene scene(small("static"));
   const SimulatedFrame one = scene.render(10);
   const SimulatedFrame two = scene.render(13);
@@ -103,16 +103,17 @@ TEST(SimulatedScene, ATruthPointLandsOnItsPixel) {
   int checked = 0;
   for (int y = 8; y < 232; y += 8) {
     for (int x = 8; x < 312; x += 8) {
-      // The same place of the world, seen again: its depth there is what the truth predicts.
-      const Eigen::Vector3d seen = T_two_world * point_at(scene, one, x, y);
-      const Eigen::Vector2d pixel = camera.project(seen);
+      // The same point in another view: the ground truth predicts its depth.
+      const Eigen::Vector3d visible = T_two_world * point_at(scene, one, x, y);
+      const Eigen::Vector2d pixel = camera.project(visible);
       const auto u = static_cast<int>(std::lround(pixel.x()));
       const auto v = static_cast<int>(std::lround(pixel.y()));
       if (!two.exact.depth.contains(u, v)) continue;
-      const Eigen::Vector3d there = static_cast<double>(two.exact.depth(u, v)) * camera.ray({u, v});
-      if ((there - seen).norm() > 0.05) continue;  // hidden by something nearer
-      EXPECT_LT((camera.project(there) - Eigen::Vector2d(u, v)).norm(), 0.1);
-      EXPECT_LT((there - seen).norm(), 0.05);
+      const Eigen::Vector3d measured =
+          static_cast<double>(two.exact.depth(u, v)) * camera.ray({u, v});
+      if ((measured - visible).norm() > 0.05) continue;  // occluded
+      EXPECT_LT((camera.project(measured) - Eigen::Vector2d(u, v)).norm(), 0.1);
+      EXPECT_LT((measured - visible).norm(), 0.05);
       ++checked;
     }
   }
@@ -120,7 +121,7 @@ TEST(SimulatedScene, ATruthPointLandsOnItsPixel) {
 }
 
 TEST(SimulatedScene, FloorDepthIsAnalytic) {
-  // Height over the floor is known, so every pixel that looks at the bare floor has an exact depth.
+  // With the camera height known, every pixel of the bare floor has an exact depth.
   SceneConfig config = small("still_walker");
   config.camera_height = 1.2;
   SimulatedScene scene(config);
@@ -142,7 +143,7 @@ TEST(SimulatedScene, FloorDepthIsAnalytic) {
   EXPECT_LT(raised, exact / 10);
 }
 
-TEST(SimulatedScene, WorldStartsAtTheFirstFrame) {
+TEST(SimulatedScene, WorldIsFirstFrame) {
   SimulatedScene scene(small("warehouse_loop"));
   EXPECT_TRUE(scene.truth(0).T_world_sensor.isometry().isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_EQ(scene.stamp(15).nanoseconds(), 1'000'000'000);
@@ -166,44 +167,45 @@ TEST(SimulatedScene, StillCameraDoesNotMove) {
   }
 }
 
-TEST(SimulatedScene, TheLoopClosesAndIsAbout60MetresLong) {
+TEST(SimulatedScene, LoopClosesAfterAbout60Meters) {
   const SimulatedScene scene(scene_config("warehouse_loop"));
   double length = 0.0;
   double nearest_to_start = 1e9;
   for (int i = 1; i < scene.size(); ++i) {
-    const Eigen::Vector3d here = scene.truth(i).T_world_sensor.translation();
-    length += (here - scene.truth(i - 1).T_world_sensor.translation()).norm();
-    if (length > 40.0) nearest_to_start = std::min(nearest_to_start, here.norm());
+    const Eigen::Vector3d current = scene.truth(i).T_world_sensor.translation();
+    length += (current - scene.truth(i - 1).T_world_sensor.translation()).norm();
+    if (length > 40.0) nearest_to_start = std::min(nearest_to_start, current.norm());
   }
   EXPECT_GT(length, 55.0);
   EXPECT_LT(length, 66.0);
   EXPECT_LT(nearest_to_start, 0.5);
 }
 
-TEST(SimulatedScene, VelocityIsTheDerivativeOfTheObjectsPose) {
+TEST(SimulatedScene, VelocityIsDerivativeOfObjectPose) {
   SceneConfig config = small("warehouse_loop");
   config.hz = 1000.0;
   config.frames = 3000;
   SimulatedScene scene(config);
   const SimulatedFrame before = scene.render(1999);
-  const SimulatedFrame here = scene.render(2000);
+  const SimulatedFrame current = scene.render(2000);
   const SimulatedFrame after = scene.render(2001);
   int moving = 0;
-  for (std::size_t i = 0; i < here.objects.size(); ++i) {
-    // A box's height and width follow the limbs, its travel over the floor is the object's.
+  for (std::size_t i = 0; i < current.objects.size(); ++i) {
+    // The size of the box follows the limbs; its translation is that of the object.
     const Eigen::Vector3d slope =
         (after.objects[i].T_world_box.translation() - before.objects[i].T_world_box.translation()) /
         0.002;
-    if (here.objects[i].object_class == ObjectClass::kAgv) {
-      EXPECT_NEAR((slope - here.objects[i].velocity).norm(), 0.0, 0.35) << here.objects[i].kind;
+    if (current.objects[i].object_class == ObjectClass::kAgv) {
+      EXPECT_NEAR((slope - current.objects[i].velocity).norm(), 0.0, 0.35)
+          << current.objects[i].kind;
     }
-    EXPECT_EQ(here.objects[i].moving, here.objects[i].velocity.norm() > 0.05);
-    moving += here.objects[i].moving ? 1 : 0;
+    EXPECT_EQ(current.objects[i].moving, current.objects[i].velocity.norm() > 0.05);
+    moving += current.objects[i].moving ? 1 : 0;
   }
   EXPECT_GT(moving, 3);
 }
 
-TEST(SimulatedScene, BoxesHoldTheirPixels) {
+TEST(SimulatedScene, BoxesContainTheirPixels) {
   SimulatedScene scene(small("crowd"));
   for (const int index : {5, 30, 55}) {
     const SimulatedFrame frame = scene.render(index);
@@ -225,7 +227,7 @@ TEST(SimulatedScene, BoxesHoldTheirPixels) {
   }
 }
 
-TEST(SimulatedScene, PixelsOcclusionAndClassesAddUp) {
+TEST(SimulatedScene, PixelsOcclusionAndClassesAreConsistent) {
   SimulatedScene scene(small("crowd"));
   const SimulatedFrame frame = scene.render(40);
   std::vector<int> count(frame.objects.size());
@@ -239,19 +241,19 @@ TEST(SimulatedScene, PixelsOcclusionAndClassesAddUp) {
     EXPECT_EQ(frame.frame.mask[i], 1 + static_cast<int>(object.object_class));
     ++count[static_cast<std::size_t>(value - 1)];
   }
-  bool someone_hidden = false;
+  bool has_occluded_object = false;
   for (const ObjectTruth& object : frame.objects) {
     EXPECT_EQ(object.pixels, count[static_cast<std::size_t>(object.id)]);
     EXPECT_GE(object.occlusion, 0.0);
     EXPECT_LE(object.occlusion, 1.0);
     EXPECT_GE(object.truncation, -1e-9);
     EXPECT_LE(object.truncation, 1.0);
-    someone_hidden = someone_hidden || (object.occlusion > 0.1 && object.pixels > 0);
+    has_occluded_object = has_occluded_object || (object.occlusion > 0.1 && object.pixels > 0);
   }
-  EXPECT_TRUE(someone_hidden);
+  EXPECT_TRUE(has_occluded_object);
 }
 
-TEST(SimulatedScene, StaticTruthIsCompleteWhereTheCameraLooks) {
+TEST(SimulatedScene, StaticTruthIsCompleteInView) {
   SimulatedScene scene(small("warehouse_loop"));
   const double spacing = 0.04;
   const TruthCloud cloud = scene.static_cloud(spacing);
@@ -286,7 +288,7 @@ TEST(SimulatedScene, StaticTruthIsCompleteWhereTheCameraLooks) {
   EXPECT_LT(missing, all / 1000) << "of " << all;
 }
 
-TEST(SimulatedScene, MotionBlurSmearsWhatMoves) {
+TEST(SimulatedScene, MotionBlurSmoothsMovingImage) {
   SceneConfig sharp = small("fast");
   sharp.blur_samples = 1;
   sharp.noise = false;
@@ -307,7 +309,7 @@ TEST(SimulatedScene, MotionBlurSmearsWhatMoves) {
   EXPECT_EQ(a.exact.depth.pixels(), b.exact.depth.pixels());
 }
 
-TEST(SimulatedScene, LidarPointsAreWhereTheirBeamsMetTheWorld) {
+TEST(SimulatedScene, LidarPointsAreOnSurfaces) {
   SceneConfig config = small("static");
   config.sensor = 3;  // lidar16
   config.hz = 0.0;
@@ -325,10 +327,10 @@ TEST(SimulatedScene, LidarPointsAreWhereTheirBeamsMetTheWorld) {
   const Eigen::Isometry3d T_lidar_camera = scene.sensor().T_camera_lidar.inverse();
   int on_floor = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const Timestamp when =
+    const Timestamp stamp =
         frame.frame.stamp + Duration(std::llround(1e9 * static_cast<double>(scan.time_offset[i])));
     const Eigen::Vector3d world =
-        scene.pose_at(when).T_world_sensor * scan.points[i].cast<double>();
+        scene.pose_at(stamp).T_world_sensor * scan.points[i].cast<double>();
     const double height = world.z() - T_lidar_camera.translation().z() - floor;
     EXPECT_GT(height, -0.35);
     ASSERT_LT((world - frame.scan.points[i].cast<double>()).norm(), 1e-3);
@@ -339,7 +341,7 @@ TEST(SimulatedScene, LidarPointsAreWhereTheirBeamsMetTheWorld) {
   EXPECT_GT(scan.time_offset.back(), 0.09F);
 }
 
-TEST(SimulatedScene, PlayingFewerFramesLeavesTheWorldAsItIs) {
+TEST(SimulatedScene, FewerFramesKeepWorld) {
   SceneConfig config = scene_config("warehouse_loop");
   config.width = 64;
   SimulatedScene whole(config);
@@ -350,7 +352,7 @@ TEST(SimulatedScene, PlayingFewerFramesLeavesTheWorldAsItIs) {
   expect_same(whole.render(4), part.render(4));
 }
 
-TEST(SceneConfig, UnknownNamesAreToldTheKnownOnes) {
+TEST(SceneConfig, ErrorListsKnownNames) {
   try {
     scene_config("werehouse");
     FAIL();
@@ -361,9 +363,9 @@ TEST(SceneConfig, UnknownNamesAreToldTheKnownOnes) {
   }
 }
 
-TEST(SimulatedScene, WalkerIsRecognisableInSize) {
+TEST(SimulatedScene, WalkerHasSizeOfPerson) {
   SimulatedScene scene(small("still_walker", 150));
-  int seen = 0;
+  int visible = 0;
   for (int index = 0; index < 150; index += 15) {
     const SimulatedFrame frame = scene.render(index);
     const ObjectTruth* walker = largest(frame);
@@ -371,9 +373,9 @@ TEST(SimulatedScene, WalkerIsRecognisableInSize) {
     EXPECT_EQ(walker->object_class, ObjectClass::kPerson);
     EXPECT_GT(2.0 * walker->half_extent.z(), 1.4);
     EXPECT_LT(2.0 * walker->half_extent.z(), 2.1);
-    seen += walker->pixels > 500 ? 1 : 0;
+    visible += walker->pixels > 500 ? 1 : 0;
   }
-  EXPECT_GE(seen, 5);
+  EXPECT_GE(visible, 5);
 }
 
 }  // namespace

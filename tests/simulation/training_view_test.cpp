@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-TEST(TrainingViews, AnImageDoesNotDependOnThoseBefore) {
+TEST(TrainingViews, ImagesAreIndependent) {
   TrainingViews views(3);
   views.render(0);
   const SimulatedFrame a = views.render(9);
@@ -17,14 +17,14 @@ TEST(TrainingViews, AnImageDoesNotDependOnThoseBefore) {
   EXPECT_NE(a.frame.color.pixels(), TrainingViews(4).render(9).frame.color.pixels());
 }
 
-TEST(TrainingViews, ShowBothClassesNearAndFarWholeAndInPart) {
+TEST(TrainingViews, CoverClassesDistancesAndOcclusions) {
   TrainingViews views(1);
   int objects = 0;
   int persons = 0;
   int truncated = 0;
   int occluded = 0;
-  int near_ones = 0;
-  int far_ones = 0;
+  int near_objects = 0;
+  int far_objects = 0;
   std::set<std::string> kinds;
   for (int i = 0; i < 48; ++i) {
     const SimulatedFrame frame = views.render(i);
@@ -38,8 +38,8 @@ TEST(TrainingViews, ShowBothClassesNearAndFarWholeAndInPart) {
       truncated += object.truncation > 0.1 ? 1 : 0;
       occluded += object.occlusion > 0.1 ? 1 : 0;
       const double distance = object.T_world_box.translation().norm();
-      near_ones += distance < 2.0 ? 1 : 0;
-      far_ones += distance > 6.0 ? 1 : 0;
+      near_objects += distance < 2.0 ? 1 : 0;
+      far_objects += distance > 6.0 ? 1 : 0;
       EXPECT_LT(distance, 13.5);
     }
   }
@@ -48,8 +48,8 @@ TEST(TrainingViews, ShowBothClassesNearAndFarWholeAndInPart) {
   EXPECT_GT(objects - persons, 15);
   EXPECT_GT(truncated, 8);
   EXPECT_GT(occluded, 8);
-  EXPECT_GT(near_ones, 5);
-  EXPECT_GT(far_ones, 5);
+  EXPECT_GT(near_objects, 5);
+  EXPECT_GT(far_objects, 5);
   EXPECT_GE(kinds.size(), 5U);
 }
 
