@@ -10,7 +10,7 @@ namespace {
 
 using testing::expect_close;
 
-/// Value at a place between pixels; 0 outside.
+/// Bilinear value at a subpixel position; 0 outside.
 double bilinear(const torch::Tensor& plane, double y, double x) {
   const auto at = [&](std::int64_t v, std::int64_t u) {
     const bool inside = v >= 0 && u >= 0 && v < plane.size(0) && u < plane.size(1);
@@ -24,7 +24,7 @@ double bilinear(const torch::Tensor& plane, double y, double x) {
          b * ((1 - a) * at(v + 1, u) + a * at(v + 1, u + 1));
 }
 
-/// The definition, loop by loop.
+/// The definition, with a loop for every sum.
 torch::Tensor naive_deformable_conv(const torch::Tensor& x, const torch::Tensor& offsets,
                                     const torch::Tensor& weight, int stride, int dilation) {
   torch::Tensor out = torch::zeros({x.size(0), weight.size(0), offsets.size(2), offsets.size(3)});
@@ -51,7 +51,7 @@ torch::Tensor naive_deformable_conv(const torch::Tensor& x, const torch::Tensor&
 
 class DeformableConv : public ::testing::TestWithParam<std::pair<int, int>> {};
 
-TEST_P(DeformableConv, EqualsItsDefinition) {
+TEST_P(DeformableConv, EqualsDefinition) {
   torch::manual_seed(1);
   const auto [stride, dilation] = GetParam();
   const torch::Tensor x = torch::randn({1, 2, 7, 6});
@@ -61,7 +61,7 @@ TEST_P(DeformableConv, EqualsItsDefinition) {
                naive_deformable_conv(x, offsets, weight, stride, dilation), 1e-4);
 }
 
-TEST_P(DeformableConv, WithoutOffsetsIsAConvolution) {
+TEST_P(DeformableConv, IsConvolutionWithoutOffsets) {
   torch::manual_seed(2);
   const auto [stride, dilation] = GetParam();
   const torch::Tensor x = torch::randn({2, 4, 9, 8});
@@ -75,19 +75,19 @@ INSTANTIATE_TEST_SUITE_P(StridesAndDilations, DeformableConv,
                          ::testing::Values(std::pair(1, 1), std::pair(2, 1), std::pair(1, 3),
                                            std::pair(2, 3)));
 
-TEST(DeformableConv, HasGradientsForAllItsInputs) {
+TEST(DeformableConv, HasGradientsForAllInputs) {
   torch::manual_seed(3);
-  const auto wanted = torch::TensorOptions().requires_grad(true);
-  const torch::Tensor x = torch::randn({1, 2, 5, 5}, wanted);
-  const torch::Tensor weight = torch::randn({2, 2, 3, 3}, wanted);
-  const torch::Tensor offsets = torch::rand({1, 18, 5, 5}, wanted);
+  const auto with_gradient = torch::TensorOptions().requires_grad(true);
+  const torch::Tensor x = torch::randn({1, 2, 5, 5}, with_gradient);
+  const torch::Tensor weight = torch::randn({2, 2, 3, 3}, with_gradient);
+  const torch::Tensor offsets = torch::rand({1, 18, 5, 5}, with_gradient);
   deformable_conv(x, offsets, weight, 1, 1).square().sum().backward();
   for (const torch::Tensor& input : {x, weight, offsets}) {
     EXPECT_GT(input.grad().abs().sum().item<double>(), 0.0);
   }
 }
 
-TEST(StandardisedWeight, HasTheMeanAndSpreadAskedFor) {
+TEST(StandardisedWeight, HasGivenMeanAndDeviation) {
   torch::manual_seed(4);
   const torch::Tensor weight = 3 * torch::randn({6, 4, 3, 3}) + 1;
   const torch::Tensor gamma = torch::rand({6, 1, 1, 1}) + 0.5;
@@ -97,7 +97,7 @@ TEST(StandardisedWeight, HasTheMeanAndSpreadAskedFor) {
   expect_close(flat.std(1), gamma.flatten(), 1e-4);  // torch's is the unbiased one
 }
 
-TEST(StandardisedWeight, IsClosedFormOnAHandMadeCase) {
+TEST(StandardisedWeight, EqualsClosedForm) {
   const torch::Tensor weight = torch::tensor({1.0F, 2.0F, 3.0F, 6.0F}).view({1, 1, 2, 2});
   const torch::Tensor one = torch::ones({1, 1, 1, 1});
   const double deviation = std::sqrt((4.0 + 1.0 + 0.0 + 9.0) / 3.0 + 1e-5);
@@ -106,13 +106,13 @@ TEST(StandardisedWeight, IsClosedFormOnAHandMadeCase) {
   expect_close(standardise_weight(weight, one, 0 * one), expected, 1e-6);
 }
 
-TEST(BackboneConv, StartsAsTheWeightItIsGiven) {
+TEST(BackboneConv, StartsWithGivenWeight) {
   torch::manual_seed(5);
   BackboneConv conv(ConvShape{.in = 3, .out = 8}, true);
   expect_close(conv->effective_weight(), conv->named_parameters()["weight"], 1e-5);
 }
 
-TEST(SwitchableConv, StartsAsAPlainConvolution) {
+TEST(SwitchableConv, StartsAsPlainConvolution) {
   torch::manual_seed(6);
   for (const bool deformable : {false, true}) {
     SwitchableConv sac(ConvShape{.in = 4, .out = 5, .stride = 2}, deformable);
@@ -141,7 +141,7 @@ TEST(SwitchableConv, MixesTwoDilationsBySwitch) {
   expect_close(sac(x), expected, 1e-4);
 }
 
-TEST(SwitchableConv, SwitchLooksAtTheMeanOfFiveByFivePixels) {
+TEST(SwitchableConv, SwitchUsesMeanOfFiveByFivePixels) {
   torch::manual_seed(8);
   SwitchableConv sac(ConvShape{.in = 1, .out = 1}, false);
   set(*sac, "switch.weight", torch::ones({1, 1, 1, 1}));
@@ -151,8 +151,8 @@ TEST(SwitchableConv, SwitchLooksAtTheMeanOfFiveByFivePixels) {
   const torch::Tensor small = torch::conv2d(x, weight, {}, 1, 1, 1);
   const torch::Tensor large = torch::conv2d(x, weight, {}, 1, 3, 3);
   const double mix = x.slice(2, 2, 7).slice(3, 2, 7).mean().item<double>();
-  const torch::Tensor at_centre = (mix * small + (1 - mix) * large)[0][0][4][4];
-  EXPECT_NEAR(sac(x)[0][0][4][4].item<double>(), at_centre.item<double>(), 1e-5);
+  const torch::Tensor at_center = (mix * small + (1 - mix) * large)[0][0][4][4];
+  EXPECT_NEAR(sac(x)[0][0][4][4].item<double>(), at_center.item<double>(), 1e-5);
 }
 
 TEST(SwitchableConv, AddsGlobalContextBeforeAndAfter) {
@@ -168,7 +168,7 @@ TEST(SwitchableConv, AddsGlobalContextBeforeAndAfter) {
   expect_close(sac(x), y + torch::conv2d(y.mean({2, 3}, true), after), 1e-4);
 }
 
-TEST(SwitchableConv, FoldedIsTheSame) {
+TEST(SwitchableConv, FoldingKeepsOutput) {
   torch::manual_seed(10);
   SwitchableConv sac(ConvShape{.in = 3, .out = 3}, false);
   set(*sac, "switch.bias", torch::full({1}, 0.4));

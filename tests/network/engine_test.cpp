@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Gives all that starts at zero or one values as after a training.
+/// Sets all tensors that start at zero or one to values as after a training.
 void randomise(torch::nn::Module& module) {
   const torch::NoGradGuard no_grad;
   for (auto& [name, tensor] : named_tensors(module)) {
@@ -54,32 +54,32 @@ double difference(const torch::Tensor& a, const torch::Tensor& b) {
   return ((a - b).abs().max() / b.abs().max()).item<double>();
 }
 
-/// Logits of all masks that a level's kernels make of the mask features: (cells, height * width).
+/// Logits of all masks of a level's kernels and the mask features: (cells, height * width).
 torch::Tensor mask_logits(const torch::Tensor& kernels, const torch::Tensor& features) {
   return torch::mm(kernels[0].flatten(1).t(), features[0].flatten(1));
 }
 
-/// Compares what the engine and libtorch make of a picture, the masks' logits among it.
+/// Compares the outputs of the engine and libtorch for an image, including the mask logits.
 void expect_equal_maps(const NetworkConfig& config, engine::NetworkEngine& engine,
                        SoloNetwork& network, PreparedImage image) {
-  const HeadOutput wanted = network(
+  const HeadOutput expected = network(
       torch::from_blob(image.planes.data(), {1, 3, image.height, image.width}, torch::kFloat));
-  ASSERT_TRUE(wanted.mask_features.isfinite().all().item<bool>());
+  ASSERT_TRUE(expected.mask_features.isfinite().all().item<bool>());
   const HeadMaps maps = engine.run(image);
   const torch::Tensor features =
       as_tensor(maps.mask_features, image.height / 4, image.width / 4, config.head.kernel_channels);
-  EXPECT_LT(difference(features, wanted.mask_features), 1e-4);
+  EXPECT_LT(difference(features, expected.mask_features), 1e-4);
   const auto grids = config.head.grids();
   for (std::size_t level = 0; level < grids.size(); ++level) {
     const int side = grids[level];
     EXPECT_LT(difference(as_tensor(maps.categories[level], side, side, config.classes),
-                         wanted.categories[level]),
+                         expected.categories[level]),
               1e-4);
     const torch::Tensor kernels =
         as_tensor(maps.kernels[level], side, side, config.head.kernel_channels);
-    EXPECT_LT(difference(kernels, wanted.kernels[level]), 1e-4);
+    EXPECT_LT(difference(kernels, expected.kernels[level]), 1e-4);
     EXPECT_LT(difference(mask_logits(kernels, features),
-                         mask_logits(wanted.kernels[level], wanted.mask_features)),
+                         mask_logits(expected.kernels[level], expected.mask_features)),
               1e-4);
   }
 }
@@ -96,11 +96,11 @@ void expect_equal_on_noise(const NetworkConfig& config, int height, int width) {
 
 class EngineOfEachVariant : public ::testing::TestWithParam<NetworkVariant> {};
 
-TEST_P(EngineOfEachVariant, ComputesWhatLibtorchDoes) {
+TEST_P(EngineOfEachVariant, EqualsLibtorch) {
   expect_equal_on_noise(NetworkConfig::preset(NetworkSize::kNano, GetParam()), 96, 128);
 }
 
-TEST_P(EngineOfEachVariant, WithResNet50AndGroupNormToo) {
+TEST_P(EngineOfEachVariant, EqualsLibtorchWithResNet50AndGroupNorm) {
   NetworkConfig config = NetworkConfig::preset(NetworkSize::kR50, GetParam());
   if (config.backbone.sac == SacMode::kDeformable) config.backbone.sac = SacMode::kPlain;
   config.neck.channels = 64;
@@ -109,8 +109,8 @@ TEST_P(EngineOfEachVariant, WithResNet50AndGroupNormToo) {
   expect_equal_on_noise(config, 128, 96);
 }
 
-/// The shipped weights, with what a variant has besides at random but small.
-TEST_P(EngineOfEachVariant, OnTwentyRealPictures) {
+/// The shipped weights, with small random values for the additional tensors of a variant.
+TEST_P(EngineOfEachVariant, EqualsLibtorchOnTwentyImages) {
   const fs::path pictures = fs::path(MMS_SOURCE_DIR) / "../shared/data/people/images";
   if (!fs::exists(pictures)) GTEST_SKIP() << "no shared data in ../shared/data";
   const fs::path file = fs::path(MMS_SOURCE_DIR) / "weights/nano.safetensors";
@@ -126,13 +126,13 @@ TEST_P(EngineOfEachVariant, OnTwentyRealPictures) {
   network->eval();
   engine::NetworkEngine engine({config, shipped.classes, to_weights(*network)}, "test", {});
   const torch::NoGradGuard no_grad;
-  int left = 20;
+  int remaining = 20;
   for (const auto& entry : fs::directory_iterator(pictures)) {
-    if (left-- == 0) break;
+    if (remaining-- == 0) break;
     SCOPED_TRACE(entry.path());
     expect_equal_maps(config, engine, network, prepare_image(read_color(entry.path()), config));
   }
-  EXPECT_LE(left, 0) << "fewer than 20 pictures in " << pictures;
+  EXPECT_LE(remaining, 0) << "fewer than 20 pictures in " << pictures;
 }
 
 INSTANTIATE_TEST_SUITE_P(AllVariants, EngineOfEachVariant,

@@ -18,7 +18,7 @@ void expect_map(const ChannelsLastMap& map, const torch::Tensor& tensor) {
   }
 }
 
-/// Maps of a head with these channels; each level's grid is one cell smaller, down to one.
+/// Output of a head; the grid of each level is one cell smaller, down to one.
 HeadOutput random_output(int batch, int classes, int channels) {
   HeadOutput output;
   for (std::size_t i = 0; i < output.categories.size(); ++i) {
@@ -43,10 +43,10 @@ void expect_maps(const HeadOutput& output) {
   EXPECT_EQ(maps.mask_width, 7);
 }
 
-TEST(HeadMaps, AreTheTensorsWhateverTheirLayout) {
+TEST(HeadMaps, EqualTensorsOfAnyLayout) {
   torch::manual_seed(1);
   for (const int batch : {1, 2}) {
-    for (const int classes : {1, 2}) {  // one channel has both layouts at once
+    for (const int classes : {1, 2}) {  // one channel has both layouts simultaneously
       HeadOutput output = random_output(batch, classes, 4);
       expect_maps(output);
       for (std::size_t i = 0; i < output.categories.size(); ++i) {
@@ -59,7 +59,7 @@ TEST(HeadMaps, AreTheTensorsWhateverTheirLayout) {
   }
 }
 
-TEST(HeadMaps, OfSlicesAreTheSlices) {
+TEST(HeadMaps, EqualSlices) {
   torch::manual_seed(2);
   HeadOutput output = random_output(1, 2, 4);
   for (std::size_t i = 0; i < output.categories.size(); ++i) {

@@ -20,7 +20,7 @@ class MixedPrecisionOf : public ::testing::TestWithParam<Variant> {
     return config;
   }
 
-  /// All that the head gives, one after the other.
+  /// All outputs of the head, concatenated.
   static torch::Tensor flat(const HeadOutput& output) {
     std::vector<torch::Tensor> parts = {output.mask_features.flatten().to(torch::kFloat)};
     for (const torch::Tensor& map : output.categories) {
@@ -33,7 +33,7 @@ class MixedPrecisionOf : public ::testing::TestWithParam<Variant> {
   }
 };
 
-TEST_P(MixedPrecisionOf, IsCloseToFloatsAndTrains) {
+TEST_P(MixedPrecisionOf, IsCloseToFloatAndTrains) {
   torch::manual_seed(4);
   SoloNetwork network(config());
   const torch::Tensor image = torch::randn({1, 3, 96, 128});
@@ -44,11 +44,11 @@ TEST_P(MixedPrecisionOf, IsCloseToFloatsAndTrains) {
     if (!precision.on()) GTEST_SKIP() << "this CPU does not compute in bfloat16";
     output = network(image);
   }
-  const torch::Tensor rough = flat(output);
-  const double off = (rough.detach() - exact).norm().item<double>();
-  EXPECT_LT(off, 0.1 * exact.norm().item<double>());
-  EXPECT_GT(off, 0.0);  // or it was not computed in bfloat16
-  rough.square().mean().backward();
+  const torch::Tensor approximate = flat(output);
+  const double error = (approximate.detach() - exact).norm().item<double>();
+  EXPECT_LT(error, 0.1 * exact.norm().item<double>());
+  EXPECT_GT(error, 0.0);  // otherwise it was not computed in bfloat16
+  approximate.square().mean().backward();
   for (const auto& parameter : network->named_parameters()) {
     const torch::Tensor& gradient = parameter.value().grad();
     if (!gradient.defined()) continue;

@@ -15,12 +15,12 @@ using testing::expect_close;
 using testing::expect_in;
 using testing::message_of;
 
-/// A network quick enough for tests: nano with small images.
+/// A network small enough for tests.
 NetworkConfig small_config(NetworkVariant variant) {
   return NetworkConfig::preset(NetworkSize::kNano, variant);
 }
 
-/// Gives the batch norms statistics and factors as after a training.
+/// Sets the statistics of batch norms to values as after a training.
 void randomise_norms(torch::nn::Module& module) {
   const torch::NoGradGuard no_grad;
   for (auto& [name, tensor] : named_tensors(module)) {
@@ -31,7 +31,7 @@ void randomise_norms(torch::nn::Module& module) {
 
 class EachVariant : public ::testing::TestWithParam<NetworkVariant> {};
 
-TEST_P(EachVariant, HasMapsOfTheSpecifiedShapes) {
+TEST_P(EachVariant, HasMapsOfSpecifiedShapes) {
   const NetworkConfig config = small_config(GetParam());
   SoloNetwork network(config);
   network->eval();
@@ -46,7 +46,7 @@ TEST_P(EachVariant, HasMapsOfTheSpecifiedShapes) {
   EXPECT_GE(output.mask_features.min().item<double>(), 0.0);
 }
 
-TEST_P(EachVariant, HasJustThePublishedTensors) {
+TEST_P(EachVariant, HasExactlyPublishedTensors) {
   for (const NetworkSize size : {NetworkSize::kNano, NetworkSize::kR18, NetworkSize::kR50}) {
     const NetworkConfig config = NetworkConfig::preset(size, GetParam());
     SoloNetwork network(config);
@@ -56,7 +56,7 @@ TEST_P(EachVariant, HasJustThePublishedTensors) {
   }
 }
 
-TEST_P(EachVariant, IsTheSameWhenFolded) {
+TEST_P(EachVariant, FoldingKeepsOutput) {
   torch::manual_seed(1);
   SoloNetwork network(small_config(GetParam()));
   randomise_norms(*network);
@@ -74,7 +74,7 @@ TEST_P(EachVariant, IsTheSameWhenFolded) {
   }
 }
 
-TEST_P(EachVariant, LearnsWithEveryWeightThatIsNotFrozen) {
+TEST_P(EachVariant, AllUnfrozenWeightsHaveGradients) {
   torch::manual_seed(2);
   SoloNetwork network(small_config(GetParam()));
   for (Backbone& backbone : network->backbones()) backbone->freeze(1);
@@ -96,7 +96,7 @@ TEST_P(EachVariant, LearnsWithEveryWeightThatIsNotFrozen) {
   }
 }
 
-TEST_P(EachVariant, ComesBackFromItsWeights) {
+TEST_P(EachVariant, WeightsRoundTrip) {
   torch::manual_seed(3);
   SoloNetwork network(small_config(GetParam()));
   SoloNetwork other(small_config(GetParam()));
@@ -105,7 +105,7 @@ TEST_P(EachVariant, ComesBackFromItsWeights) {
   EXPECT_EQ(to_weights(*other), weights);
 }
 
-TEST_P(EachVariant, StartsAsThePlainNetworkItGrewFrom) {
+TEST_P(EachVariant, StartsEqualToPlainNetwork) {
   torch::manual_seed(4);
   SoloNetwork plain(small_config(NetworkVariant::kSolov2));
   randomise_norms(*plain);
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, EachVariant,
                          ::testing::Values(NetworkVariant::kSolov2, NetworkVariant::kRfp,
                                            NetworkVariant::kSac, NetworkVariant::kDetectors));
 
-TEST(SoloNetwork, CoordinatesRunFromCornerToCorner) {
+TEST(SoloNetwork, CoordinatesSpanCornerToCorner) {
   const torch::Tensor c = coordinate_channels(torch::zeros({2, 5, 3, 4}));
   EXPECT_EQ(c.sizes(), (std::vector<std::int64_t>{2, 2, 3, 4}));
   EXPECT_EQ(c[1][0][2][0].item<float>(), -1.0F);
@@ -139,7 +139,7 @@ TEST(SoloNetwork, CoordinatesRunFromCornerToCorner) {
   EXPECT_EQ(c[0][1][2][2].item<float>(), 1.0F);
 }
 
-TEST(SoloNetwork, FrozenStagesKeepTheirWeightsAndStatistics) {
+TEST(SoloNetwork, FrozenStagesKeepWeightsAndStatistics) {
   SoloNetwork network(small_config(NetworkVariant::kSolov2));
   Backbone backbone = network->backbones().front();
   backbone->freeze(2);
@@ -163,22 +163,22 @@ TEST(SoloNetwork, FrozenStagesKeepTheirWeightsAndStatistics) {
   }
 }
 
-TEST(SoloNetwork, WeightsOfAnotherArchitectureAreRefused) {
+TEST(SoloNetwork, RejectsWeightsOfOtherArchitecture) {
   SoloNetwork network(small_config(NetworkVariant::kSolov2));
-  const Weights good = to_weights(*network);
-  Weights missing = good;
+  const Weights valid = to_weights(*network);
+  Weights missing = valid;
   missing.tensors.erase("neck.fpn_convs.0.conv.bias");
   expect_in("file: lacks the network's tensor neck.fpn_convs.0.conv.bias",
             message_of<DataError>([&] { load_weights(*network, missing, "file"); }));
-  Weights extra = good;
+  Weights extra = valid;
   extra.tensors["neck.rfp_weight.bias"] = {{1}, {0.0F}};
   expect_in("has the tensor neck.rfp_weight.bias, which the network does not",
             message_of<DataError>([&] { load_weights(*network, extra, "file"); }));
-  Weights other = good;
+  Weights other = valid;
   other.tensors["mask_head.conv_cls.bias"] = {{80}, std::vector<float>(80)};
   expect_in("tensor mask_head.conv_cls.bias is (80), but the network's is (2)",
             message_of<DataError>([&] { load_weights(*network, other, "file"); }));
-  EXPECT_EQ(to_weights(*network), good);
+  EXPECT_EQ(to_weights(*network), valid);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using testing::sample_of;
 
 constexpr AugmentationConfig kUnchanged = {.scale_min = 1.0, .scale_max = 1.0, .flip = 0.0};
 
-TEST(Jitter, AtScaleOneNothingMoves) {
+TEST(Jitter, ScaleOneChangesNothing) {
   RandomStream random(1);
   const Sample sample = sample_of(64, 48, {box_object(1, 10, 12, 20, 16)});
   const Sample same = jittered(sample, 64, 48, kUnchanged, random);
@@ -26,7 +26,7 @@ TEST(Jitter, AtScaleOneNothingMoves) {
   EXPECT_EQ(same.objects[0].mask.pixels(), sample.objects[0].mask.pixels());
 }
 
-TEST(Jitter, MasksFollowTheMirroredPicture) {
+TEST(Jitter, MasksFollowMirroredImage) {
   RandomStream random(1);
   AugmentationConfig config = kUnchanged;
   config.flip = 1.0;
@@ -38,7 +38,7 @@ TEST(Jitter, MasksFollowTheMirroredPicture) {
   EXPECT_EQ(mirrored.objects[0].y, 12);
 }
 
-TEST(Jitter, SmallerPicturesArePadded) {
+TEST(Jitter, PadsSmallerImages) {
   RandomStream random(1);
   AugmentationConfig config = kUnchanged;
   config.scale_min = config.scale_max = 0.5;
@@ -53,8 +53,8 @@ TEST(Jitter, SmallerPicturesArePadded) {
   EXPECT_EQ(small.objects[0].mask.height(), 8);
 }
 
-/// Whatever is cut away, the mask stays on its pixels: red and green tell where they come from.
-TEST(Jitter, MasksStayOnTheirPixelsWhenALargerPictureIsCut) {
+/// The mask stays on its pixels after cropping; red and green encode the original position.
+TEST(Jitter, CroppingKeepsMasksOnTheirPixels) {
   AugmentationConfig config = kUnchanged;
   config.scale_min = config.scale_max = 2.0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -73,7 +73,7 @@ TEST(Jitter, MasksStayOnTheirPixelsWhenALargerPictureIsCut) {
   }
 }
 
-TEST(Jitter, ObjectsThatAreCutAwayAreDropped) {
+TEST(Jitter, DropsObjectsOutsideCrop) {
   AugmentationConfig config = kUnchanged;
   config.scale_min = config.scale_max = 4.0;
   int kept = 0;
@@ -87,19 +87,19 @@ TEST(Jitter, ObjectsThatAreCutAwayAreDropped) {
   EXPECT_LT(kept, 30);
 }
 
-/// Pasting takes any number of objects, each set of a size alike; here 0 or 1, so try seeds.
-Sample pasted(std::vector<ObjectMask> below, const ObjectMask& above, bool wanted) {
+/// Pastes with the first seed that pastes the object or not, as given; the number is random.
+Sample pasted(std::vector<ObjectMask> below, const ObjectMask& above, bool is_pasted) {
   for (std::uint64_t seed = 0;; ++seed) {
     RandomStream random(seed);
     Sample target = sample_of(64, 48, below);
     Sample source = sample_of(64, 48, {above});
     for (Rgb& pixel : source.image.pixels()) pixel = {1, 2, 3};
     paste_objects(target, source, random);
-    if ((target.image(above.x, above.y) == Rgb{1, 2, 3}) == wanted) return target;
+    if ((target.image(above.x, above.y) == Rgb{1, 2, 3}) == is_pasted) return target;
   }
 }
 
-TEST(CopyPaste, CutsTheMasksBelow) {
+TEST(CopyPaste, CropsMasksBelow) {
   const Sample sample = pasted({box_object(0, 4, 4, 30, 30)}, box_object(1, 20, 10, 30, 10), true);
   ASSERT_EQ(sample.objects.size(), 2U);
   EXPECT_EQ(sample.objects[1].category, 1);
@@ -110,7 +110,7 @@ TEST(CopyPaste, CutsTheMasksBelow) {
   EXPECT_EQ(sample.image(19, 10), (Rgb{19, 10, 77}));
 }
 
-TEST(CopyPaste, HiddenObjectsAreDropped) {
+TEST(CopyPaste, DropsHiddenObjects) {
   const Sample sample = pasted({box_object(0, 10, 10, 10, 10)}, box_object(1, 8, 8, 14, 14), true);
   ASSERT_EQ(sample.objects.size(), 1U);
   EXPECT_EQ(sample.objects[0].category, 1);
@@ -122,7 +122,7 @@ TEST(CopyPaste, MayPasteNothing) {
   EXPECT_EQ(sample.objects[0].category, 0);
 }
 
-TEST(ColorChanges, LeaveTheObjectsAndCanBeSwitchedOff) {
+TEST(ColorChanges, KeepObjectsAndCanBeDisabled) {
   RandomStream random(3);
   const Sample sample = sample_of(64, 48, {box_object(0, 10, 10, 10, 10)});
   Sample same = sample;

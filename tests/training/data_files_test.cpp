@@ -23,7 +23,7 @@ constexpr const char* kAnnotations = R"({
     {"id": 3, "image_id": 3, "category_id": 9, "iscrowd": 0, "area": 4, "bbox": [0, 0, 2, 2],
      "segmentation": [[0, 0, 2, 0, 2, 2, 0, 2]]}]})";
 
-TEST(ListImages, TakesOnlyThoseThatContainAClass) {
+TEST(ListImages, SelectsImagesWithClass) {
   const TempFolder folder;
   TrainingData set;
   set.annotations = folder.write("all.json", kAnnotations).string();
@@ -36,7 +36,7 @@ TEST(ListImages, TakesOnlyThoseThatContainAClass) {
   EXPECT_EQ(images[0].objects.at(0).category, 1);
 }
 
-TEST(ListImages, SaysWhichClassIsUnknownOrNowhere) {
+TEST(ListImages, ErrorsNameUnknownOrAbsentClass) {
   const TempFolder folder;
   TrainingData set;
   set.annotations = folder.write("all.json", kAnnotations).string();

@@ -13,20 +13,20 @@ namespace {
 using testing::box_object;
 using testing::sample_of;
 
-TEST(DiceLoss, IsClosedForm) {
+TEST(DiceLoss, EqualsClosedForm) {
   const torch::Tensor p = torch::tensor({0.5F, 1.0F, 0.0F, 0.25F}).view({1, 4});
   const torch::Tensor q = torch::tensor({1.0F, 1.0F, 0.0F, 0.0F}).view({1, 4});
   const double expected = 1 - 2 * 1.5 / (0.25 + 1.0 + 0.0625 + 2.0 + 0.002);
   EXPECT_NEAR(dice_loss(p, q).item<double>(), expected, 1e-6);
 }
 
-TEST(DiceLoss, OfAPerfectMaskIsNearZeroAndOfADisjointOneOne) {
+TEST(DiceLoss, IsZeroForPerfectAndOneForDisjointMask) {
   const torch::Tensor a = torch::tensor({1.0F, 1.0F, 0.0F, 0.0F}).view({1, 4});
   EXPECT_NEAR(dice_loss(a, a).item<double>(), 0.0, 1e-3);
   EXPECT_NEAR(dice_loss(a, 1 - a).item<double>(), 1.0, 1e-6);
 }
 
-TEST(FocalLoss, IsClosedForm) {
+TEST(FocalLoss, EqualsClosedForm) {
   const torch::Tensor logits = torch::tensor({0.0F, 2.0F, -1.0F, 30.0F});
   const torch::Tensor target = torch::tensor({1.0F, 0.0F, 1.0F, 1.0F});
   const torch::Tensor loss = focal_loss(logits, target);
@@ -37,7 +37,7 @@ TEST(FocalLoss, IsClosedForm) {
   EXPECT_NEAR(loss[3].item<double>(), 0.0, 1e-9);
 }
 
-/// A head's output in which every cell says the same.
+/// A head's output with equal values in all cells.
 network::HeadOutput constant_output(const HeadConfig& head, float logit) {
   network::HeadOutput output;
   const auto grids = head.grids();
@@ -49,7 +49,7 @@ network::HeadOutput constant_output(const HeadConfig& head, float logit) {
   return output;
 }
 
-TEST(SoloLoss, WithoutObjectsIsThatOfTheBackground) {
+TEST(SoloLoss, IsBackgroundLossWithoutObjects) {
   const HeadConfig head = NetworkConfig().head;
   const ImageTargets targets = assign_targets(sample_of(320, 256), head);
   const SoloLoss loss = solo_loss(constant_output(head, 0.0F), {targets});
@@ -59,7 +59,7 @@ TEST(SoloLoss, WithoutObjectsIsThatOfTheBackground) {
   EXPECT_EQ(loss.mask.item<double>(), 0.0);
 }
 
-TEST(SoloLoss, CrowdsCountNothing) {
+TEST(SoloLoss, IgnoresCrowds) {
   const HeadConfig head = NetworkConfig().head;
   ObjectMask crowd = box_object(0, 0, 0, 320, 256);
   crowd.crowd = true;
@@ -67,8 +67,8 @@ TEST(SoloLoss, CrowdsCountNothing) {
   EXPECT_EQ(solo_loss(constant_output(head, 3.0F), {targets}).category.item<double>(), 0.0);
 }
 
-/// Every pair's mask is 0.5 everywhere, its object a box: the dice of the two.
-TEST(SoloLoss, OfTheMasksIsTheMeanOverThePairs) {
+/// The mask of every pair is 0.5 everywhere and its object is a box.
+TEST(SoloLoss, MaskLossIsMeanOverPairs) {
   const HeadConfig head = NetworkConfig().head;
   const ImageTargets targets =
       assign_targets(sample_of(320, 256, {box_object(1, 80, 40, 160, 160)}), head);

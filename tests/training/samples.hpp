@@ -9,7 +9,7 @@ inline ObjectMask box_object(int category, int x, int y, int width, int height) 
   return {category, false, x, y, Image<std::uint8_t>(width, height, 1)};
 }
 
-/// A picture whose every pixel tells where it is: r = x, g = y.
+/// An image with the position in every pixel: r = x, g = y.
 inline Sample sample_of(int width, int height, std::vector<ObjectMask> objects = {}) {
   Sample sample;
   sample.image = Image<Rgb>(width, height);

@@ -40,7 +40,7 @@ int count(const ImageTargets& targets, std::size_t level, int value) {
   return static_cast<int>(std::count(all.begin(), all.end(), value));
 }
 
-TEST(TargetAssignment, SizeChoosesTheLevels) {
+TEST(TargetAssignment, SizeSelectsLevels) {
   const auto levels = [](int side) {
     return levels_of(
         assign_targets(sample_of(320, 256, {box_object(0, 8, 8, side, side)}), head()));
@@ -53,9 +53,9 @@ TEST(TargetAssignment, SizeChoosesTheLevels) {
   EXPECT_EQ(levels(200), (std::set<int>{3, 4}));
 }
 
-/// A box of 100x100 px at (110, 78), middle (159.5, 127.5); level 2 has 24 cells of 13.3 x 10.7 px.
+/// A box of 100x100 px at (110, 78), center (159.5, 127.5); level 2 has 24 cells of 13.3 x 10.7 px.
 /// A fifth of the box spans 149.5-169.5 and 117.5-137.5: columns 11-12, rows 11-12.
-TEST(TargetAssignment, TheMiddleOfTheBoxClaimsCells) {
+TEST(TargetAssignment, CenterOfBoxClaimsCells) {
   const ImageTargets targets =
       assign_targets(sample_of(320, 256, {box_object(1, 110, 78, 100, 100)}), head());
   EXPECT_EQ(cells_of(targets, 2),
@@ -76,7 +76,7 @@ TEST(TargetAssignment, ClaimsAtMostThreeByThreeCells) {
   EXPECT_FALSE(cells_of(targets, 2).empty());
 }
 
-TEST(TargetAssignment, LaterObjectTakesTheCellAndBothKeepTheirMasks) {
+TEST(TargetAssignment, LaterObjectTakesCellAndBothKeepMasks) {
   const ImageTargets targets = assign_targets(
       sample_of(320, 256, {box_object(0, 140, 108, 40, 40), box_object(1, 140, 108, 40, 40)}),
       head());
@@ -88,18 +88,18 @@ TEST(TargetAssignment, LaterObjectTakesTheCellAndBothKeepTheirMasks) {
   EXPECT_EQ(objects, (std::set<int>{0, 1}));
 }
 
-TEST(TargetAssignment, CentreIsThatOfTheMassNotOfTheBox) {
-  ObjectMask ell = box_object(0, 100, 100, 60, 60);
+TEST(TargetAssignment, UsesCenterOfMass) {
+  ObjectMask l_shape = box_object(0, 100, 100, 60, 60);
   for (int y = 0; y < 50; ++y) {
-    for (int x = 10; x < 60; ++x) ell.mask(x, y) = 0;  // an L: mass low and to the left
+    for (int x = 10; x < 60; ++x) l_shape.mask(x, y) = 0;  // an L: mass low and to the left
   }
-  const ImageTargets targets = assign_targets(sample_of(320, 256, {ell}), head());
+  const ImageTargets targets = assign_targets(sample_of(320, 256, {l_shape}), head());
   const int cell = *cells_of(targets, 1).begin();
   EXPECT_LT((cell % 36 + 0.5) * 320 / 36, 126.0);
   EXPECT_GT((cell / 36 + 0.5) * 256 / 36, 130.0);
 }
 
-TEST(TargetAssignment, MasksAreAQuarterOfTheSize) {
+TEST(TargetAssignment, MasksHaveQuarterSize) {
   const ImageTargets targets =
       assign_targets(sample_of(320, 256, {box_object(0, 40, 80, 21, 24)}), head());
   ASSERT_EQ(targets.masks.size(), 1U);
@@ -111,7 +111,7 @@ TEST(TargetAssignment, MasksAreAQuarterOfTheSize) {
   EXPECT_EQ(mask(9, 20), 0);
 }
 
-TEST(TargetAssignment, CrowdsAreIgnoredUnlessAnObjectIsThere) {
+TEST(TargetAssignment, IgnoresCrowdsWithoutObject) {
   ObjectMask crowd = box_object(0, 0, 0, 160, 256);
   crowd.crowd = true;
   const ImageTargets targets =

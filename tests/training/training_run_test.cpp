@@ -18,7 +18,7 @@ using testing::message_of;
 using testing::TempFolder;
 namespace fs = std::filesystem;
 
-/// A few pictures with a bright upright bar (person) or a dark lying one (agv) on grey.
+/// Images with a bright vertical bar (person) or a dark horizontal one (agv) on grey.
 void write_bars(const fs::path& folder, int images) {
   CocoDataset dataset;
   dataset.categories = {{1, "person"}, {2, "agv"}};
@@ -73,7 +73,7 @@ TrainingConfig small_training(const fs::path& data, int images) {
   return config;
 }
 
-/// Small learnable pictures, random initial weights: after some steps the objects are found.
+/// With small simple images and random initial weights, the objects are detected after some steps.
 TEST(TrainingRun, LearnsToFindBars) {
   const TempFolder folder;
   write_bars(folder.path(), 8);
@@ -107,7 +107,7 @@ TEST(TrainingRun, LearnsToFindBars) {
   expect_in("<svg", read_file(run.report_path()));
 }
 
-/// Trains in one go, or with an end after some steps and a second start; gives the last losses.
+/// Trains without interruption, or stops after some steps and resumes; returns the last loss.
 double last_loss(const TrainingConfig& config, const fs::path& out, int stop_after) {
   double loss = 0.0;
   for (int start = 0; start < (stop_after > 0 ? 2 : 1); ++start) {
@@ -123,7 +123,7 @@ double last_loss(const TrainingConfig& config, const fs::path& out, int stop_aft
   return loss;
 }
 
-TEST(TrainingRun, GoesOnAsIfNothingHadHappened) {
+TEST(TrainingRun, ResumedTrainingEqualsUninterrupted) {
   const TempFolder folder;
   write_bars(folder.path(), 4);
   TrainingConfig config = small_training(folder.path(), 4 * 50);
@@ -133,7 +133,7 @@ TEST(TrainingRun, GoesOnAsIfNothingHadHappened) {
   EXPECT_NEAR(resumed, whole, 1e-4 * whole);
 }
 
-TEST(TrainingRun, AFolderOfOtherSettingsIsLeftAlone) {
+TEST(TrainingRun, RejectsFolderOfOtherSettings) {
   const TempFolder folder;
   write_bars(folder.path(), 2);
   TrainingConfig config = small_training(folder.path(), 4);
@@ -144,7 +144,7 @@ TEST(TrainingRun, AFolderOfOtherSettingsIsLeftAlone) {
             message_of<ConfigError>([&] { TrainingRun(config, folder.path() / "out", 1); }));
 }
 
-TEST(TrainingRun, DamagedCheckpointsAreNamed) {
+TEST(TrainingRun, ErrorNamesDamagedCheckpoint) {
   const TempFolder folder;
   write_bars(folder.path(), 2);
   TrainingConfig config = small_training(folder.path(), 4);
@@ -155,7 +155,7 @@ TEST(TrainingRun, DamagedCheckpointsAreNamed) {
             message_of<DataError>([&] { TrainingRun(config, folder.path() / "out", 1); }));
 }
 
-TEST(TrainingRun, BadDataAreNamed) {
+TEST(TrainingRun, ErrorsNameInvalidData) {
   const TempFolder folder;
   write_bars(folder.path(), 2);
   TrainingConfig config = small_training(folder.path(), 4);
