@@ -24,7 +24,7 @@ Answer answer_of(const Request& request, bool loopback = true) {
   return answer_to(request, *finished_scene(1), loopback);
 }
 
-TEST(Origin, IsOwnOnlyWhereItIsTheHost) {
+TEST(Origin, IsOwnOnlyForHost) {
   EXPECT_TRUE(is_own_origin("", "localhost:8080"));
   EXPECT_TRUE(is_own_origin("http://localhost:8080", "localhost:8080"));
   EXPECT_TRUE(is_own_origin("https://robot.lan", "robot.lan"));
@@ -34,7 +34,7 @@ TEST(Origin, IsOwnOnlyWhereItIsTheHost) {
   EXPECT_FALSE(is_own_origin("null", "localhost:8080"));
 }
 
-TEST(Origin, KnowsLoopbackNames) {
+TEST(Origin, RecognizesLoopbackNames) {
   for (const char* name : {"localhost", "localhost:1", "127.0.0.1:8080", "[::1]", "[::1]:8080"}) {
     EXPECT_TRUE(is_loopback_name(name)) << name;
   }
@@ -43,7 +43,7 @@ TEST(Origin, KnowsLoopbackNames) {
   }
 }
 
-TEST(Answer, ForeignPagesAndNamesAreRefused) {
+TEST(Answer, RejectsForeignOriginsAndHosts) {
   Request foreign = get("/ws");
   foreign.upgrades = true;
   foreign.origin = "http://evil.example";
@@ -53,27 +53,27 @@ TEST(Answer, ForeignPagesAndNamesAreRefused) {
   rebound.origin = "http://evil.example:8080";
   EXPECT_EQ(answer_of(rebound).status, 403);
   EXPECT_NE(answer_of(rebound, false).status, 403) << "an open server has any name";
-  Request broken = get("/");
-  broken.host = "a b\r\nX: y";
-  EXPECT_EQ(answer_of(broken, false).status, 400);
-  broken.host = "";
-  EXPECT_EQ(answer_of(broken).status, 400);
+  Request invalid = get("/");
+  invalid.host = "a b\r\nX: y";
+  EXPECT_EQ(answer_of(invalid, false).status, 400);
+  invalid.host = "";
+  EXPECT_EQ(answer_of(invalid).status, 400);
 }
 
-TEST(Answer, OnlyReadingIsAllowed) {
+TEST(Answer, RejectsWriteMethods) {
   Request request = get("/");
   request.reads = false;
   EXPECT_EQ(answer_of(request).status, 405);
 }
 
-TEST(Answer, WebSocketNeedsAnUpgrade) {
+TEST(Answer, WebSocketNeedsUpgrade) {
   EXPECT_EQ(answer_of(get("/ws")).status, 426);
   Request request = get("/ws?x=1");
   request.upgrades = true;
   EXPECT_EQ(answer_of(request).kind, Answer::Kind::kWebSocket);
 }
 
-TEST(Answer, ThePageIsThereWithItsTypes) {
+TEST(Answer, ServesPageWithTypes) {
   ASSERT_FALSE(page_files().empty()) << "viewer/dist is empty";
   const Answer page = answer_of(get("/"));
   ASSERT_EQ(page.kind, Answer::Kind::kBytes);
@@ -89,14 +89,14 @@ TEST(Answer, ThePageIsThereWithItsTypes) {
   }
 }
 
-TEST(Answer, ABrowserThatHasThePageIsNotSentItAgain) {
+TEST(Answer, NotModifiedForKnownTag) {
   Request request = get("/index.html");
   request.known_tag = answer_of(request).tag;
   EXPECT_EQ(answer_of(request).status, 304);
   EXPECT_TRUE(answer_of(request).bytes.empty());
 }
 
-TEST(Answer, OnlyKnownFilesOfTheRunAreGiven) {
+TEST(Answer, ServesOnlyKnownFiles) {
   const TempFolder folder;
   folder.write("run/trajectory.tum", "x");
   folder.write("run/secret.txt", "x");
@@ -107,11 +107,11 @@ TEST(Answer, OnlyKnownFilesOfTheRunAreGiven) {
   const auto status = [&](const std::string& target) {
     return answer_to(get(target), *scene, true).status;
   };
-  const Answer there = answer_to(get("/files/trajectory.tum"), *scene, true);
-  EXPECT_EQ(there.kind, Answer::Kind::kFile);
-  EXPECT_EQ(there.file, folder.path() / "run/trajectory.tum");
-  EXPECT_EQ(there.download_name, "trajectory.tum");
-  EXPECT_EQ(there.type, "text/plain; charset=utf-8");
+  const Answer found = answer_to(get("/files/trajectory.tum"), *scene, true);
+  EXPECT_EQ(found.kind, Answer::Kind::kFile);
+  EXPECT_EQ(found.file, folder.path() / "run/trajectory.tum");
+  EXPECT_EQ(found.download_name, "trajectory.tum");
+  EXPECT_EQ(found.type, "text/plain; charset=utf-8");
   for (const char* target :
        {"/files/secret.txt", "/files/../trajectory.tum", "/files/%2e%2e/trajectory.tum",
         "/files//etc/passwd", "/files/", "/files/static_map.ply", "/files/report.html",
@@ -120,7 +120,7 @@ TEST(Answer, OnlyKnownFilesOfTheRunAreGiven) {
   }
 }
 
-TEST(Answer, ALiveRunGivesItsMapAndTrajectory) {
+TEST(Answer, LiveRunServesMapAndTrajectory) {
   Scene scene(scene_info(true));
   scene.add(frame_at(0), nullptr, floor_map(4));
   EXPECT_EQ(answer_to(get("/files/metrics.json"), scene, true).status, 404);

@@ -19,7 +19,7 @@ namespace http = boost::beast::http;
 namespace websocket = boost::beast::websocket;
 using tcp = asio::ip::tcp;
 
-constexpr int kSilence = 2000;  // [ms]
+constexpr int kReadTimeout = 2000;  // [ms]
 
 tcp::endpoint endpoint(std::uint16_t port) {
   return {asio::ip::address_v4::loopback(), port};
@@ -60,7 +60,7 @@ std::string send_raw(std::uint16_t port, const std::string& bytes, const std::st
   std::string answer;
   char part[65536];
   pollfd waiting{socket.native_handle(), POLLIN, 0};
-  while (poll(&waiting, 1, kSilence) > 0) {
+  while (poll(&waiting, 1, kReadTimeout) > 0) {
     const std::size_t size = socket.read_some(asio::buffer(part), error);
     if (error) break;
     answer.append(part, size);
@@ -86,7 +86,7 @@ class ViewerClient::Parts {
     beast::get_lowest_layer(socket_).connect(endpoint(port));
     beast::error_code error;
     socket_.handshake(host(port), "/ws", error);
-    if (error) throw std::runtime_error("refused: " + error.message());
+    if (error) throw std::runtime_error("rejected: " + error.message());
     socket_.read_message_max(256 << 20);
   }
 
@@ -109,7 +109,7 @@ class ViewerClient::Parts {
     if (!done) {
       drop();
       io_.run();
-      throw std::runtime_error("nothing came for ten seconds");
+      throw std::runtime_error("no message within ten seconds");
     }
     if (error) return std::nullopt;
     return beast::buffers_to_string(buffer.data());
@@ -149,7 +149,7 @@ DecodedMessage ViewerClient::wait_for(const std::string& type) {
     if (!message) throw std::runtime_error("closed while waiting for " + type);
     if (message->type() == type) return std::move(*message);
   }
-  throw std::runtime_error("no " + type + " came");
+  throw std::runtime_error("no " + type + " arrived");
 }
 
 void ViewerClient::drop() {

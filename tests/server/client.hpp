@@ -9,7 +9,7 @@
 
 namespace mms::testing {
 
-/// What a server answered over HTTP.
+/// HTTP answer of a server.
 struct HttpAnswer {
   int status = 0;
   std::string type;
@@ -20,17 +20,17 @@ struct HttpAnswer {
 /// Sends a GET with more headers ("Name: value\r\n..."). The path goes out as it is.
 HttpAnswer http_get(std::uint16_t port, const std::string& path, const std::string& headers = "");
 
-/// Sends bytes as they are and reads what comes until the server closes, has been silent for two
-/// seconds, or has sent `enough`.
+/// Sends bytes unchanged and reads until the server closes, sends nothing for two seconds, or has
+/// sent `enough`.
 std::string send_raw(std::uint16_t port, const std::string& bytes, const std::string& enough = "");
 
-/// The HTTP status that a viewer of that origin gets: 101 where it is taken.
+/// The HTTP status for a viewer of that origin: 101 if it is accepted.
 int upgrade_status(std::uint16_t port, const std::string& origin);
 
-/// A WebSocket client that waits for what it reads, at most ten seconds.
+/// A WebSocket client. Reading waits at most ten seconds.
 class ViewerClient {
  public:
-  /// @throws std::runtime_error when the server refuses.
+  /// @throws std::runtime_error when the server rejects the connection.
   explicit ViewerClient(std::uint16_t port);
   ~ViewerClient();
   ViewerClient(const ViewerClient&) = delete;
@@ -42,10 +42,10 @@ class ViewerClient {
   std::optional<DecodedMessage> read();
   std::optional<std::string> read_bytes();
 
-  /// Reads until a message of that type comes. @throws std::runtime_error when none does.
+  /// Reads until a message of that type arrives. @throws std::runtime_error if none does.
   DecodedMessage wait_for(const std::string& type);
 
-  /// Closes the socket without a word.
+  /// Closes the socket without a closing handshake.
   void drop();
 
  private:

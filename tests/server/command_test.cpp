@@ -15,7 +15,7 @@ Wanted parsed(std::string_view text) {
   return std::get<Wanted>(parse_command(text));
 }
 
-TEST(Command, AllKindsAreUnderstood) {
+TEST(Command, ParsesAllTypes) {
   parsed<PlayCommand>(R"({"type":"play"})");
   parsed<PauseCommand>(R"({"type":"pause"})");
   EXPECT_EQ(parsed<StepCommand>(R"({"type":"step"})").by, 1);
@@ -30,7 +30,7 @@ TEST(Command, AllKindsAreUnderstood) {
             Eigen::Vector3f(1.0F, 2.0F, 3.5F));
 }
 
-TEST(Command, WhatIsNoneIsRefusedWithAReason) {
+TEST(Command, RejectsInvalidCommandsWithReason) {
   const auto reason = [](std::string_view text) {
     return message_of<DataError>([&] { parse_command(text); });
   };

@@ -10,7 +10,7 @@
 
 namespace mms::testing {
 
-/// A binary message taken apart as docs/viewer_protocol.md says, by other code than the server's.
+/// A binary message decoded according to docs/viewer_protocol.md, independent of the server's code.
 struct DecodedMessage {
   nlohmann::json json;
   std::map<std::string, std::string> buffers;  ///< raw bytes by name
@@ -43,11 +43,11 @@ inline DecodedMessage decode_message(std::string_view bytes) {
     const std::size_t length = sizes.at(buffer.at("dtype").get<std::string>()) *
                                buffer.at("components").get<std::size_t>() *
                                buffer.at("count").get<std::size_t>();
-    require(at % 4 == 0 && at + length <= bytes.size(), "a buffer is not whole");
+    require(at % 4 == 0 && at + length <= bytes.size(), "a buffer is truncated");
     message.buffers[buffer.at("name").get<std::string>()] = bytes.substr(at, length);
     at += (length + 3) / 4 * 4;
   }
-  require(at == bytes.size(), "bytes are left over");
+  require(at == bytes.size(), "bytes after the last buffer");
   return message;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While it lives, temporary files are made in a folder.
+/// During its lifetime, temporary files are created in a folder.
 class TemporaryFilesIn {
  public:
   explicit TemporaryFilesIn(const fs::path& folder) {
@@ -34,7 +34,7 @@ class TemporaryFilesIn {
   std::string before_;
 };
 
-/// While it lives, no file can be written, as on a full disk.
+/// During its lifetime, no file can be written, as on a full disk.
 class FullDisk {
  public:
   FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -62,7 +62,7 @@ std::shared_ptr<Scene> live_scene() {
   return scene;
 }
 
-TEST(LiveDownload, IsAFileInAFolderOfItsOwn) {
+TEST(LiveDownload, IsWrittenToOwnFolder) {
   const testing::TempFolder folder;
   const TemporaryFilesIn temporary(folder.path());
   for (const std::string name : {"static_map.ply", "trajectory.tum"}) {
@@ -73,7 +73,7 @@ TEST(LiveDownload, IsAFileInAFolderOfItsOwn) {
   }
 }
 
-TEST(LiveDownload, LeavesNothingBehindOnAFullDisk) {
+TEST(LiveDownload, LeavesNoFilesOnFullDisk) {
   const testing::TempFolder folder;
   const TemporaryFilesIn temporary(folder.path());
   for (const std::string name : {"static_map.ply", "trajectory.tum"}) {

@@ -28,19 +28,20 @@ std::vector<float> sorted_x(const ColoredPoints& cloud) {
   return values;
 }
 
-TEST(MapChunks, GivesACloudBackTo256thsOfAVoxel) {
+TEST(MapChunks, KeepsPointsWithin256thOfVoxel) {
   ColoredPoints cloud = floor_points(30);
   for (Eigen::Vector3f& point : cloud.points) point -= Eigen::Vector3f(1.513F, 0.7F, 2.0F);
   MapChunks map(1);
   map.apply(changes_of(cloud.points, cloud.colors, 0.1));
   const ColoredPoints back = map.cloud();
   ASSERT_EQ(back.points.size(), cloud.points.size());
-  const std::vector<float> was = sorted_x(cloud);
-  const std::vector<float> is = sorted_x(back);
-  for (std::size_t i = 0; i < was.size(); ++i) EXPECT_NEAR(is[i], was[i], 0.1F / 256.0F);
+  const std::vector<float> expected = sorted_x(cloud);
+  const std::vector<float> actual = sorted_x(back);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(actual[i], expected[i], 0.1F / 256.0F);
 }
 
-TEST(MapChunks, PassesOverPointsThatAreNoPlace) {
+TEST(MapChunks, IgnoresInvalidPoints) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<Eigen::Vector3f> points = {{nan, 0, 0}, {1e30F, 0, 0}, {1, 1, 1}};
   MapChunks map(1);
@@ -61,7 +62,7 @@ TEST(MapChunks, DividesIntoCubes) {
   EXPECT_NEAR((states[0].center - Eigen::Vector3f(-half, half, half)).norm(), 0.0F, 1e-4F);
 }
 
-TEST(MapChunks, LevelsHalveTheResolutionAndKeepTheMeans) {
+TEST(MapChunks, LevelsHalveResolutionAndKeepMeans) {
   constexpr int kSide = 16;
   MapChunks map(1);
   map.apply(*floor_map(kSide));
@@ -81,24 +82,24 @@ TEST(MapChunks, LevelsHalveTheResolutionAndKeepTheMeans) {
   }
 }
 
-TEST(MapChunks, ShowsWhatTheMapWouldShow) {
+TEST(MapChunks, ShowsVoxelsLikeStaticMap) {
   MapChunks map(2);
   map.apply(one_voxel({0, 0, 0}, 1, 1));
-  EXPECT_EQ(map.cloud().points.size(), 1U) << "the only keyframe so far saw it";
+  EXPECT_EQ(map.cloud().points.size(), 1U) << "observed by the only keyframe";
   map.apply(one_voxel({0, 0, 0}, 1, 10));
-  EXPECT_EQ(map.cloud().points.size(), 1U) << "few keyframes looked there";
+  EXPECT_EQ(map.cloud().points.size(), 1U) << "few keyframes observed the block";
   map.apply(one_voxel({0, 0, 0}, 1, 11));
-  EXPECT_EQ(map.cloud().points.size(), 0U) << "others looked there and did not see it";
+  EXPECT_EQ(map.cloud().points.size(), 0U) << "other keyframes observed the block without it";
   map.apply(one_voxel({0, 0, 0}, 2, 12));
-  EXPECT_EQ(map.cloud().points.size(), 1U) << "seen again";
+  EXPECT_EQ(map.cloud().points.size(), 1U) << "observed again";
 }
 
-TEST(MapChunks, ForgetsWhatIsErased) {
+TEST(MapChunks, RemovesErasedVoxels) {
   MapChunks map(1);
   map.apply(one_voxel({3, 0, 0}, 1, 1));
   MapChanges erase;
   erase.voxel_size = 0.1;
-  erase.erased = {{24, 0, 0}, {1, 1, 1}, {24, 0, 1}};  // the others are not there
+  erase.erased = {{24, 0, 0}, {1, 1, 1}, {24, 0, 1}};  // the others do not exist
   const std::uint64_t before = map.states().front().version;
   map.apply(erase);
   EXPECT_TRUE(map.states().empty());
@@ -106,7 +107,7 @@ TEST(MapChunks, ForgetsWhatIsErased) {
   EXPECT_GT(map.version(), before);
 }
 
-TEST(MapChunks, AWholeMapReplacesTheOneBefore) {
+TEST(MapChunks, WholeMapReplacesFormer) {
   MapChunks map(1);
   map.apply(*floor_map(20));
   MapChanges coarser = changes_of(floor_points(4).points, {}, 0.2);
@@ -115,15 +116,15 @@ TEST(MapChunks, AWholeMapReplacesTheOneBefore) {
   EXPECT_EQ(map.cloud().points.size(), 4U);
 }
 
-TEST(MapChunks, AVoxelWithNoPlaceInItsBlockIsPassedOver) {
-  MapChanges broken = one_voxel({0, 0, 0}, 1, 1);
-  broken.blocks[0].voxels[0].cell = 512;
+TEST(MapChunks, IgnoresCellsOutsideBlock) {
+  MapChanges invalid = one_voxel({0, 0, 0}, 1, 1);
+  invalid.blocks[0].voxels[0].cell = 512;
   MapChunks map(1);
-  map.apply(broken);
+  map.apply(invalid);
   EXPECT_EQ(map.size(), 0U);
 }
 
-TEST(MapChunks, OnlyChangedChunksGetANewVersion) {
+TEST(MapChunks, OnlyChangedChunksGetNewVersion) {
   MapChunks map(1);
   map.apply(one_voxel({0, 0, 0}, 1, 1));
   map.apply(one_voxel({100, 0, 0}, 1, 1));

@@ -28,13 +28,13 @@ using Tasks = std::vector<std::string>;
 const Eigen::Vector3f kOrigin = Eigen::Vector3f::Zero();
 const Clock::time_point kStart{};
 
-TEST(MapFeed, SendsALargeMapCoarseFirstAndThenTheNearest) {
+TEST(MapFeed, SendsLargeMapCoarseThenNearestFirst) {
   MapFeed feed(10 * kLarge);
   feed.plan({chunk(5), chunk(1), chunk(-3)}, kOrigin, kStart);
   EXPECT_EQ(drain(feed, kStart), (Tasks{"1/3", "-3/3", "5/3", "1/0", "-3/0", "5/0"}));
 }
 
-TEST(MapFeed, SendsASmallMapAtOnce) {
+TEST(MapFeed, SendsSmallMapInFullResolution) {
   MapFeed feed(10 * kLarge);
   feed.plan({chunk(5, 100), chunk(1, 100)}, kOrigin, kStart);
   EXPECT_EQ(drain(feed, kStart), (Tasks{"1/0", "5/0"}));
@@ -48,7 +48,7 @@ TEST(MapFeed, SendsNothingTwice) {
   EXPECT_EQ(drain(feed, kStart + 1h), Tasks{});
 }
 
-TEST(MapFeed, SendsWhatChangedButNotAllTheTime) {
+TEST(MapFeed, LimitsRateOfChangedChunks) {
   MapFeed feed(10 * kLarge);
   feed.plan({chunk(1, 100), chunk(2, 100)}, kOrigin, kStart);
   drain(feed, kStart);
@@ -60,7 +60,7 @@ TEST(MapFeed, SendsWhatChangedButNotAllTheTime) {
   EXPECT_FALSE(feed.deferred());
 }
 
-TEST(MapFeed, TellsWhatIsGone) {
+TEST(MapFeed, ReportsRemovedChunks) {
   MapFeed feed(10 * kLarge);
   feed.plan({chunk(1, 100), chunk(2, 100)}, kOrigin, kStart);
   drain(feed, kStart);
@@ -70,19 +70,19 @@ TEST(MapFeed, TellsWhatIsGone) {
   EXPECT_EQ(drain(feed, kStart), Tasks{});
 }
 
-TEST(MapFeed, KeepsFarChunksCoarseWhereThePointsDoNotSuffice) {
+TEST(MapFeed, KeepsDistantChunksCoarseWithinBudget) {
   MapFeed feed(kLarge + kLarge / 4 + kLarge / 16);
   const std::vector<ChunkState> map = {chunk(1), chunk(2), chunk(3)};
   feed.plan(map, kOrigin, kStart);
   EXPECT_EQ(drain(feed, kStart), (Tasks{"1/3", "2/3", "3/3", "1/0", "2/1", "3/2"}));
   feed.plan(map, Eigen::Vector3f(3.0F, 0.0F, 0.0F), kStart);
-  EXPECT_EQ(drain(feed, kStart), (Tasks{"3/0", "1/2"})) << "the viewer looks elsewhere";
+  EXPECT_EQ(drain(feed, kStart), (Tasks{"3/0", "1/2"})) << "the viewer's focus moved";
   feed.set_budget(10 * kLarge);
   feed.plan(map, kOrigin, kStart);
   EXPECT_EQ(drain(feed, kStart), (Tasks{"1/0", "2/0"}));
 }
 
-TEST(MapFeed, ANewPlanReplacesWhatWasNotSent) {
+TEST(MapFeed, NewPlanReplacesUnsentTasks) {
   MapFeed feed(10 * kLarge);
   feed.plan({chunk(1, 100), chunk(2, 100)}, kOrigin, kStart);
   ASSERT_TRUE(feed.next(kStart));

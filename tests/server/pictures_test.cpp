@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
 
-TEST(Pictures, ShrinksByMeansOfSquares) {
+TEST(Pictures, ShrinksBySquareMeans) {
   Image<Rgb> image(6, 4);
   for (std::size_t i = 0; i < image.size(); ++i)
     image[i] = {static_cast<std::uint8_t>(10 * i), 7, 0};
@@ -25,7 +25,7 @@ TEST(Pictures, ShrinksByMeansOfSquares) {
   EXPECT_EQ(shrunk(image, 5).width(), 3);
 }
 
-TEST(Pictures, MaskIsOnePlusTheClass) {
+TEST(Pictures, MaskIsOnePlusClass) {
   const Image<std::uint8_t> mask = mask_of(view_of(0)->cloud);
   ASSERT_EQ(mask.width(), 4);
   EXPECT_EQ(mask(3, 1), 2);  // a vehicle
@@ -44,7 +44,7 @@ TEST(Pictures, MaskIsOnePlusTheClass) {
   EXPECT_TRUE(mask_of(lidar).empty());
 }
 
-TEST(Pictures, TakesEvenlySpreadPointsThatHaveAReturn) {
+TEST(Pictures, SelectsEvenlySpacedPointsWithReturn) {
   LabeledCloud cloud;
   for (int i = 0; i < 1000; ++i) {
     cloud.points.emplace_back(static_cast<float>(i), 0.0F, 0.0F);
@@ -71,7 +71,7 @@ TEST(Pictures, AreEncodedAsFiles) {
   EXPECT_TRUE(encode_pictures(bare).jpeg.empty());
 }
 
-TEST(PictureCache, EncodesAFrameOnceForAll) {
+TEST(PictureCache, EncodesFrameOnce) {
   Scene scene(scene_info(false));
   int loads = 0;
   scene.set_loader([&](std::size_t frame) -> std::shared_ptr<const SensorView> {
@@ -86,7 +86,7 @@ TEST(PictureCache, EncodesAFrameOnceForAll) {
   EXPECT_EQ(cache.get(9), nullptr);
 }
 
-TEST(PictureCache, GivesTheNewestOfALiveRun) {
+TEST(PictureCache, ReturnsNewestOfLiveRun) {
   Scene scene(scene_info(true));
   PictureCache cache(scene);
   EXPECT_EQ(cache.get(std::nullopt), nullptr);

@@ -24,7 +24,7 @@ std::size_t frame_at(Playhead& head, Clock::duration time) {
   return head.frame();
 }
 
-TEST(Playhead, PlaysAtThePaceOfTheStamps) {
+TEST(Playhead, PlaysAtPaceOfStamps) {
   Playhead head;
   EXPECT_EQ(frame_at(head, 0ms), 0U);
   EXPECT_EQ(frame_at(head, 99ms), 0U);
@@ -36,7 +36,7 @@ TEST(Playhead, PlaysAtThePaceOfTheStamps) {
   EXPECT_FALSE(head.playing());
 }
 
-TEST(Playhead, PlaysAgainFromTheStart) {
+TEST(Playhead, RestartsAfterEnd) {
   Playhead head;
   frame_at(head, 0ms);
   frame_at(head, 1min);
@@ -45,7 +45,7 @@ TEST(Playhead, PlaysAgainFromTheStart) {
   EXPECT_EQ(frame_at(head, 2min + 250ms), 2U);
 }
 
-TEST(Playhead, StandsWhilePausedAndGoesOnWhereItStood) {
+TEST(Playhead, ResumesAtPausedFrame) {
   Playhead head;
   frame_at(head, 0ms);
   EXPECT_EQ(frame_at(head, 350ms), 3U);
@@ -55,7 +55,7 @@ TEST(Playhead, StandsWhilePausedAndGoesOnWhereItStood) {
   EXPECT_EQ(frame_at(head, 10s + 150ms), 4U);
 }
 
-TEST(Playhead, ChangesItsSpeedWithoutAJump) {
+TEST(Playhead, ChangesSpeedWithoutJump) {
   Playhead head;
   frame_at(head, 0ms);
   frame_at(head, 400ms);
@@ -64,7 +64,7 @@ TEST(Playhead, ChangesItsSpeedWithoutAJump) {
   EXPECT_EQ(frame_at(head, 900ms), 14U);
 }
 
-TEST(Playhead, SeeksWhilePlayingAndKeepsWithinTheRun) {
+TEST(Playhead, SeeksWithinRun) {
   Playhead head;
   frame_at(head, 0ms);
   head.seek(10);
@@ -74,7 +74,7 @@ TEST(Playhead, SeeksWhilePlayingAndKeepsWithinTheRun) {
   EXPECT_EQ(frame_at(head, 800ms), 19U);
 }
 
-TEST(Playhead, StepsOneByOneAndPauses) {
+TEST(Playhead, StepsSingleFramesAndPauses) {
   Playhead head;
   frame_at(head, 0ms);
   head.step(1);
@@ -86,7 +86,7 @@ TEST(Playhead, StepsOneByOneAndPauses) {
   EXPECT_EQ(frame_at(head, 10s), 0U);
 }
 
-TEST(Playhead, FollowsTheNewestOfALiveRun) {
+TEST(Playhead, FollowsNewestOfLiveRun) {
   Playhead head;
   head.follow(0);
   EXPECT_EQ(head.frame(), 0U);
@@ -102,7 +102,7 @@ TEST(Playhead, FollowsTheNewestOfALiveRun) {
   EXPECT_EQ(head.frame(), 19U);
 }
 
-TEST(Playhead, StaysAtTheEndOfALiveRunAndCanPlayItAgain) {
+TEST(Playhead, StaysAtEndOfLiveRunAndRestarts) {
   Playhead head;
   head.follow(20);
   EXPECT_EQ(frame_at(head, 1h), 19U);
@@ -111,7 +111,7 @@ TEST(Playhead, StaysAtTheEndOfALiveRunAndCanPlayItAgain) {
   EXPECT_EQ(frame_at(head, 1h + 310ms), 3U);
 }
 
-TEST(Playhead, ARunWithoutFramesIsNoFault) {
+TEST(Playhead, AcceptsRunWithoutFrames) {
   Playhead head;
   head.seek(7);
   head.advance({}, kStart);

@@ -36,7 +36,7 @@ bool wait_until(const Condition& done) {
   return false;
 }
 
-TEST(Server, ServesThePageWithItsTypes) {
+TEST(Server, ServesPageWithTypes) {
   const ViewerServer server(any_port(), finished_scene(3));
   const HttpAnswer page = http_get(server.port(), "/");
   EXPECT_EQ(page.status, 200);
@@ -47,7 +47,7 @@ TEST(Server, ServesThePageWithItsTypes) {
   EXPECT_EQ(http_get(server.port(), "/nothing").status, 404);
 }
 
-TEST(Server, GivesFilesOfTheRunAndNoOthers) {
+TEST(Server, ServesOnlyFilesOfRun) {
   const TempFolder folder;
   folder.write("run/static_map.ply", std::string(3'000'000, 'x'));
   folder.write("run/private.txt", "x");
@@ -59,7 +59,7 @@ TEST(Server, GivesFilesOfTheRunAndNoOthers) {
   }
 }
 
-TEST(Server, GivesTheMapOfALiveRunAsItIs) {
+TEST(Server, ServesMapOfLiveRun) {
   const TempFolder folder;
   const auto scene = std::make_shared<Scene>(scene_info(true));
   scene->add(frame_at(0), nullptr, floor_map(5));
@@ -69,7 +69,7 @@ TEST(Server, GivesTheMapOfALiveRunAsItIs) {
   expect_in("0.000000000 0 0 0", http_get(server.port(), "/files/trajectory.tum").body);
 }
 
-TEST(Server, RefusesPagesOfOthers) {
+TEST(Server, RejectsForeignOrigins) {
   const ViewerServer server(any_port(), finished_scene(3));
   const std::string own = "http://localhost:" + std::to_string(server.port());
   EXPECT_EQ(upgrade_status(server.port(), own), 101);
@@ -80,7 +80,7 @@ TEST(Server, RefusesPagesOfOthers) {
   EXPECT_EQ(http_get(server.port(), "/", "Host: evil.example\r\n").status, 403);
 }
 
-TEST(Server, SendsARunToAViewer) {
+TEST(Server, SendsRunToViewer) {
   const ViewerServer server(any_port(), finished_scene(30));
   ViewerClient client(server.port());
   const DecodedMessage hello = client.wait_for("hello");
@@ -115,7 +115,7 @@ TEST(Server, SurvivesGarbage) {
   EXPECT_EQ(http_get(server.port(), "/").status, 200);
 }
 
-TEST(Server, ClosesToThoseWhoSendNothingElse) {
+TEST(Server, DisconnectsClientsThatSendOnlyGarbage) {
   const ViewerServer server(any_port(), finished_scene(3));
   ViewerClient client(server.port());
   for (int i = 0; i < 200; ++i) client.send("garbage");
@@ -124,7 +124,7 @@ TEST(Server, ClosesToThoseWhoSendNothingElse) {
   EXPECT_TRUE(wait_until([&] { return server.viewers() == 0; }));
 }
 
-TEST(Server, ASlowViewerIsSentTheNewestOnly) {
+TEST(Server, SlowViewerGetsOnlyNewestFrames) {
   SceneInfo info = scene_info(true);
   info.has_pictures = true;
   const auto scene = std::make_shared<Scene>(info);
@@ -140,7 +140,7 @@ TEST(Server, ASlowViewerIsSentTheNewestOnly) {
   ViewerClient slow(server.port());
   slow.wait_for("frame");
   constexpr std::size_t kFrames = 120;
-  for (std::size_t i = 1; i <= kFrames; ++i) {  // it reads nothing meanwhile
+  for (std::size_t i = 1; i <= kFrames; ++i) {  // the viewer does not read meanwhile
     scene->add(frame_at(i), large_view(i), nullptr);
     std::this_thread::sleep_for(20ms);
   }
@@ -150,17 +150,17 @@ TEST(Server, ASlowViewerIsSentTheNewestOnly) {
     last = slow.wait_for("frame").json["frame"].get<std::size_t>();
     ++frames;
   }
-  EXPECT_LT(frames, 60U) << "it was sent what was old by then";
+  EXPECT_LT(frames, 60U) << "it was sent outdated frames";
 }
 
-TEST(Server, TakesManyViewersWhoComeAndGo) {
+TEST(Server, SurvivesManyConcurrentViewers) {
   ServerOptions options = any_port();
   options.max_viewers = 12;
   const auto scene = finished_scene(200);
   const ViewerServer server(options, scene);
-  std::vector<std::thread> crowd;
+  std::vector<std::thread> clients;
   for (unsigned seed = 0; seed < 8; ++seed) {
-    crowd.emplace_back([&server, seed] {
+    clients.emplace_back([&server, seed] {
       std::mt19937 random(seed);
       for (int i = 0; i < 10; ++i) {
         try {
@@ -168,18 +168,18 @@ TEST(Server, TakesManyViewersWhoComeAndGo) {
           for (unsigned n = random() % 8; n > 0; --n) client.read();
           if (random() % 2 == 0) client.send(std::string(random() % 6000, 'g'));
           if (random() % 2 == 0) client.drop();
-        } catch (const std::runtime_error&) {  // there is no room for it
+        } catch (const std::runtime_error&) {  // too many viewers
         }
       }
     });
   }
-  for (std::thread& one : crowd) one.join();
+  for (std::thread& client : clients) client.join();
   EXPECT_TRUE(wait_until([&] { return server.viewers() == 0; }));
   ViewerClient client(server.port());
   client.wait_for("frame");
 }
 
-TEST(Server, RefusesMoreViewersThanItTakes) {
+TEST(Server, LimitsNumberOfViewers) {
   ServerOptions options = any_port();
   options.max_viewers = 2;
   const ViewerServer server(options, finished_scene(3));
@@ -190,7 +190,7 @@ TEST(Server, RefusesMoreViewersThanItTakes) {
   EXPECT_TRUE(wait_until([&] { return upgrade_status(server.port(), "") == 101; }));
 }
 
-TEST(Server, SaysGoodbyeWhenItEnds) {
+TEST(Server, ClosesConnectionsAtEnd) {
   auto server = std::make_unique<ViewerServer>(any_port(), finished_scene(3));
   ViewerClient client(server->port());
   client.wait_for("hello");
@@ -200,7 +200,7 @@ TEST(Server, SaysGoodbyeWhenItEnds) {
   end.join();
 }
 
-TEST(Server, SaysWhereItIs) {
+TEST(Server, ReportsUrl) {
   const ViewerServer server(any_port(), finished_scene(1));
   EXPECT_EQ(server.url(), "http://localhost:" + std::to_string(server.port()));
   EXPECT_FALSE(server.is_open());
@@ -209,21 +209,21 @@ TEST(Server, SaysWhereItIs) {
   EXPECT_TRUE(ViewerServer(open, finished_scene(1)).is_open());
 }
 
-TEST(Server, FaultsOfTheAddressAreNamed) {
+TEST(Server, ErrorsNameAddressProblem) {
   const ViewerServer server(any_port(), finished_scene(1));
-  const auto fault = [](const ServerOptions& options) {
+  const auto error = [](const ServerOptions& options) {
     return message_of<DataError>([&] { ViewerServer(options, finished_scene(1)); });
   };
-  ServerOptions taken = any_port();
-  taken.port = server.port();
-  taken.port_hint = "--port N";
-  expect_in("port " + std::to_string(server.port()) + ": is in use", fault(taken));
-  expect_in("--port N", fault(taken));
-  ServerOptions nowhere = any_port();
-  nowhere.address = "here";
-  expect_in("'here' is no address", fault(nowhere));
-  nowhere.address = "192.0.2.1";
-  expect_in("192.0.2.1", fault(nowhere));
+  ServerOptions used = any_port();
+  used.port = server.port();
+  used.port_hint = "--port N";
+  expect_in("port " + std::to_string(server.port()) + ": is in use", error(used));
+  expect_in("--port N", error(used));
+  ServerOptions invalid = any_port();
+  invalid.address = "here";
+  expect_in("'here' is no address", error(invalid));
+  invalid.address = "192.0.2.1";
+  expect_in("192.0.2.1", error(invalid));
 }
 
 }  // namespace

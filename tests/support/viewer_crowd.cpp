@@ -1,6 +1,6 @@
-// usage: viewer_crowd PORT CLIENTS SECONDS: viewers of a server on this machine who come, look for
-// a while, send commands, garbage and messages that are too long, read slowly, and go without a
-// word.
+// usage: viewer_crowd PORT CLIENTS SECONDS: viewers of a local server that connect for some
+// seconds, send commands, garbage and too long messages, read slowly, and disconnect without a
+// closing handshake.
 
 #include <atomic>
 #include <chrono>
@@ -64,7 +64,7 @@ void visit(std::uint16_t port, std::mt19937& random, Counts& counts) {
   client.drop();
 }
 
-void come_and_go(std::uint16_t port, unsigned seed, Clock::time_point end, Counts& counts) {
+void connect_repeatedly(std::uint16_t port, unsigned seed, Clock::time_point end, Counts& counts) {
   std::mt19937 random(seed);
   while (Clock::now() < end) {
     try {
@@ -85,9 +85,9 @@ int main(int argc, char** argv) {
   Counts counts;
   std::vector<std::thread> crowd;
   for (int i = 0; i < std::atoi(argv[2]); ++i) {
-    crowd.emplace_back(come_and_go, port, static_cast<unsigned>(i), end, std::ref(counts));
+    crowd.emplace_back(connect_repeatedly, port, static_cast<unsigned>(i), end, std::ref(counts));
   }
-  for (std::thread& one : crowd) one.join();
+  for (std::thread& client : crowd) client.join();
   std::printf("%ld visits, %ld refused, %ld messages of %.1f MB, %ld times garbage\n",
               counts.visits.load(), counts.refused.load(), counts.messages.load(),
               static_cast<double>(counts.bytes) / 1e6, counts.garbage.load());
