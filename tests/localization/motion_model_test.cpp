@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/localization/box_room.hpp"
 
 namespace mms {
@@ -69,8 +71,19 @@ TEST(MotionModel, ComesToRestWhileCoasting) {
   model.place(at(0.0), motion(0, 0, 0, 0, 0, 0));
   model.measure(at(0.1), motion(0.1, 0, 0, 0, 0, 0));
   for (int i = 2; i <= 30; ++i) model.coast(at(0.1 * i));
-  EXPECT_NEAR(model.pose().translation().x(), 0.3, 1e-6);  // 0.1 (1 + 1 + 1/2 + 1/4 + ...)
+  const double kept = std::exp2(-0.1 * 15.0);  // of the velocity after each step
+  EXPECT_NEAR(model.pose().translation().x(), 0.1 + 0.1 / (1.0 - kept), 1e-6);
   EXPECT_LT(model.velocity().norm(), 1e-6);
+}
+
+TEST(MotionModel, LosesVelocityAtTheSamePaceAtAnyFrameRate) {
+  for (const int frames : {1, 2, 6}) {
+    MotionModel model{MotionConfig{}};
+    model.place(at(0.0), motion(0, 0, 0, 0, 0, 0));
+    model.measure(at(0.1), motion(0.1, 0, 0, 0, 0, 0));
+    for (int i = 1; i <= frames; ++i) model.coast(at(0.1 + 0.2 * i / frames));
+    EXPECT_NEAR(model.velocity().norm(), std::exp2(-0.2 * 15.0), 1e-6) << frames;
+  }
 }
 
 TEST(MotionModel, AcceptsPosesWithinAccelerationLimit) {

@@ -6,10 +6,10 @@
 namespace mms {
 namespace {
 
-/// [-]: share of the velocity kept from one frame to the next while no pose is measured.
-/// Source: initial choice; when people cover the lens, the prediction moves on by no more than two
-/// frames' motion.
-constexpr double kVelocityDecay = 0.5;
+/// [s]: time after which half of the velocity is left while no pose is measured.
+/// Source: one frame of the simulated scenes, 15 Hz; when people cover the lens, the prediction
+/// moves on by no more than the motion of 0.1 s.
+constexpr double kVelocityHalfLife = 1.0 / 15.0;
 
 /// [m, rad]: standard deviation of a measured pose.
 /// Source: the error from frame to frame on `fr1_xyz_clip`, 5 mm and 6 mrad, is that of two poses
@@ -58,8 +58,8 @@ void MotionModel::measure(Timestamp stamp, const Eigen::Isometry3d& pose) {
 
 void MotionModel::coast(Timestamp stamp) {
   pose_ = predict(stamp).T_world_sensor;
+  velocity_ *= std::exp2(-to_seconds(stamp - stamp_) / kVelocityHalfLife);
   stamp_ = stamp;
-  velocity_ *= kVelocityDecay;
 }
 
 /// The velocity is that at the center of its interval: after a time t with acceleration a, the
