@@ -13,14 +13,14 @@ std::vector<std::string> faults_of(const TempFolder& tree) {
   return include_faults(tree.path(), include_rules());
 }
 
-TEST(Architecture, TheTreeKeepsItsArrows) {
+TEST(Architecture, RepositoryFollowsIncludeRules) {
   std::string all;
   for (const std::string& fault : include_faults(MMS_SOURCE_DIR, include_rules()))
     all += fault + "\n";
   EXPECT_TRUE(all.empty()) << all;
 }
 
-TEST(Architecture, EveryFolderOfTheRulesIsThere) {
+TEST(Architecture, RulesNameExistingFolders) {
   const std::filesystem::path root = MMS_SOURCE_DIR;
   const std::set<std::string> beside_mms = {"apps", "interfaces", "benchmarks", "examples",
                                             "tests"};
@@ -39,14 +39,14 @@ TEST(Architecture, EveryFolderOfTheRulesIsThere) {
   }
 }
 
-TEST(Architecture, ThePaperModulesNeverIncludeEachOther) {
+TEST(Architecture, PaperModulesDoNotIncludeEachOther) {
   const std::set<std::string> paper = {"segmentation", "fusion", "localization", "mapping"};
   for (const std::string& from : paper) {
     for (const std::string& to : paper) EXPECT_FALSE(include_rules().modules.at(from).contains(to));
   }
 }
 
-TEST(Architecture, AnIncludeFromFusionToMappingIsCaught) {
+TEST(Architecture, RejectsIncludeFromFusionToMapping) {
   const TempFolder tree;
   tree.write("mms/mapping/static_map/static_map.hpp",
              "#pragma once\n#include \"mms/core/frame.hpp\"\n");
@@ -61,7 +61,7 @@ TEST(Architecture, AnIncludeFromFusionToMappingIsCaught) {
             "mapping is forbidden, allowed: core, geometry");
 }
 
-TEST(Architecture, CoreKnowsNobody) {
+TEST(Architecture, RejectsIncludesInCore) {
   const TempFolder tree;
   tree.write("mms/core/frame.cpp", "#include \"mms/geometry/se3.hpp\"\n");
   const auto faults = faults_of(tree);
@@ -69,7 +69,7 @@ TEST(Architecture, CoreKnowsNobody) {
   expect_in("arrow core -> geometry is forbidden, allowed: none", faults[0]);
 }
 
-TEST(Architecture, DetoursAroundTheRootAreCaught) {
+TEST(Architecture, RejectsIncludesNotFromRoot) {
   const TempFolder tree;
   tree.write("mms/fusion/a.cpp", "#include \"../mapping/static_map.hpp\"\n");
   tree.write("mms/fusion/b.cpp", "#  include <mms/mapping/static_map/static_map.hpp>\n");
@@ -85,7 +85,7 @@ TEST(Architecture, DetoursAroundTheRootAreCaught) {
   expect_in("d.cpp:1: includes \"fusion.hpp\"", faults[3]);
 }
 
-TEST(Architecture, AHeaderWithoutGuardIsCaught) {
+TEST(Architecture, RejectsHeaderWithoutGuard) {
   const TempFolder tree;
   tree.write("mms/core/bare.hpp", "int x();\n");
   const auto faults = faults_of(tree);
@@ -93,7 +93,7 @@ TEST(Architecture, AHeaderWithoutGuardIsCaught) {
   expect_in("mms/core/bare.hpp:1: a header without #pragma once", faults[0]);
 }
 
-TEST(Architecture, AModuleWithoutArrowsIsCaught) {
+TEST(Architecture, RejectsModuleWithoutRules) {
   const TempFolder tree;
   tree.write("mms/helpers/help.hpp", "#pragma once\n");
   const auto faults = faults_of(tree);
@@ -101,7 +101,7 @@ TEST(Architecture, AModuleWithoutArrowsIsCaught) {
   expect_in("module 'helpers' has no rules", faults[0]);
 }
 
-TEST(Architecture, AnIncludeOfAHigherFolderIsCaught) {
+TEST(Architecture, RejectsIncludeOfHigherFolder) {
   const TempFolder tree;
   tree.write("mms/fusion/clouds/a.cpp", "#include \"mms/fusion/masks/b.hpp\"\n");
   tree.write("mms/fusion/masks/b.hpp", "#pragma once\n#include \"mms/fusion/clouds/c.hpp\"\n");
@@ -111,7 +111,7 @@ TEST(Architecture, AnIncludeOfAHigherFolderIsCaught) {
             faults[0]);
 }
 
-TEST(Architecture, AFolderWithoutPlaceIsCaught) {
+TEST(Architecture, RejectsUnknownFolder) {
   const TempFolder tree;
   tree.write("mms/fusion/odds/a.hpp", "#pragma once\n");
   const auto faults = faults_of(tree);
@@ -119,7 +119,7 @@ TEST(Architecture, AFolderWithoutPlaceIsCaught) {
   expect_in("folder 'odds' of module 'fusion' has no place", faults[0]);
 }
 
-TEST(Architecture, SourcesOfTheProgramInALibraryAreCaught) {
+TEST(Architecture, RejectsProgramSourcesInLibrary) {
   const TempFolder tree;
   tree.write("interfaces/ros1/src/node.cpp", "#include \"apps/mms/console/progress.hpp\"\n");
   tree.write("mms/run/slam_run.cpp", "#include \"apps/mms/console/progress.hpp\"\n");
@@ -129,7 +129,7 @@ TEST(Architecture, SourcesOfTheProgramInALibraryAreCaught) {
   expect_in("arrow interfaces -> apps is forbidden", faults[1]);
 }
 
-TEST(Architecture, AFolderWithTooManySourcesIsCaught) {
+TEST(Architecture, RejectsFolderWithTooManySources) {
   const TempFolder tree;
   for (std::size_t i = 0; i <= kMaxFilesInFolder; ++i) {
     tree.write("mms/core/part" + std::to_string(i) + ".cpp", "int x;\n");
@@ -139,7 +139,7 @@ TEST(Architecture, AFolderWithTooManySourcesIsCaught) {
   EXPECT_EQ(faults[0], "mms/core: 31 sources, at most 30 are allowed: split it by idea");
 }
 
-TEST(Architecture, ReportsHeadersOfOneName) {
+TEST(Architecture, RejectsHeadersOfEqualName) {
   const TempFolder tree;
   tree.write("mms/core/scene.hpp", "#pragma once\n");
   tree.write("mms/io/text/scene.hpp", "#pragma once\n");
