@@ -17,7 +17,7 @@ struct HttpAnswer {
   std::string body;
 };
 
-/// Sends a GET with more headers ("Name: value\r\n..."). The path goes out as it is.
+/// Sends a GET with more headers ("Name: value\r\n..."). The path is not encoded.
 HttpAnswer http_get(std::uint16_t port, const std::string& path, const std::string& headers = "");
 
 /// Sends bytes unchanged and reads until the server closes, sends nothing for two seconds, or has
