@@ -18,7 +18,8 @@ subcommands() {
 section() {
   local text name
   if ! text="$("$mms" "$@" --help 2> /dev/null)"; then
-    printf '\n## mms %s\n\nNeeds a build with libtorch: [training](training.md).\n' "$*"
+    # mms train needs a build with libtorch: without one its section stays as it is.
+    printf '\n%s\n' "$(awk -v head="## mms $*" '/^## / {inside = $0 == head} inside' "$here/cli.md")"
     return
   fi
   printf '\n## %s\n\n```text\n%s\n```\n' "mms${*:+ $*}" "$text"
@@ -125,5 +126,6 @@ PAGE
   "$mms" simulate warehouse_loop --print | tables "scene"
 }
 
-cli > "$folder/cli.md"
+page="$(cli)"
+printf '%s\n' "$page" > "$folder/cli.md"
 configuration > "$folder/configuration.md"
