@@ -11,7 +11,9 @@ namespace mms {
 class ThreadConfinement {
  public:
   ThreadConfinement() = default;
-  ThreadConfinement(const ThreadConfinement&) {}  // a copy of the object has no owner yet
+  /// A copy of the object has no owner yet.
+  ThreadConfinement(const ThreadConfinement&) {}
+  /// The owner stays the same.
   ThreadConfinement& operator=(const ThreadConfinement&) { return *this; }
 
   /// Whether the calling thread owns the object; makes it the owner where there is none.

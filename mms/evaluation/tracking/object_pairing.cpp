@@ -49,7 +49,7 @@ std::vector<int> ObjectPairing::pair(const std::vector<ObjectBox>& truth,
       value = 0.0;
     }
   }
-  const std::vector<int> pairs = assign_least_cost(cost);
+  std::vector<int> pairs = assign_least_cost(cost);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (pairs[i] >= 0) track_of_[truth[i].id] = tracks[static_cast<std::size_t>(pairs[i])].id;
   }
@@ -67,7 +67,7 @@ std::int64_t best_identity_matches(const PairCounts& counts) {
   }
   keep_unique(truth_ids);
   keep_unique(track_ids);
-  // Pairs that never met cost as much as the dearest, so that no pair is taken for its own sake.
+  // Pairs that never met get the highest cost, so that they are chosen last.
   Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(truth_ids.size()),
                                                    static_cast<Eigen::Index>(track_ids.size()),
                                                    static_cast<double>(most));

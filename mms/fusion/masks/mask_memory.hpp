@@ -28,7 +28,7 @@ class MaskMemory {
 
  private:
   struct Object {
-    ObjectClass object_class;
+    ObjectClass object_class = ObjectClass::kPerson;
     Timestamp masked;  ///< when it last had a mask
   };
 

@@ -9,12 +9,12 @@
 
 namespace mms {
 
-/// One axis of a walk through voxels.
+/// State of a voxel traversal along one axis.
 struct VoxelStep {
-  std::int32_t direction;
-  std::int32_t left;  ///< steps to take; counted, so that rounding cannot lead past the end
-  float next;         ///< share of the segment at which the next voxel begins
-  float pitch;        ///< share of it that a voxel takes
+  std::int32_t direction = 0;
+  std::int32_t left = 0;  ///< remaining steps; counted, so that rounding cannot pass the end
+  float next = 0.0F;      ///< segment parameter at which the next voxel begins
+  float pitch = 0.0F;     ///< segment parameter per voxel
 
   VoxelStep(float from, float to) {
     const auto at = static_cast<std::int32_t>(std::floor(from));
@@ -35,9 +35,9 @@ struct VoxelStep {
   static constexpr float kNever = std::numeric_limits<float>::infinity();
 };
 
-/// Calls `visit(key)` for the voxels that the segment passes through, in its order, both ends
-/// included; each shares a face with the one before (Amanatides and Woo, 1987).
-/// @param from, to  in units of the voxel's side; finite and within 2^30 of the origin
+/// Calls `visit(key)` for the voxels along the segment in order, both ends included; consecutive
+/// voxels share a face (Amanatides and Woo, 1987).
+/// @param from, to in units of the voxel's side; finite and within 2^30 of the origin
 template <class Visit>
 void for_each_voxel(const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Visit& visit) {
   VoxelKey key = voxel_key(from, 1.0F);

@@ -21,8 +21,8 @@ class PlaneFit {
   struct Plane {
     Eigen::Vector3f mean;
     Eigen::Vector3f normal;  ///< unit, towards the sensor at the origin of coordinates
-    float thickness;         ///< rms distance of the points from the plane [m]
-    float width;             ///< rms extent along the second principal direction [m]
+    float thickness = 0.0F;  ///< rms distance of the points from the plane [m]
+    float width = 0.0F;      ///< rms extent along the second principal direction [m]
   };
 
   /// Needs three points that are not collinear.

@@ -29,6 +29,7 @@ inline Occupancy occupancy_of(LogOdds value) {
 
 /// A cube of voxels, stored densely, because most of what a sensor sees is empty space.
 struct OccupancyBlock {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): filled below
   explicit OccupancyBlock(const VoxelKey& at) : key(at) { log_odds.fill(kUnobserved); }
 
   VoxelKey key;  ///< in units of the block's side

@@ -102,7 +102,8 @@ std::vector<Group> divide(Group group, double max_extent) {
   std::vector<Group> best = {group};
   for (std::size_t count = 2; count <= kMaxParts; ++count) {
     std::vector<Group> parts = k_means(group, count);
-    const double least = kMinPartShare * static_cast<double>(group.size() / count);
+    const std::size_t mean_size = group.size() / count;
+    const double least = kMinPartShare * static_cast<double>(mean_size);
     const bool has_stray = std::any_of(parts.begin(), parts.end(), [&](const Group& part) {
       return static_cast<double>(part.size()) < least;
     });

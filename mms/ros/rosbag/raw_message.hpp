@@ -10,10 +10,10 @@
 
 namespace mms {
 
-/// A message as its bytes, so that rosbag need not know its type.
+/// A message as bytes, for which rosbag does not need the type.
 struct RawMessage {
   std::string bytes;
-  const msg::MessageType* type = nullptr;  ///< of one that is written
+  const msg::MessageType* type = nullptr;  ///< of a written message
 };
 
 }  // namespace mms
@@ -58,6 +58,7 @@ struct Serializer<mms::RawMessage> {
   static void read(Stream& stream, mms::RawMessage& message) {
     message.bytes.assign(reinterpret_cast<const char*>(stream.getData()), stream.getLength());
   }
+  // NOLINTNEXTLINE(readability-identifier-naming): ROS calls it
   static std::uint32_t serializedLength(const mms::RawMessage& message) {
     return static_cast<std::uint32_t>(message.bytes.size());
   }

@@ -8,11 +8,11 @@ namespace mms {
 
 /// Inference settings of ONNX models. The defaults are those of YOLO tools.
 struct OnnxConfig {
-  int input_side = 640;      ///< of the square input, if the model does not specify it [px]
-  double score = 0.25;       ///< of an object, exclusive
-  double overlap = 0.45;     ///< largest intersection over union of two boxes of one class
-  int instances = 100;       ///< largest number after non-maximum suppression
-  std::string classes = "";  ///< comma-separated names; empty: those of the file, else COCO's 80
+  int input_side = 640;   ///< of the square input, if the model does not specify it [px]
+  double score = 0.25;    ///< of an object, exclusive
+  double overlap = 0.45;  ///< largest intersection over union of two boxes of one class
+  int instances = 100;    ///< largest number after non-maximum suppression
+  std::string classes{};  ///< comma-separated names; empty: those of the file, else COCO's 80
 
   /// Inline, so that a config of another module can contain this one without OpenCV.
   void visit(ConfigVisitor& v) {
