@@ -1,4 +1,4 @@
-// The searches under the local maps, on random points in a room of 6 x 3 x 5 m.
+// Searches of the local maps, on random points in a room of 6 x 3 x 5 m.
 
 #include <benchmark/benchmark.h>
 

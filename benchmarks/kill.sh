@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Kills runs (kill -9) at random instants, recovers each from its journal, and prints what was lost:
-# the time between the last frame that was recovered and the kill, which has the frame in work in it;
-# nothing where the kill came after the last frame of all.
+# Kills runs (kill -9) at random instants, recovers each from its journal, and prints the lost time
+# between the last recovered frame and the kill, which includes the frame being processed; nothing if
+# the kill came after the last frame.
 # usage: benchmarks/kill.sh [N=20] [SEED=1] [FLAGS FOR mms run]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
@@ -9,7 +9,7 @@ kills="${1:-20}"
 RANDOM="${2:-1}"
 shift $(($# > 2 ? 2 : $#))
 
-# The wall clock in seconds since 1970, of now or of a date.
+# Seconds since 1970, of now or of a date.
 clock() { date -u ${1:+-d "$1"} +%s.%3N; }
 
 total=240
@@ -17,7 +17,7 @@ quietly "$mms" simulate warehouse_loop --frames "$total" -o "$out/data"
 quietly "$mms" run "$out/data" --segmenter masks -o "$out/whole" "$@"
 duration="$(awk -v n="$total" -v hz="$(value "$out/whole/metrics.json" hz)" 'BEGIN { print n / hz }')"
 
-# kill_at SECONDS: a row about a run that is killed so long after its first frame.
+# kill_at SECONDS: prints the row of a run killed that long after its first frame.
 kill_at() {
   rm -rf "$out/run"
   "$mms" run "$out/data" --segmenter masks -o "$out/run" --keep-journal "${@:2}" > /dev/null 2>&1 &
@@ -46,7 +46,7 @@ kill_at() {
 echo "| killed after [s] | frames | up to stamp [s] | map points | journal [MB] | same poses | lost [s] |"
 echo "| --- | --- | --- | --- | --- | --- | --- |"
 for ((i = 0; i < kills; ++i)); do
-  # Within the first 80 % of the time that a whole run takes for its frames.
+  # Within the first 80 % of the duration of a complete run.
   after="$(awk -v r="$RANDOM" -v d="$duration" 'BEGIN { print 0.8 * d * r / 32768 }')"
   kill_at "$after" "$@" | tee -a "$out/rows"
 done

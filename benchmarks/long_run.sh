@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Whether anything grows with the length of a run: a recording in TUM layout, played to and fro until
-# it has so many frames. Prints milliseconds of every stage, of all frames and of each quarter, and
-# the memory.
+# Checks time and memory over a long run: a recording in TUM layout, played forward and backward up to
+# FRAMES frames. Prints milliseconds per stage, of all frames and of each quarter, and the memory.
 # usage: benchmarks/long_run.sh RECORDING [FRAMES=10000] [FLAGS FOR mms run]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
@@ -17,7 +16,7 @@ for part in "$recording"/*; do
   esac
 done
 
-# Pairs images at most 0.02 s apart and writes them in turn forward and backward.
+# Pairs images at most 0.02 s apart and lists them alternately forward and backward.
 awk -v frames="$frames" -v folder="$long" '
   function gap(a, b) { return rgb[a] > rgb[b] ? rgb[a] - rgb[b] : rgb[b] - rgb[a] }
   /^#/ { next }

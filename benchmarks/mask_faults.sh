@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# What faulty masks cost: three in ten dropped, eroded and with parts missing, and all of them late
-# by one frame, against exact ones; exact ones of every third frame alone; and the filter in a scene
-# where nothing moves.
+# Effect of faulty masks, compared to exact ones: 30 % dropped, eroded or with missing parts; all of
+# them one frame late; and exact ones of every third frame only. Also the filter in a static scene.
 # usage: benchmarks/mask_faults.sh [SEED] [FRAMES]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
@@ -17,7 +16,7 @@ simulate() {
   quietly "$mms" simulate "$scene" --seed "$seed" -o "$out/scene" "${length[@]}" "$@"
 }
 
-# Gives every frame the mask of the one before it.
+# Gives every frame the mask of the previous one.
 make_late() {
   local before="" name
   mkdir "$out/scene/late"
@@ -29,7 +28,7 @@ make_late() {
   mv "$out/scene/late" "$out/scene/masks"
 }
 
-# Leaves the mask of every third frame.
+# Keeps the mask of every third frame.
 make_rare() { find "$out/scene/masks" -name '*.png' | sort | awk 'NR % 3 != 1' | xargs rm; }
 
 # row SCENE MASKS [FLAGS FOR mms run]

@@ -18,7 +18,7 @@ row() {
     "$(value "$json" p99 ms_per_frame)" "$(value "$json" peak_rss_mb)" "$(value "$json" lost)"
 }
 
-echo "| recording | masks | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | frames/s | ms a frame | p99 [ms] | MiB | lost |"
+echo "| recording | masks | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | frames/s | ms/frame | p99 [ms] | MiB | lost |"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
 row fr1_xyz_clip none none "$@"
 for fusion in multimodal vision none; do row lab_crowd "$fusion" masks "$@"; done

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Simulates the warehouse's scenes, with exact masks and with imperfect ones, runs them, and prints
-# one row of accuracy for each.
+# Simulates the warehouse scenes with exact and with faulty masks, runs them, and prints one row of
+# accuracy each.
 # usage: benchmarks/scenes.sh [SEED] [FLAGS FOR mms run]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
 seed="${1:-1}"
 shift $(($# > 0 ? 1 : 0))
 
-# simulate SCENE MASKS: writes the recording to play in all modes of fusion.
+# simulate SCENE MASKS: writes the recording for all fusion modes.
 simulate() {
   rm -rf "$out/scene"
   quietly "$mms" simulate "$1" --seed "$seed" -o "$out/scene" \
@@ -19,7 +19,7 @@ row() {
   shift 3
   quietly "$mms" run "$out/scene" --segmenter masks --fusion "$fusion" -o "$out/run" "$@"
   local json="$out/run/metrics.json" drift="- | -"
-  # Drift from the first pose says something about a sensor that stands still.
+  # Drift from the first pose is only defined for a static sensor.
   if [ "$scene" = still_walker ]; then
     drift="$(printf '%.3f | %.3f' "$(value "$json" atde_cm)" "$(value "$json" mtde_cm)")"
   fi

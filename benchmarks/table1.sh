@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The paper's Table I: the four networks with the same data, schedule and hold-out. Prints a row a
-# training and the means; a training that was cut off goes on.
+# The paper's Table I: the four networks with equal data, schedule and hold-out. Prints one row per
+# training and the means; continues an interrupted training.
 # usage: benchmarks/table1.sh FOLDER [SEED...]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
@@ -10,7 +10,7 @@ shift
 holdout=data/simulated-holdout
 mkdir -p "$runs"
 
-# mean_loss FILE: of the last 1,000 images.
+# mean_loss FILE: mean loss of the last 1,000 images.
 mean_loss() { grep '"loss"' "$1" | tail -n 5 | grep -oE '[0-9.]+' |
   awk '{ sum += $1 } END { printf "%.3f", sum / NR }'; }
 
@@ -21,7 +21,7 @@ row() {
   quietly "$mms" segment "$holdout" --annotations "$holdout/annotations.json" --json-only \
     --weights "$folder/weights.safetensors" -o "$folder/found"
   local ms
-  ms="$(grep -oP '[0-9.]+(?= ms a picture)' "$out/log")"
+  ms="$(grep -oP '[0-9.]+(?= ms/image)' "$out/log")"
   echo "$ms" > "$folder/ms"
   "$mms" eval segmentation "$holdout/annotations.json" "$folder/found/results.json" --json \
     > "$folder/ap.json"

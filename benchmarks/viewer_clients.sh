@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# What a crowd of viewers costs a run: milliseconds per frame and memory without --view, with it and
-# nobody looking, with one viewer, and with a crowd that comes and goes and sends garbage. The run
-# has all cores but the last, on which the clients are, as if they were on other machines. They still
-# share its caches and memory; so the crowd is also let loose on another server beside a run without
-# --view (elsewhere), and what the crowd costs the run is told against that.
-# The kinds take turns, so that what else the machine does falls on all of them; ratios are taken
-# within a turn, and their median counts.
+# Cost of many viewers for a run: milliseconds per frame and memory without --view, with --view and no
+# viewer, with one viewer, and with many viewers that connect, disconnect and send invalid data. The
+# run has all cores but the last, on which the clients run, as if on other machines. They still share
+# caches and memory; as a reference the clients also use another server during a run without --view
+# (elsewhere).
+# The variants alternate, so that other load affects all of them; the result is the median of the
+# ratios within a round.
 # usage: benchmarks/viewer_clients.sh [DATA=a simulated scene] [ROUNDS=3] [CLIENTS=20] [FLAGS FOR mms run]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
@@ -16,7 +16,7 @@ clients="${3:-20}"
 shift $(($# > 3 ? 3 : $#))
 port=8471
 last_core=$(($(nproc) - 1))
-[ "$last_core" -gt 0 ] || { echo "two cores are needed, here is one: the clients have one of their own" >&2; exit 1; }
+[ "$last_core" -gt 0 ] || { echo "two cores are required: one for the clients" >&2; exit 1; }
 
 if [ -z "$data" ]; then
   data="$out/data"
@@ -24,10 +24,10 @@ if [ -z "$data" ]; then
 fi
 quietly "$mms" run "sim:warehouse_loop?frames=60" -o "$out/elsewhere" --segmenter none
 
-# aside COMMAND...: in the background, on the last core.
+# aside COMMAND...: runs in the background on the last core.
 aside() { taskset -c "$last_core" timeout 600 "$@" > /dev/null 2>&1 & }
 
-# run KIND CLIENTS FLAGS...: one run with so many clients, as a line "KIND ms MiB".
+# run KIND CLIENTS FLAGS...: one run with CLIENTS clients, as a line "KIND ms MiB".
 run() {
   local kind="$1" number="$2" others=()
   shift 2
@@ -61,7 +61,7 @@ done
 column() { awk -v kind="$1" -v number="$2" '$1 == kind { print $number }' "$out/rows"; }
 median() { sort -g | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'; }
 
-# slower KIND BASE: how much slower than the other kind, in percent.
+# slower KIND BASE: slowdown relative to the other variant, in percent.
 slower() {
   paste <(column "$1" 2) <(column "$2" 2) | awk '{ print 100 * ($1 / $2 - 1) }' | median |
     xargs printf '%+.0f %%'
@@ -74,10 +74,10 @@ row() {
     "$(slower "$1" alone)" "$(slower "$1" elsewhere)" "$(column "$1" 3 | sort -g | tail -n 1)"
 }
 
-echo "| viewers | ms per frame, median | least to most | against none | against elsewhere | MiB |"
+echo "| viewers | ms per frame, median | min to max | relative to none | relative to elsewhere | MiB |"
 echo "| --- | --- | --- | --- | --- | --- |"
 row alone "no --view"
 row elsewhere "no --view, $clients at another server"
-row nobody "--view, nobody looks"
+row nobody "--view, no viewer"
 row one "one"
-row crowd "$clients that come, go and send garbage"
+row crowd "$clients that reconnect and send invalid data"

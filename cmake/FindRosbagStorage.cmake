@@ -1,5 +1,5 @@
-# Debian's librosbag-storage-dev as the target rosbag_storage_library. Its own CMake package names no
-# targets, and leaves out pluginlib's headers, which its headers include.
+# Debian's librosbag-storage-dev as the target rosbag_storage_library. Its own CMake package
+# defines no targets and omits pluginlib's headers, which its headers include.
 set(required)
 foreach(header rosbag/bag.h pluginlib/class_loader.hpp class_loader/class_loader.hpp
         rcpputils/shared_library.hpp rcutils/macros.h ament_index_cpp/get_resource.hpp

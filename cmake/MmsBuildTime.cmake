@@ -1,5 +1,4 @@
-# What makes a first build shorter: headers read once a target instead of once a source, and sources
-# compiled several at a time.
+# Shorter first builds: precompiled headers and unity builds.
 option(MMS_PRECOMPILED_HEADERS "Precompile the headers of Eigen and the standard library" ON)
 
 set(mms_common_headers
@@ -7,15 +6,15 @@ set(mms_common_headers
   <memory> <numeric> <optional> <span> <string> <string_view> <utility> <vector>
   <Eigen/Core> <Eigen/Geometry>)
 
-# mms_precompile(TARGET [HEADER...]): precompiles the common headers and those given for a target.
+# mms_precompile(TARGET [HEADER...]): precompiles the common and the given headers for a target.
 function(mms_precompile target)
   if(MMS_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} PRIVATE ${mms_common_headers} ${ARGN})
   endif()
 endfunction()
 
-# mms_share_precompiled(TARGET OTHER): TARGET uses what was precompiled for OTHER, whose compiler
-# flags are the same.
+# mms_share_precompiled(TARGET OTHER): TARGET uses the precompiled headers of OTHER, which must have
+# the same compiler flags.
 function(mms_share_precompiled target other)
   if(MMS_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} REUSE_FROM ${other})

@@ -1,6 +1,5 @@
-# mms_check_cpu(TARGET...): programs that say in one sentence that the processor is too old for them.
-# Only where they are compiled for a level of x86-64 above the first; not with sanitizers, whose
-# runtime is not ready that early.
+# mms_check_cpu(TARGET...): programs report a processor that is too old for them. Only for levels of
+# x86-64 above the first; not with sanitizers, whose runtime is not initialized that early.
 set(mms_cpu_example_x86-64-v2 "SSE4.2")
 set(mms_cpu_example_x86-64-v3 "AVX2")
 set(mms_cpu_example_x86-64-v4 "AVX-512")

@@ -28,8 +28,7 @@ if(TARGET mms_program)
   install(DIRECTORY config DESTINATION ${CMAKE_INSTALL_DATADIR}/mms COMPONENT program)
   install(FILES packaging/mms.bash-completion RENAME mms
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
-  # The manual page and the settings with their defaults are what the program itself prints. The
-  # program of another architecture needs an emulator for that.
+  # The program prints its manual page and default settings; when cross-compiling it needs an emulator.
   if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
     add_custom_command(
       OUTPUT ${PROJECT_BINARY_DIR}/mms.1.gz ${PROJECT_BINARY_DIR}/default.yaml

@@ -1,4 +1,4 @@
-# mms_pictures_by_stb(TARGET): adds the reader of pictures that needs no OpenCV.
+# mms_pictures_by_stb(TARGET): adds the image reader without OpenCV.
 function(mms_pictures_by_stb target)
   find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb)
   if(NOT STB_INCLUDE_DIR)

@@ -1,5 +1,5 @@
-# libtorch as the target mms_torch: its headers as those of the system, and without its compiler
-# flags. Debian's package is found by itself; another with -DCMAKE_PREFIX_PATH=.../libtorch.
+# libtorch as the target mms_torch, with system headers and without its compiler flags. Debian's
+# package is found automatically; another one with -DCMAKE_PREFIX_PATH=.../libtorch.
 find_package(Torch QUIET)
 if(NOT Torch_FOUND)
   message(FATAL_ERROR "libtorch was not found: install libtorch-dev, give CMAKE_PREFIX_PATH, or "

@@ -1,5 +1,5 @@
-# mms_viewer_page(TARGET): the files of viewer/dist as a part of the program, so that running it
-# needs neither Node nor a folder beside it.
+# mms_viewer_page(TARGET): compiles the files of viewer/dist into the program, which then needs neither
+# Node nor a data folder.
 function(mms_viewer_page target)
   set(page ${PROJECT_SOURCE_DIR}/viewer/dist)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS ${page}/*)

@@ -1,1 +1,1 @@
-// The source that the precompiled headers of the modules are made for.
+// Source for which the precompiled headers of the modules are generated.

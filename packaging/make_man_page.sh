@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Writes mms.1.gz, the manual page, and default.yaml, all settings with their defaults, from what the
-# program prints.
+# Writes the manual page mms.1.gz and default.yaml, all settings with their defaults, from the
+# program's output.
 # usage: packaging/make_man_page.sh FOLDER VERSION PROGRAM...   (PROGRAM may begin with an emulator)
 set -euo pipefail
 folder="$1" version="$2"
 shift 2
 program=("$@")
 
-# Roff's own characters: backslashes, hyphens, and a dot or quote at the start of a line.
+# Escapes roff: backslashes, hyphens, and a dot or quote at the start of a line.
 escape() { sed -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; }
 
 commands_of() {
@@ -15,7 +15,7 @@ commands_of() {
     awk '/^[^ ]/ { listed = $1 == "Subcommands:" } listed && /^  [a-z]/ { print $1 }'
 }
 
-# help_of COMMAND...: as it is printed, with lines broken at 76 characters.
+# help_of COMMAND...: the help, wrapped at 76 characters.
 help_of() {
   printf '.SS mms %s\n.nf\n' "$(escape <<< "$*")"
   "${program[@]}" "$@" --help | fold -s -w 76 | sed -e 's/[[:space:]]*$//' | cat -s | escape
@@ -53,7 +53,7 @@ Check that the program works on this machine.
 END
   local command part
   for command in $(commands_of); do
-    # mms train hands over to mms-torch, which a build without libtorch does not have.
+    # mms train starts mms-torch, which is missing in a build without libtorch.
     if [ "$command" = train ] && ! "${program[@]}" train --help > /dev/null 2>&1; then
       printf '.SS mms train\nTrain the segmentation network; part of builds with libtorch.\n'
       continue

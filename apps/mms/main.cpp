@@ -7,8 +7,8 @@
 int main(int argc, char** argv) {
   mms::let_waiting_threads_sleep(argv);
   CLI::App app(
-      "MMS-SLAM: localises a camera or LiDAR among moving people and vehicles and maps "
-      "what stands still",
+      "MMS-SLAM: localizes a camera or LiDAR among moving people and vehicles and maps the static "
+      "scene",
       "mms");
   app.set_version_flag("--version", MMS_VERSION);
   app.require_subcommand(1);

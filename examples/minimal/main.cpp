@@ -41,7 +41,7 @@ void localize(const std::string& recording) {
 int main(int argc, char** argv) {
   try {
     localize(argc > 1 ? argv[1] : "sim:rack_aisle?frames=10");
-  } catch (const std::exception& error) {  // mms::Error says where, what and what to do about it
+  } catch (const std::exception& error) {  // mms::Error has where, what and a hint
     std::fprintf(stderr, "minimal: %s\n", error.what());
     return 1;
   }

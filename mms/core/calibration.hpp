@@ -26,7 +26,7 @@ struct CameraIntrinsics {
 struct Calibration {
   std::optional<CameraIntrinsics> camera;   ///< absent for LiDAR without a camera
   Transform<Camera, Lidar> T_camera_lidar;  ///< extrinsics, used if a frame has image and scan
-  double depth_scale = 1000.0;              ///< depth image units per metre
+  double depth_scale = 1000.0;              ///< depth image units per meter
   std::optional<double> max_depth;          ///< largest depth used for mapping [m], if known
 };
 

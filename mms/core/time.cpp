@@ -39,7 +39,7 @@ std::optional<Timestamp> Timestamp::parse(std::string_view text) {
 }
 
 std::string Timestamp::to_string() const {
-  // Unsigned, since INT64_MIN has no positive counterpart.
+  // Unsigned, since -INT64_MIN overflows.
   const auto bits = static_cast<std::uint64_t>(nanoseconds_);
   const std::uint64_t magnitude = nanoseconds_ < 0 ? 0 - bits : bits;
   char text[32];

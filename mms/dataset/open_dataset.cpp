@@ -18,7 +18,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 struct FolderLayout {
-  bool (*looks_like)(const Names& names);
+  bool (*matches)(const Names& names);
   std::unique_ptr<FrameSource> (*open)(const fs::path& folder, const SourceOptions& options);
 };
 
@@ -29,7 +29,7 @@ constexpr FolderLayout kLayouts[] = {{is_tum_rgbd_layout, open_tum_rgbd},
 const FolderLayout* layout_of(const Names& names) {
   const auto* found =
       std::find_if(std::begin(kLayouts), std::end(kLayouts),
-                   [&](const FolderLayout& layout) { return layout.looks_like(names); });
+                   [&](const FolderLayout& layout) { return layout.matches(names); });
   return found == std::end(kLayouts) ? nullptr : found;
 }
 
@@ -45,30 +45,30 @@ std::string found_text(const Names& names) {
   return text;
 }
 
-/// Bags inside are recordings of their own.
-std::string bag_inside(const fs::path& folder, const Names& names) {
+/// Bags in a folder are separate recordings.
+std::string find_bag(const fs::path& folder, const Names& names) {
   for (const std::string& name : names) {
     if (is_bag_name(name)) return (folder / name).string();
   }
   return "";
 }
 
-/// A recording one folder further down, which is what archives unpack to; empty for none.
-std::string recording_inside(const fs::path& folder, const Names& names) {
+/// A recording in a subfolder, as in unpacked archives; empty for none.
+std::string find_recording(const fs::path& folder, const Names& names) {
   for (const std::string& name : names) {
     std::error_code error;
-    const fs::path inside = folder / name;
-    if (!fs::is_directory(inside, error)) continue;
-    if (layout_of(list_folder(inside)) != nullptr) return inside.string();
+    const fs::path nested = folder / name;
+    if (!fs::is_directory(nested, error)) continue;
+    if (layout_of(list_folder(nested)) != nullptr) return nested.string();
   }
   return "";
 }
 
 [[noreturn]] void fail_unknown(const fs::path& folder, const Names& names) {
-  std::string inside = recording_inside(folder, names);
-  if (inside.empty()) inside = bag_inside(folder, names);
-  throw DataError(folder.string(), found_text(names) + ": no recording",
-                  !inside.empty() ? "did you mean " + inside + "?"
+  std::string nested = find_recording(folder, names);
+  if (nested.empty()) nested = find_bag(folder, names);
+  throw DataError(folder.string(), found_text(names) + ": no recording found",
+                  !nested.empty() ? "did you mean " + nested + "?"
                                   : "expected rgb.txt and depth.txt or associations.txt (TUM "
                                     "RGB-D), *.color.png and *.depth.png (7-Scenes), or *.bin "
                                     "scans (KITTI)");
@@ -79,14 +79,14 @@ std::string recording_inside(const fs::path& folder, const Names& names) {
 std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOptions& options) {
   const bool bag = is_bag_name(path) && !fs::is_directory(path);
   if (!bag && !options.topics.empty()) {
-    throw DataError(path.string(), "is no bag, so it has no topics", "leave --topic-* out");
+    throw DataError(path.string(), "is not a bag and has no topics", "omit --topic-*");
   }
   if (is_simulated(path.string())) return open_simulated(path.string(), options);
   std::error_code error;
-  if (!fs::exists(path, error)) throw DataError(path.string(), "there is no such recording");
+  if (!fs::exists(path, error)) throw DataError(path.string(), "no such recording");
   if (bag) return open_bag(path, options);
   if (!fs::is_directory(path, error)) {
-    throw DataError(path.string(), "is a file, a recording is a folder or a ROS bag (.bag)");
+    throw DataError(path.string(), "is a file; a recording is a folder or a ROS bag (.bag)");
   }
   const Names names = list_folder(path);
   const FolderLayout* layout = layout_of(names);

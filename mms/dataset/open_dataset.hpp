@@ -8,11 +8,11 @@
 
 namespace mms {
 
-/// Opens a recording; what is in the folder decides on the layout (tum_rgbd, folder_rgbd,
-/// kitti_lidar), a file x.bag is a ROS 1 bag (bag_source), and an address like "sim:crowd" opens a
-/// simulation (simulated_source).
-/// @throws DataError saying what was found and what is wanted when there is no recording or an
-///         incomplete one; FileError and ConfigError for files that are there but faulty.
+/// Opens a recording. The layout of a folder is detected (tum_rgbd, folder_rgbd, kitti_lidar),
+/// x.bag is a ROS 1 bag (bag_source), and an address such as "sim:crowd" is a simulation
+/// (simulated_source).
+/// @throws DataError with the found and expected files if there is no or an incomplete recording;
+/// FileError and ConfigError for invalid files.
 std::unique_ptr<FrameSource> open_dataset(const std::filesystem::path& path,
                                           const SourceOptions& options = {});
 

@@ -40,10 +40,10 @@ Json realtime_json(const RealtimeMetrics& metrics) {
 
 std::vector<MetricValue> metric_values(const RealtimeMetrics& metrics) {
   return {{"latency_mean", "latency, mean", metrics.latency_ms.mean, "ms", 1},
-          {"latency_p99", "latency, 99 % within", metrics.latency_ms.p99, "ms", 1},
+          {"latency_p99", "latency, p99", metrics.latency_ms.p99, "ms", 1},
           {"latency_max", "latency, largest", metrics.latency_max_ms, "ms", 1},
           {"frames_dropped", "frames dropped", static_cast<double>(metrics.dropped), "", 0},
-          {"frames_without_masks", "frames without masks of their own",
+          {"frames_without_masks", "frames without new masks",
            static_cast<double>(metrics.without_masks), "", 0}};
 }
 
@@ -90,7 +90,7 @@ std::vector<MetricValue> metric_values(const RunMetrics& metrics) {
       {"hz", "rate", metrics.hz, "Hz", 1},
       {"ms_mean", "time per frame, mean", metrics.ms_per_frame.mean, "ms", 1},
       {"ms_p50", "time per frame, median", metrics.ms_per_frame.p50, "ms", 1},
-      {"ms_p99", "time per frame, 99 % within", metrics.ms_per_frame.p99, "ms", 1},
+      {"ms_p99", "time per frame, p99", metrics.ms_per_frame.p99, "ms", 1},
       {"peak_rss_mb", "peak memory", metrics.peak_rss_mb, "MiB", 0},
       {"dynamic_share", "dynamic share of the points", 100.0 * metrics.dynamic_share, "%", 1},
       {"tracks", "tracked objects", static_cast<double>(metrics.tracks), "", 0}};

@@ -10,8 +10,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kNone = -1;
 
-/// Costs with as many columns as rows or more, and a finite price for what is ruled out: higher
-/// than any solution without it.
+/// Cost matrix with at least as many columns as rows. Infinite costs become a finite cost above
+/// that of any feasible assignment.
 Eigen::MatrixXd finite_costs(const Eigen::MatrixXd& cost) {
   double sum = 1.0;
   for (const double value : cost.reshaped()) sum += std::isfinite(value) ? value : 0.0;
@@ -22,7 +22,7 @@ Eigen::MatrixXd finite_costs(const Eigen::MatrixXd& cost) {
   return finite;
 }
 
-/// Gives the rows their columns one after the other, changing earlier ones along the cheapest path.
+/// Assigns row by row along shortest augmenting paths.
 class AugmentingPaths {
  public:
   explicit AugmentingPaths(const Eigen::MatrixXd& cost)
@@ -33,14 +33,14 @@ class AugmentingPaths {
     for (int row = 0; row < cost.rows(); ++row) add(row);
   }
 
-  /// The row of every column.
+  /// Row assigned to every column.
   const std::vector<int>& row_of() const { return row_of_; }
 
  private:
   void add(int row) {
     const auto columns = static_cast<std::size_t>(cost_.cols());
     std::vector<double> distance(columns, kInfinity);
-    std::vector<int> before(columns, kNone);  // column on the path before this one
+    std::vector<int> before(columns, kNone);  // previous column on the path
     std::vector<bool> done(columns, false);
     int last = kNone;
     int current = row;

@@ -5,10 +5,10 @@
 
 namespace mms {
 
-/// The column each row is given to so that as many rows as possible have one, no column is given
-/// twice, and the costs add up to the least (Kuhn 1955; by shortest augmenting paths, as in Jonker
-/// and Volgenant, Computing 1987). -1 for rows without one. Of equal solutions always the same.
-/// @param cost  rows x columns, at least 0; infinite for pairs that are ruled out
+/// Optimal assignment of rows to columns: as many pairs as possible, of least total cost (Kuhn
+/// 1955; shortest augmenting paths as in Jonker and Volgenant, Computing 1987). Deterministic.
+/// @returns the column of every row, -1 for unassigned rows
+/// @param cost rows x columns, at least 0; infinite for forbidden pairs
 std::vector<int> assign_least_cost(const Eigen::MatrixXd& cost);
 
 }  // namespace mms

@@ -10,7 +10,7 @@
 namespace mms {
 namespace {
 
-/// Distorted normalised coordinates and, where asked for, their 2x2 derivative.
+/// Distorted normalized coordinates and, if requested, their 2x2 derivative.
 Eigen::Vector2d distort(const std::array<double, 5>& k, const Eigen::Vector2d& p,
                         Eigen::Matrix2d* jacobian) {
   const auto [k1, k2, p1, p2, k3] = k;
@@ -28,7 +28,7 @@ Eigen::Vector2d distort(const std::array<double, 5>& k, const Eigen::Vector2d& p
           y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
 }
 
-/// Squared radius up to which r * radial(r^2) grows, so that distortion can be undone.
+/// Squared radius up to which r * radial(r^2) is monotonic and therefore invertible.
 double monotonic_radius2(const std::array<double, 5>& k, double limit2) {
   const auto grows = [&](double r2) {
     return 1.0 + r2 * (3.0 * k[0] + r2 * (5.0 * k[1] + r2 * 7.0 * k[4])) > 0.05;
@@ -43,7 +43,7 @@ double monotonic_radius2(const std::array<double, 5>& k, double limit2) {
 
 void check(const CameraIntrinsics& c) {
   const auto fail = [](const std::string& key, double value, const std::string& range) {
-    throw DataError("calibration", key + " is " + std::to_string(value) + ", allowed is " + range,
+    throw DataError("calibration", key + " is " + std::to_string(value) + ", allowed: " + range,
                     "give fx fy cx cy width height in pixels");
   };
   if (!(c.fx > 0.0) || !std::isfinite(c.fx)) fail("fx", c.fx, "> 0");

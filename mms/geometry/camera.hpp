@@ -7,29 +7,29 @@
 
 namespace mms {
 
-/// Pinhole projection with Brown-Conrady distortion (k1 k2 p1 p2 k3), OpenCV's formulas.
-/// Points in the camera frame [m], pixels with integer centres.
+/// Pinhole projection with Brown-Conrady distortion (k1 k2 p1 p2 k3), formulas of OpenCV. Points in
+/// the camera frame [m], pixels with integer centers.
 class CameraModel {
  public:
-  /// @throws DataError when a focal length, the principal point or the size makes no camera.
+  /// @throws DataError if a focal length, the principal point or the size is invalid.
   explicit CameraModel(const CameraIntrinsics& intrinsics);
 
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
 
-  /// Pixel of a point; meaningful only where point.z() > 0 and `in_lens_range` holds.
+  /// Pixel of a point; valid only if point.z() > 0 and `in_lens_range`.
   Eigen::Vector2d project(const Eigen::Vector3d& point) const;
 
-  /// `project` and its 2x3 derivative by the point.
+  /// `project` with its 2x3 derivative with respect to the point.
   Eigen::Vector2d project(const Eigen::Vector3d& point,
                           Eigen::Matrix<double, 2, 3>& jacobian) const;
 
-  /// Point on the pixel's ray with z = 1 (distortion undone by Newton's method).
+  /// Point on the pixel's ray at z = 1; undistorted by Newton's method.
   Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
 
-  /// False for points so far off the optical axis that the distortion polynomial folds back.
+  /// Whether the point is within the angle at which the distortion polynomial is monotonic.
   bool in_lens_range(const Eigen::Vector3d& point) const;
 
-  /// Rays with z = 1 of all pixels, row-major.
+  /// Rays at z = 1 of all pixels, row-major.
   std::vector<Eigen::Vector3f> ray_table() const;
 
  private:
@@ -38,8 +38,8 @@ class CameraModel {
   double max_radius2_ = 0.0;
 };
 
-/// Camera of the image made of every `stride`-th pixel averaged in stride x stride blocks (the
-/// block's centre is the new pixel's centre); sizes are rounded down.
+/// Camera of an image downsampled by `stride` (blocks of stride x stride pixels; the block's center
+/// is the new pixel's center); sizes are rounded down.
 CameraIntrinsics downscaled(const CameraIntrinsics& camera, int stride);
 
 }  // namespace mms

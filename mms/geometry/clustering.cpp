@@ -15,7 +15,7 @@ struct Offset {
   int y;
 };
 
-/// The half of the grid neighbourhood that comes before a point in row-major order.
+/// Half of the grid neighborhood: the cells before a point in row-major order.
 constexpr std::array<Offset, 6> kBefore = {{{-1, 0}, {-2, 0}, {0, -1}, {0, -2}, {-1, -1}, {1, -1}}};
 
 std::vector<std::uint8_t> usable(std::span<const Eigen::Vector3f> points,
@@ -25,7 +25,7 @@ std::vector<std::uint8_t> usable(std::span<const Eigen::Vector3f> points,
   return use;
 }
 
-/// Numbers the sets of usable points that have an allowed size.
+/// Numbers the sets of kept points of an allowed size.
 Clusters number_sets(UnionFind& sets, const std::vector<std::uint8_t>& use,
                      const ClusterSize& size) {
   std::vector<int> members(use.size(), 0);

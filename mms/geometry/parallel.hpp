@@ -8,8 +8,8 @@
 
 namespace mms {
 
-/// Runs `body(begin, end)` over [0, count) in chunks of `chunk`, in any order and on the threads of
-/// the surrounding tbb::task_arena. The chunks do not depend on the number of threads.
+/// Runs `body(begin, end)` over [0, count) in chunks of `chunk`, in any order, on the threads of
+/// the current tbb::task_arena. The chunks do not depend on the number of threads.
 template <class Body>
 void parallel_chunks(std::size_t count, std::size_t chunk, const Body& body) {
   const std::size_t chunks = (count + chunk - 1) / chunk;
@@ -17,8 +17,8 @@ void parallel_chunks(std::size_t count, std::size_t chunk, const Body& body) {
                     [&](std::size_t i) { body(i * chunk, std::min(count, (i + 1) * chunk)); });
 }
 
-/// Sum of `body(begin, end)` over the chunks of [0, count), added in the order of the chunks: the
-/// same bits for any number of threads.
+/// Sum of `body(begin, end)` over the chunks of [0, count), added in chunk order: bitwise equal for
+/// any number of threads.
 template <class Sum, class Body>
 Sum parallel_sum(std::size_t count, std::size_t chunk, const Sum& zero, const Body& body) {
   std::vector<Sum> parts((count + chunk - 1) / chunk, zero);

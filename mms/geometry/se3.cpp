@@ -5,7 +5,7 @@
 namespace mms::se3 {
 namespace {
 
-/// Below this angle the closed forms lose digits to cancellation and the series are exact.
+/// Below this angle [rad] the closed forms suffer from cancellation; the series is used.
 constexpr double kSmallAngle = 1e-3;
 
 /// sin(a)/a, (1-cos(a))/a^2 and (a-sin(a))/a^3.

@@ -8,8 +8,8 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// SE(3) as a Lie group. Tangent vectors are (translation [m], rotation [rad]); `exp` and `log` are
-/// inverse of each other for rotations below pi. Formulas: Barfoot, State Estimation for Robotics,
-/// chapter 7 (left Jacobian V, adjoint), with series where the angle is small.
+/// inverse for rotations below pi. Formulas: Barfoot, State Estimation for Robotics, chapter 7
+/// (left Jacobian V, adjoint), with series for small angles.
 namespace se3 {
 
 /// Skew-symmetric matrix of the cross product: hat(a) * b = a x b.
@@ -21,10 +21,10 @@ Vector6d log(const Eigen::Isometry3d& transform);
 /// Ad_T with T exp(x) = exp(Ad_T x) T.
 Matrix6d adjoint(const Eigen::Isometry3d& transform);
 
-/// The transform a fraction `t` of the way from identity to `transform` along the geodesic.
+/// Interpolation from identity (t = 0) to `transform` (t = 1) along the geodesic.
 Eigen::Isometry3d interpolate(const Eigen::Isometry3d& transform, double t);
 
-/// `transform` with its rotation re-orthonormalised, against drift over many compositions.
+/// `transform` with re-orthonormalized rotation, against numerical drift.
 Eigen::Isometry3d normalized(const Eigen::Isometry3d& transform);
 
 /// Rotation angle [rad], in [0, pi].

@@ -5,8 +5,8 @@
 
 namespace mms {
 
-/// Axis-aligned box of `points` [m] without the share `trim` (below 0.5) of them at either end of
-/// each axis, so that stray points do not blow it up. Empty box for no points.
+/// Axis-aligned box of `points` [m] without the share `trim` (below 0.5) at either end of each
+/// axis, which removes outliers. Empty box for no points.
 Eigen::AlignedBox3f trimmed_box(const std::vector<Eigen::Vector3f>& points, double trim);
 
 }  // namespace mms

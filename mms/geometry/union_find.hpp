@@ -9,7 +9,7 @@
 namespace mms {
 
 /// Disjoint sets of 0 ... count - 1 (below 2^32). The representative of a set is its smallest
-/// element, so the outcome does not depend on the order of the unions.
+/// element, so the result does not depend on the order of unions.
 class UnionFind {
  public:
   explicit UnionFind(std::size_t count) : parent_(count) {

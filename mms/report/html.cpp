@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-/// Bytes of the UTF-8 character that `text` starts with; 0 where it starts with none.
+/// Length of the UTF-8 character at the start of `text` [bytes]; 0 if invalid.
 std::size_t utf8_length(std::string_view text) {
   const auto first = static_cast<unsigned char>(text.front());
   const std::size_t length = first < 0x80                     ? 1

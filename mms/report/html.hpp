@@ -7,8 +7,8 @@
 
 namespace mms {
 
-/// Text made safe inside HTML and SVG elements and quoted attributes; control characters other than
-/// tab and newline, and bytes that are not UTF-8, become the replacement character.
+/// Escapes text for HTML and SVG elements and quoted attributes; control characters other than tab
+/// and newline, and invalid UTF-8, become the replacement character.
 std::string escape_html(std::string_view text);
 
 /// Standard base64 with padding (RFC 4648, section 4).

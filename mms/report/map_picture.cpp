@@ -13,7 +13,7 @@ namespace {
 
 constexpr Rgb kBackground{248, 248, 245};
 
-/// A point as the view sees it: right, up and towards the viewer [m].
+/// A point in view coordinates: right, up and towards the viewer [m].
 struct SeenPoint {
   float right;
   float up;
@@ -21,7 +21,7 @@ struct SeenPoint {
   Rgb color;
 };
 
-/// Interval of the center 99 % of some coordinates.
+/// Interval of the central 99 % of the coordinates.
 struct Extent {
   float min = 0.0F;
   float max = 0.0F;
@@ -82,7 +82,7 @@ std::vector<SeenPoint> look(std::span<const Eigen::Vector3f> points, std::span<c
   return seen;
 }
 
-/// Draws squares into a picture with a z-buffer.
+/// Draws squares into an image with a z-buffer.
 class Painter {
  public:
   Painter(const std::vector<SeenPoint>& seen, const MapPictureOptions& options)
@@ -144,11 +144,11 @@ void check(std::span<const Eigen::Vector3f> points, std::span<const Rgb> colors,
   const int smaller = std::min(options.width, options.height);
   if (smaller < 1 || std::max(options.width, options.height) > kMaxImageSide) {
     throw DataError("map picture", std::to_string(options.width) + " x " +
-                                       std::to_string(options.height) +
-                                       " pixels, allowed is 1 to " + std::to_string(kMaxImageSide));
+                                       std::to_string(options.height) + " pixels, allowed: 1 to " +
+                                       std::to_string(kMaxImageSide));
   }
   if (!colors.empty() && colors.size() != points.size()) {
-    throw DataError("map picture", std::to_string(points.size()) + " points, but " +
+    throw DataError("map picture", std::to_string(points.size()) + " points and " +
                                        std::to_string(colors.size()) + " colors");
   }
 }

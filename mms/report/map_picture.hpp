@@ -14,17 +14,17 @@ struct MapPictureOptions {
   int height = 720;  ///< [px], 1 to kMaxImageSide
   Viewpoint viewpoint = Viewpoint::kTop;
   UpAxis up = UpAxis::kNegativeY;
-  double point_size = 0.02;  ///< edge of the square drawn for a point [m]; at least one pixel
-  /// Points higher over the world's origin than this [m] are left out: a ceiling hides the room.
+  double point_size = 0.02;  ///< side of a point's square [m]; at least one pixel
+  /// Omits points higher than this above the world's origin [m], such as a ceiling.
   double max_height = std::numeric_limits<double>::infinity();
 };
 
-/// Orthographic picture of a cloud, nearest point in front, one metre equally long in x and y, on a
-/// light background. The view fits the center 99 % of the points in each direction, so that a few
-/// strays do not shrink it. The front view leaves out what lies behind the first pose.
+/// Orthographic image of a cloud with hidden points removed, equal scale in x and y, on a light
+/// background. It shows the central 99 % of the points in each direction, so that outliers do not
+/// determine the scale. The front view omits points behind the first pose.
 /// @param points  in the world frame [m]; NaN and infinite ones are ignored
-/// @param colors  of the points; empty: coloured by height
-/// @throws DataError when the sizes of points and colors differ, or a picture size is out of range
+/// @param colors  of the points; empty: colored by height
+/// @throws DataError if the numbers of points and colors differ, or an image size is out of range
 Image<Rgb> draw_map(std::span<const Eigen::Vector3f> points, std::span<const Rgb> colors,
                     const MapPictureOptions& options = {});
 

@@ -24,7 +24,7 @@ std::vector<std::size_t> widths(const PlainTable& table) {
   return widths;
 }
 
-/// The first column to the left, numbers to the right.
+/// The first column left-aligned, the others right-aligned.
 std::string row_text(const std::vector<std::string>& cells,
                      const std::vector<std::size_t>& widths) {
   std::string line;

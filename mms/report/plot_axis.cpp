@@ -8,8 +8,8 @@
 namespace mms {
 
 bool plottable(double value) {
-  constexpr double kLargest = 1e9;
-  return std::abs(value) <= kLargest;
+  constexpr double kMaxValue = 1e9;
+  return std::abs(value) <= kMaxValue;
 }
 
 std::optional<AxisRange> range_of(std::span<const std::vector<double>> series, double margin) {
@@ -23,7 +23,7 @@ std::optional<AxisRange> range_of(std::span<const std::vector<double>> series, d
     }
   }
   if (!range) return range;
-  // A constant gets 5 % of itself, of at least 1, to either side.
+  // Range around a constant: 5 % of the value, at least of 1, to either side.
   constexpr double kAroundConstant = 0.05;
   const double magnitude = std::max(std::abs(range->min), std::abs(range->max));
   const bool constant = range->length() <= 1e-9 * magnitude;

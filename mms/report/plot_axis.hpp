@@ -7,7 +7,7 @@
 
 namespace mms {
 
-/// Numbers a plot can show; the others (NaN, infinities, numbers no axis could label) are gaps.
+/// Whether a value can be plotted; others (NaN, infinities, very large numbers) are gaps.
 bool plottable(double value);
 
 /// Interval of values along one axis, min < max.
@@ -18,15 +18,14 @@ struct AxisRange {
   double length() const { return max - min; }
 };
 
-/// Smallest interval with all plottable values of `series`, widened at both ends by `margin` of its
-/// length; a single value gets room around it. Nothing where there is no value.
+/// Smallest interval with all plottable values of `series`, extended at both ends by `margin` of
+/// its length; for a single value an interval around it. nullopt without values.
 std::optional<AxisRange> range_of(std::span<const std::vector<double>> series, double margin);
 
-/// Multiples inside `range` of the step nearest to `spacing` > 0 that is 1, 2 or 5 times a power of
-/// ten.
+/// Multiples inside `range` of a step of 1, 2 or 5 times a power of ten nearest to `spacing` > 0.
 std::vector<double> ticks(const AxisRange& range, double spacing);
 
-/// `value` with as many places as neighbouring ticks of `ticks` need to differ.
+/// `value` with as many decimals as needed to distinguish adjacent ticks.
 std::string tick_label(double value, std::span<const double> ticks);
 
 }  // namespace mms

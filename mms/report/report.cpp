@@ -70,10 +70,10 @@ std::string report_html(const RunReport& report) {
   page += "</style></head><body>\n<h1>" + name + "</h1><p class=\"sub\">" +
           escape_html(subtitle(report)) + "</p>\n";
   page += section("Summary", summary_table(report.summary));
-  page += "<div class=\"pair\">" + section("Trajectory from above", trajectory_plot(report)) +
-          map_section("Static map from above", report.map_view) + "</div>\n";
+  page += "<div class=\"pair\">" + section("Trajectory, top view", trajectory_plot(report)) +
+          map_section("Static map, top view", report.map_view) + "</div>\n";
   if (!report.objects_view.empty()) {
-    page += map_section("Where objects went and were last seen", report.objects_view);
+    page += map_section("Object trajectories and last positions", report.objects_view);
   }
   page += section(error_plot_title(report), error_plot(report));
   page += section("Time per stage", stage_plot(report));

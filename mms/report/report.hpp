@@ -15,11 +15,11 @@
 
 namespace mms {
 
-/// One frame of a run, as the report's plots show it.
+/// One frame of a run for the report's plots.
 struct ReportFrame {
   Timestamp stamp;
   Transform<World, Sensor> T_world_sensor;
-  /// In the truth's own world frame [m]; the report aligns it to the estimate.
+  /// In the world frame of the ground truth [m]; the report aligns it to the estimate.
   std::optional<Eigen::Vector3d> truth_position;
   Status status = Status::kInitialized;
   double dynamic_share = 0.0;    ///< of the valid points, in [0, 1]
@@ -31,23 +31,24 @@ struct ReportPicture {
   Image<Rgb> image;
 };
 
-/// Everything a run's report shows. Any part may be empty; NaN leaves gaps in the plots.
+/// Data for a run's report. Any part may be empty; NaN makes gaps in the plots.
 struct RunReport {
   std::string name;
   UpAxis up = UpAxis::kNegativeY;
-  std::vector<std::string> stages;  ///< names, in the order of the pipeline
-  std::vector<ReportFrame> frames;  ///< in the order of time
+  std::vector<std::string> stages;  ///< names in pipeline order
+  std::vector<ReportFrame> frames;  ///< in order of time
   std::vector<MetricValue> summary;
-  Image<Rgb> map_view;      ///< static map from above (draw_map)
-  Image<Rgb> objects_view;  ///< the same with the tracked objects in it
+  Image<Rgb> map_view;      ///< top view of the static map (draw_map)
+  Image<Rgb> objects_view;  ///< the same with tracked objects
   std::vector<ReportPicture> pictures;
 };
 
-/// The report as one HTML page that needs nothing else: style, plots (SVG) and pictures inline, no
-/// scripts; light or dark as the reader's system is. Recordings of any length: plots are thinned.
+/// The report as one self-contained HTML page: inline style, plots (SVG) and images, no scripts;
+/// light or dark as the reader's system. Plots of long recordings are downsampled.
 std::string report_html(const RunReport& report);
 
-/// Writes `report_html` to a file, whole or not at all. @throws FileError
+/// Writes `report_html` to a file atomically.
+/// @throws FileError
 void write_report_html(const std::filesystem::path& path, const RunReport& report);
 
 }  // namespace mms

@@ -16,7 +16,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kEstimateColor = 0;
 constexpr int kTruthColor = 1;
 constexpr int kStartColor = 2;
-/// Most runs of frames that the stages' times are reduced to.
+/// Largest number of values per stage.
 constexpr std::size_t kMaxRuns = 400;
 
 using Values = std::vector<double>;
@@ -30,8 +30,8 @@ bool has_truth(const ReportFrame& frame) {
   return frame.truth_position && frame.truth_position->allFinite() && position(frame).allFinite();
 }
 
-/// Truth in the frame of the estimate, NaN for frames without; empty where fewer than three frames
-/// have one, too few to align.
+/// Ground truth in the frame of the estimate, NaN for frames without; empty for fewer than three
+/// frames with ground truth, too few to align.
 Positions aligned_truth(const RunReport& report) {
   Positions truth;
   Positions estimate;
@@ -76,7 +76,7 @@ void add_path(SvgPlot& plot, const std::string& name, int color, const Positions
   plot.add_line(name, color, x, y);
 }
 
-/// First position that is finite; NaN where none is.
+/// First finite position, else NaN.
 Eigen::Vector3d first_position(const RunReport& report) {
   for (const ReportFrame& frame : report.frames) {
     if (position(frame).allFinite()) return position(frame);
@@ -84,7 +84,7 @@ Eigen::Vector3d first_position(const RunReport& report) {
   return Eigen::Vector3d::Constant(kNaN);
 }
 
-/// Distance to the aligned truth, or from the first pose where `truth` is empty [m].
+/// Distance to the aligned ground truth, or from the first pose if `truth` is empty [m].
 Values distances(const RunReport& report, const Positions& truth) {
   const Eigen::Vector3d first = first_position(report);
   Values values;
@@ -99,15 +99,15 @@ double stage_time(const ReportFrame& frame, std::size_t stage) {
   return std::isfinite(time) ? time : 0.0;
 }
 
-/// Times of all stages before `end` of a frame, added [ms].
+/// Sum of a frame's stage times before stage `end` [ms].
 double time_before(const ReportFrame& frame, std::size_t end) {
   double sum = 0.0;
   for (std::size_t stage = 0; stage < end; ++stage) sum += stage_time(frame, stage);
   return sum;
 }
 
-/// `reduce` of runs of neighbouring values, all runs together at most kMaxRuns: areas thinned to
-/// extremes, as lines are, would be jagged.
+/// Applies `reduce` to at most kMaxRuns runs of consecutive values; extremes, as used for lines,
+/// would make areas jagged.
 Values reduced(const Values& values, double (*reduce)(std::span<const double>)) {
   const std::size_t run = (values.size() + kMaxRuns - 1) / kMaxRuns;
   Values result;
@@ -128,7 +128,7 @@ Values accumulated(const RunReport& report, std::size_t end) {
 
 std::string trajectory_plot(const RunReport& report) {
   const bool camera = report.up == UpAxis::kNegativeY;
-  SvgPlot plot({.title = "trajectory from above",
+  SvgPlot plot({.title = "trajectory, top view",
                 .x_label = "x [m]",
                 .y_label = camera ? "z [m]" : "y [m]",
                 .width = 520,
@@ -136,7 +136,7 @@ std::string trajectory_plot(const RunReport& report) {
                 .equal_aspect = true});
   const ViewAxes axes = view_axes(Viewpoint::kTop, report.up);
   const Positions truth = aligned_truth(report);
-  if (!truth.empty()) add_path(plot, "truth, aligned", kTruthColor, truth, axes);
+  if (!truth.empty()) add_path(plot, "ground truth, aligned", kTruthColor, truth, axes);
   add_path(plot, "estimate", kEstimateColor, estimated(report), axes);
   const Eigen::Vector3d start = first_position(report);
   plot.add_marker("start", kStartColor, axes.right.dot(start), axes.up.dot(start));
@@ -145,7 +145,7 @@ std::string trajectory_plot(const RunReport& report) {
 
 std::string error_plot_title(const RunReport& report) {
   return aligned_truth(report).empty() ? "Distance from the first pose"
-                                       : "Position error against the aligned truth";
+                                       : "Position error against the aligned ground truth";
 }
 
 std::string error_plot(const RunReport& report) {

@@ -8,13 +8,14 @@ namespace mms {
 
 /// The plots of a report, each one figure of inline HTML and SVG.
 
-/// Path from above: estimate, and truth aligned to it where there is any.
+/// Top view of the trajectory, with aligned ground truth if available.
 std::string trajectory_plot(const RunReport& report);
 
-/// Distance to the aligned truth over time; without truth, distance from the first pose.
+/// Distance to the aligned ground truth over time; without ground truth, distance from the first
+/// pose.
 std::string error_plot(const RunReport& report);
 
-/// Title that fits `error_plot`.
+/// Title of `error_plot`.
 std::string error_plot_title(const RunReport& report);
 
 /// Milliseconds per stage, stacked, and of the whole frame.

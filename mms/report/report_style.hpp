@@ -4,7 +4,7 @@
 
 namespace mms {
 
-/// Style sheet of the report. Eight colours that differ for colour-blind readers too (after Okabe
+/// Style sheet of the report. Eight colors that color-blind readers can distinguish (after Okabe
 /// and Ito), lighter in the dark theme.
 inline constexpr std::string_view kReportStyle = R"(
 :root{--page:#f6f7f8;--card:#fff;--ink:#1d2329;--dim:#5c6770;--rule:#dfe3e7;

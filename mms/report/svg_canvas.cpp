@@ -8,7 +8,7 @@
 namespace mms {
 namespace {
 
-/// Distance between neighbouring ticks to aim for [px].
+/// Desired distance between adjacent ticks [px].
 constexpr double kTickSpacingX = 80.0;
 constexpr double kTickSpacingY = 36.0;
 

@@ -13,7 +13,7 @@ class SvgCanvas {
  public:
   SvgCanvas(int width, int height, const AxisRange& x, const AxisRange& y);
 
-  /// Widens the range of one axis until a unit, and so a grid cell, is equally long on both.
+  /// Extends the range of one axis until both axes have equal scale.
   void make_equal_aspect();
 
   /// Margins of the drawing area [px].
@@ -28,7 +28,7 @@ class SvgCanvas {
   /// "x,y" [px]
   std::string at(double x, double y) const;
 
-  /// Frame, grid, tick labels and the axes' names (plain text, escaped here).
+  /// Frame, grid, tick labels and axis labels (plain text, escaped here).
   std::string axes(std::string_view x_label, std::string_view y_label) const;
 
   static std::string text(double x, double y, std::string_view anchor, std::string_view content);
@@ -47,7 +47,7 @@ class SvgCanvas {
   bool equal_aspect_ = false;
 };
 
-/// Number of a pixel coordinate with one decimal.
+/// Formats a pixel coordinate with one decimal.
 std::string px(double value);
 
 }  // namespace mms

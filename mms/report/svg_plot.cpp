@@ -8,9 +8,9 @@ namespace mms {
 namespace {
 
 constexpr int kColors = 8;
-/// Room between the data and the frame, of the data's extent.
+/// Margin between data and frame, as a share of the data's extent.
 constexpr double kMargin = 0.04;
-/// A line with more points than this is thinned; twice what a screen can show.
+/// A line with more points is downsampled; twice what a screen can show.
 constexpr std::size_t kMaxPoints = 2000;
 
 using Values = std::vector<double>;
@@ -19,14 +19,14 @@ std::string color_class(int color) {
   return std::string(1, 'c').append(std::to_string(color % kColors));
 }
 
-/// Places of the samples to draw: all, or of every run its first, lowest and highest one.
+/// Indices of the samples to draw: all, or the first, lowest and highest one of every run.
 std::vector<std::size_t> thinned(const Values& y) {
   std::vector<std::size_t> places;
   const std::size_t run = y.size() <= kMaxPoints ? 1 : 3 * y.size() / kMaxPoints + 1;
   for (std::size_t begin = 0; begin < y.size(); begin += run) {
     const auto first = y.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = y.begin() + static_cast<std::ptrdiff_t>(std::min(begin + run, y.size()));
-    // NaN would break the order that minmax needs.
+    // NaN would violate the order that minmax requires.
     const auto less = [](double a, double b) { return plottable(a) && (!plottable(b) || a < b); };
     const auto more = [](double a, double b) { return plottable(a) && (!plottable(b) || a > b); };
     places.push_back(begin);
@@ -43,7 +43,7 @@ void add_vertex(std::string& path, char command, const SvgCanvas& canvas, double
   path += canvas.at(x, y);
 }
 
-/// Path data of the line; pieces of one point become a dot through the round line cap.
+/// Path of the line; single points become dots through the round line cap.
 std::string line_path(const SvgCanvas& canvas, const Values& x, const Values& y) {
   std::string path;
   bool open = false;
@@ -56,7 +56,7 @@ std::string line_path(const SvgCanvas& canvas, const Values& x, const Values& y)
   return path;
 }
 
-/// Path data of the area: along the upper edge and back along the lower one.
+/// Path of the area: along the upper boundary and back along the lower one.
 std::string band_path(const SvgCanvas& canvas, const Values& x, const Values& low,
                       const Values& high) {
   std::vector<std::size_t> places;

@@ -9,36 +9,36 @@
 
 namespace mms {
 
-/// One inline SVG plot: axes with ticks, a grid, a legend. Colours are the classes c0..c7 of the
+/// One inline SVG plot: axes with ticks, a grid, a legend. Colors are the classes c0..c7 of the
 /// page's style sheet (report_style.hpp), so the plot follows its light or dark theme.
 class SvgPlot {
  public:
   struct Layout {
     std::string title{};    ///< for screen readers
-    std::string x_label{};  ///< with the unit
+    std::string x_label{};  ///< with unit
     std::string y_label{};
     int width = 900;            ///< [px]
     int height = 300;           ///< [px]
-    bool equal_aspect = false;  ///< one unit is as long in x as in y
+    bool equal_aspect = false;  ///< equal scale in x and y
     bool y_from_zero = false;
   };
 
   explicit SvgPlot(Layout layout) : layout_(std::move(layout)) {}
 
-  /// A line through the points; gaps where a coordinate is NaN, infinite or beyond 1e9. Long series
-  /// are thinned to the extremes of runs of samples, so peaks stay.
-  /// @param color  number of the colour, modulo 8
+  /// Adds a line through the points, with gaps at coordinates that are NaN, infinite or beyond 1e9.
+  /// Long series are downsampled to the extremes of runs of samples, which keeps peaks.
+  /// @param color  index of the color, modulo 8
   void add_line(const std::string& name, int color, const std::vector<double>& x,
                 const std::vector<double>& y);
 
-  /// The area between y = low and y = high.
+  /// Adds the area between y = low and y = high.
   void add_band(const std::string& name, int color, const std::vector<double>& x,
                 const std::vector<double>& low, const std::vector<double>& high);
 
-  /// A dot, for places such as the start.
+  /// Adds a dot, for positions such as the start.
   void add_marker(const std::string& name, int color, double x, double y);
 
-  /// The legend, where there are two or more series, and the `svg` element; a note "no data" where
+  /// The legend, if there are two or more series, and the `svg` element; a note "no data" if
   /// nothing can be drawn.
   std::string render() const;
 

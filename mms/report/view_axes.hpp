@@ -4,27 +4,27 @@
 
 namespace mms {
 
-/// Where up is in a world frame.
+/// Up direction of a world frame.
 enum class UpAxis {
   kNegativeY,  ///< world of a camera's optical frame: x right, y down, z forward
   kPositiveZ,  ///< world of a LiDAR: x forward, y left, z up
 };
 
 enum class Viewpoint {
-  kTop,    ///< from above: camera world x right, z up in the picture; LiDAR world x right, y up
+  kTop,    ///< top view: camera world x right, z up in the image; LiDAR world x right, y up
   kFront,  ///< along the forward axis of the first pose
 };
 
-/// World directions of an orthographic view, unit and right-handed.
+/// Directions of an orthographic view in the world frame, unit and right-handed.
 struct ViewAxes {
   Eigen::Vector3d right;
-  Eigen::Vector3d up;         ///< up in the picture
+  Eigen::Vector3d up;         ///< up in the image
   Eigen::Vector3d to_viewer;  ///< right x up
 };
 
 ViewAxes view_axes(Viewpoint viewpoint, UpAxis up);
 
-/// Height over the origin [m] of a world point [m].
+/// Height above the origin [m] of a world point [m].
 double height(const Eigen::Vector3d& point, UpAxis up);
 
 }  // namespace mms

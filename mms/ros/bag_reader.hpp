@@ -11,28 +11,29 @@
 
 namespace mms {
 
-/// A ROS 1 bag (version 2.0, compressed chunks as well), read by its index: only the chunk that is
-/// at hand is in memory. Not for several threads at once.
+/// A ROS 1 bag (version 2.0, including compressed chunks), read by its index: only the current
+/// chunk is in memory. Not thread-safe.
 class BagReader {
  public:
-  /// @throws FileError when the file cannot be read, or the program was built without rosbag.
-  /// @throws DataError when it is no bag, is truncated or has no index; says which topics it has.
+  /// @throws FileError if the file cannot be read, or the program was built without rosbag.
+  /// @throws DataError with the topics if it is not a bag, is truncated or has no index.
   explicit BagReader(const std::filesystem::path& path);
   ~BagReader();
   BagReader(const BagReader&) = delete;
   BagReader& operator=(const BagReader&) = delete;
 
-  /// By name.
+  /// Sorted by name.
   const std::vector<BagTopic>& topics() const;
 
-  /// Messages of a topic; 0 for one that is not there.
+  /// Number of messages of a topic; 0 if it is missing.
   std::size_t count(const std::string& topic) const;
 
-  /// When the message was recorded. @param index  below `count`, by that time
+  /// Time of recording of a message.
+  /// @param index  below `count`, in order of this time
   Timestamp received(const std::string& topic, std::size_t index) const;
 
-  /// The message. @throws DataError when the bag is damaged there, or the message is of another
-  ///         form than its type says.
+  /// The message.
+  /// @throws DataError if the bag is damaged there, or the message does not match its type.
   template <class Message>
   Message read(const std::string& topic, std::size_t index) const {
     return msg::decode<Message>(bytes(topic, index), where(topic, index));
@@ -44,13 +45,13 @@ class BagReader {
  private:
   class Impl;
 
-  /// The message's bytes, there until the next call.
+  /// The message's bytes, valid until the next call.
   std::string_view bytes(const std::string& topic, std::size_t index) const;
 
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether a file is called as bags are: "x.bag", and "x.bag.active" of one that was not closed.
+/// Whether a file name is that of a bag: "x.bag", or "x.bag.active" of one that was not closed.
 bool is_bag_name(const std::filesystem::path& path);
 
 }  // namespace mms

@@ -28,14 +28,14 @@ constexpr char kConnection = 0x07;
 
 using Fields = std::map<std::string, std::string_view, std::less<>>;
 
-/// "name=value" fields, each behind its length.
+/// "name=value" fields, each preceded by its length.
 Fields parse_fields(std::string_view bytes) {
   ByteReader reader(bytes, "record");
   Fields fields;
   while (reader.left() > 0) {
     const std::string_view field = reader.take(reader.take_count(1));
     const std::size_t equals = field.find('=');
-    if (equals == std::string_view::npos) throw DataError("record", "has a field without a name");
+    if (equals == std::string_view::npos) throw DataError("record", "has an unnamed field");
     fields.emplace(field.substr(0, equals), field.substr(equals + 1));
   }
   return fields;
@@ -53,7 +53,8 @@ std::uint32_t number_of(const Fields& fields, std::string_view name) {
 /// Collects the connections and counts their messages.
 class Inventory {
  public:
-  /// Takes one record. @throws DataError when it is damaged.
+  /// Adds one record.
+  /// @throws DataError if it is damaged.
   void add(const Fields& fields, std::string_view data) {
     const std::string_view op = field_of(fields, "op");
     if (op.size() != 1) throw DataError("record", "has no operation");
@@ -69,7 +70,7 @@ class Inventory {
   bool compressed() const { return compressed_; }
 
   std::vector<BagTopic> topics() const {
-    std::map<std::string, BagTopic> by_name;  // several nodes may have sent to one topic
+    std::map<std::string, BagTopic> by_name;  // several nodes may publish a topic
     for (const auto& [id, connection] : connections_) {
       BagTopic& topic = by_name.emplace(connection.name, connection).first->second;
       const auto count = counts_.find(id);
@@ -98,12 +99,12 @@ class Inventory {
   bool compressed_ = false;
 };
 
-/// The next bytes of a file behind their length; nothing where the file ends before.
+/// The next length-prefixed block of a file; nullopt if the file ends before.
 std::optional<std::string> take_block(std::ifstream& file, std::uint64_t left) {
   std::uint32_t size = 0;
   if (left < sizeof size || !file.read(reinterpret_cast<char*>(&size), sizeof size)) return {};
   std::string bytes;
-  if (size > left - sizeof size) {  // what there is of it
+  if (size > left - sizeof size) {  // the available part
     bytes.resize(left - sizeof size);
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     file.setstate(std::ios::failbit);

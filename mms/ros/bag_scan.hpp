@@ -7,16 +7,16 @@
 
 namespace mms {
 
-/// What is left of a bag that has no index, by reading it from its beginning.
+/// Content of a bag without index, found by sequential reading.
 struct BagScan {
-  bool is_bag = false;           ///< it begins as a bag of version 2.0 does
+  bool is_bag = false;           ///< has the header of a bag of version 2.0
   bool truncated = false;        ///< it ends within a record
-  bool compressed = false;       ///< some chunks are, whose topics are not known
-  std::vector<BagTopic> topics;  ///< by name, with the messages counted
+  bool compressed = false;       ///< has compressed chunks, whose topics are unknown
+  std::vector<BagTopic> topics;  ///< sorted by name, with message counts
 };
 
-/// Reads the records of a bag one by one, however damaged it is. @throws FileError when the file
-/// cannot be read.
+/// Reads the records of a bag sequentially up to the first damage.
+/// @throws FileError if the file cannot be read.
 BagScan scan_bag(const std::filesystem::path& path);
 
 }  // namespace mms

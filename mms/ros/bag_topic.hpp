@@ -13,7 +13,7 @@ struct BagTopic {
   std::size_t count = 0;  ///< of messages
 };
 
-/// "/a sensor_msgs/Image (12), /b ..." for messages; "no topics" where there are none.
+/// "/a sensor_msgs/Image (12), /b ..." for messages; "no topics" if there are none.
 std::string listed(const std::vector<BagTopic>& topics);
 
 }  // namespace mms

@@ -9,17 +9,18 @@
 
 namespace mms {
 
-/// Writes a ROS 1 bag, which appears whole or not at all.
+/// Writes a ROS 1 bag atomically.
 class BagWriter {
  public:
-  /// @throws FileError when the file cannot be made, or the program was built without rosbag.
+  /// @throws FileError if the file cannot be created, or the program was built without rosbag.
   explicit BagWriter(const std::filesystem::path& path);
   ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
-  /// Adds a message. @param recorded  when; the bag's players go by it
-  /// @throws FileError when it cannot be written; DataError for stamps that ROS cannot express.
+  /// Adds a message.
+  /// @param recorded  time of recording, used for playback
+  /// @throws FileError if it cannot be written; DataError for stamps outside the range of ROS.
   template <class Message>
   void write(const std::string& topic, Timestamp recorded, const Message& message) {
     std::string bytes(msg::encoded_size(message), '\0');
@@ -27,7 +28,8 @@ class BagWriter {
     write_bytes(topic, recorded, msg::message_type(msg::kName<Message>), std::move(bytes));
   }
 
-  /// Writes the index and gives the file its name. @throws FileError
+  /// Writes the index and renames the file.
+  /// @throws FileError
   void finish();
 
  private:

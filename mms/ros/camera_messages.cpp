@@ -18,9 +18,9 @@ std::array<double, 5> lens_of(const msg::CameraInfo& message, const std::string&
                                         D.end(), [](double d) { return d == 0.0; });
   if (!known || !short_enough) {
     throw DataError(where,
-                    "has the lens '" + model + "' of " + std::to_string(D.size()) +
+                    "has the distortion model '" + model + "' of " + std::to_string(D.size()) +
                         " coefficients, expected plumb_bob (k1 k2 p1 p2 k3)",
-                    "rectify the images first, or give a calibration of your own");
+                    "rectify the images, or provide a calibration");
   }
   std::copy_n(D.begin(), std::min(D.size(), lens.size()), lens.begin());
   return lens;
@@ -45,7 +45,7 @@ CameraIntrinsics intrinsics_of(const msg::CameraInfo& message, bool rectified,
   }
   if (message.binning_x > 1 || message.binning_y > 1) {
     throw DataError(where, "has binning " + std::to_string(message.binning_x) + "x" +
-                               std::to_string(message.binning_y) + ", which is not read");
+                               std::to_string(message.binning_y) + ", which is not supported");
   }
   if (!rectified) camera.distortion = lens_of(message, where);
   return camera;

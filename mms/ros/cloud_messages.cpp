@@ -15,13 +15,13 @@ namespace {
 constexpr std::uint8_t kFloat32 = 7;
 constexpr std::uint8_t kFloat64 = 8;
 
-/// Bytes of sensor_msgs/PointField's types; 0 for unknown ones.
+/// Bytes of the types of sensor_msgs/PointField; 0 for unknown ones.
 std::size_t size_of(std::uint8_t datatype) {
   constexpr std::size_t kSizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
   return datatype < std::size(kSizes) ? kSizes[datatype] : 0;
 }
 
-/// One field of all points of a cloud, whatever its numbers are.
+/// One field of all points of a cloud, of any number type.
 class Column {
  public:
   Column(const msg::PointCloud2& cloud, const msg::PointField& field, const std::string& where)
@@ -32,7 +32,7 @@ class Column {
     }
     if (field.offset + size_ <= cloud.point_step) return;
     throw DataError(where, "its field '" + field.name + "' ends at byte " +
-                               std::to_string(field.offset + size_) + " of points of " +
+                               std::to_string(field.offset + size_) + " of points with " +
                                std::to_string(cloud.point_step));
   }
 
@@ -64,7 +64,7 @@ class Column {
  private:
   template <class T>
   double number(const std::uint8_t* raw) const {
-    std::array<std::uint8_t, sizeof(T)> bytes;
+    std::array<std::uint8_t, sizeof(T)> bytes{};
     std::memcpy(bytes.data(), raw, sizeof(T));
     if (cloud_->is_bigendian) std::reverse(bytes.begin(), bytes.end());
     return static_cast<double>(std::bit_cast<T>(bytes));
@@ -99,15 +99,15 @@ Column coordinate(const msg::PointCloud2& cloud, const char* name, const std::st
 void check_size(const msg::PointCloud2& cloud, const std::string& where) {
   const std::size_t row = std::size_t{cloud.width} * cloud.point_step;
   const bool rows = cloud.height <= 1 || cloud.row_step >= row;
-  const std::size_t wanted =
+  const std::size_t required =
       cloud.height == 0 ? 0 : (cloud.height - std::size_t{1}) * cloud.row_step + row;
-  if (rows && cloud.data.size() >= wanted) return;
+  if (rows && cloud.data.size() >= required) return;
   throw DataError(where, "has " + std::to_string(cloud.data.size()) + " bytes for " +
                              std::to_string(cloud.width) + "x" + std::to_string(cloud.height) +
                              " points of " + std::to_string(cloud.point_step));
 }
 
-/// Calls `visit(row, column)` for every point, in their order.
+/// Calls `visit(row, column)` for every point in order.
 template <class Visit>
 void for_points(const msg::PointCloud2& cloud, const Visit& visit) {
   for (std::size_t row = 0; row < cloud.height; ++row) {
@@ -115,15 +115,15 @@ void for_points(const msg::PointCloud2& cloud, const Visit& visit) {
   }
 }
 
-/// Seconds that a unit of the times is, by how long a scan would have taken.
+/// Unit of point times [s], derived from the scan's duration.
 double unit_of(bool integer, double span) {
-  constexpr double kShortest = 2e-3;  // of scans [s]
-  constexpr double kLongest = 10.0;
-  if (!integer && span < kLongest) return 1.0;
-  return span * 1e-9 < kShortest ? 1e-6 : 1e-9;
+  constexpr double kMinScanTime = 2e-3;  // duration of a scan [s]
+  constexpr double kMaxScanTime = 10.0;
+  if (!integer && span < kMaxScanTime) return 1.0;
+  return span * 1e-9 < kMinScanTime ? 1e-6 : 1e-9;
 }
 
-/// Times since the frame's stamp [s].
+/// Times relative to the frame's stamp [s].
 std::vector<float> offsets(const std::vector<double>& times, bool integer, Timestamp stamp) {
   double first = INFINITY;
   double last = -INFINITY;
@@ -134,7 +134,7 @@ std::vector<float> offsets(const std::vector<double>& times, bool integer, Times
   }
   if (!(first <= last)) return {};
   const double unit = unit_of(integer, last - first);
-  constexpr double kAbsolute = 1e6;  // [s]: no scan takes eleven days
+  constexpr double kAbsolute = 1e6;  // [s]: larger times are absolute, as no scan takes eleven days
   const bool absolute = first * unit > kAbsolute;
   std::vector<float> result(times.size());
   for (std::size_t i = 0; i < times.size(); ++i) {

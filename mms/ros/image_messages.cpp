@@ -13,7 +13,7 @@
 namespace mms {
 namespace {
 
-/// Where a pixel of a colour encoding has its samples.
+/// Positions of the samples in a pixel of a color encoding.
 struct ColorLayout {
   const char* encoding;
   std::size_t size;  ///< of a pixel [bytes]
@@ -32,23 +32,23 @@ const ColorLayout* color_layout(const std::string& encoding) {
   return found == std::end(kColorLayouts) ? nullptr : found;
 }
 
-/// @throws DataError when the rows are not all there.
+/// @throws DataError if rows are incomplete.
 void check_layout(const msg::Image& message, std::size_t pixel_size, const std::string& where) {
   const std::string size =
       std::to_string(message.width) + "x" + std::to_string(message.height) + " pixels";
   if (message.width == 0 || message.height == 0 || message.width > kMaxImageSide ||
       message.height > kMaxImageSide) {
-    throw DataError(where, "is " + size + ", allowed is 1x1 to 16384x16384");
+    throw DataError(where, "is " + size + ", allowed: 1x1 to 16384x16384");
   }
   const std::size_t row = message.width * pixel_size;
-  const std::size_t wanted = message.height * std::size_t{message.step};
-  if (message.step >= row && message.data.size() >= wanted) return;
+  const std::size_t expected = message.height * std::size_t{message.step};
+  if (message.step >= row && message.data.size() >= expected) return;
   throw DataError(where, "has " + std::to_string(message.data.size()) + " bytes in rows of " +
                              std::to_string(message.step) + ", but " + size + " of " +
-                             message.encoding + " take " + std::to_string(row * message.height));
+                             message.encoding + " need " + std::to_string(row * message.height));
 }
 
-/// Reads the numbers of an image of one channel, of either byte order.
+/// Reads the numbers of an image with one channel, in either byte order.
 template <class T>
 Image<T> plain_image(const msg::Image& message, const std::string& where) {
   check_layout(message, sizeof(T), where);
@@ -65,9 +65,9 @@ Image<T> plain_image(const msg::Image& message, const std::string& where) {
   return image;
 }
 
-[[noreturn]] void fail_encoding(const std::string& encoding, const std::string& wanted,
+[[noreturn]] void fail_encoding(const std::string& encoding, const std::string& expected,
                                 const std::string& where) {
-  throw DataError(where, "has the encoding '" + encoding + "', expected " + wanted);
+  throw DataError(where, "has the encoding '" + encoding + "', expected " + expected);
 }
 
 Image<float> millimetres(const Image<std::uint16_t>& raw) {
@@ -82,14 +82,14 @@ bool starts_as_png(std::span<const std::uint8_t> bytes) {
   return bytes.size() > 4 && std::equal(std::begin(kStart), std::end(kStart), bytes.begin());
 }
 
-/// What compressed_depth_image_transport puts before its PNG: how 32-bit depth was quantised.
+/// Header of compressed_depth_image_transport before its PNG: quantization of 32-bit depth.
 struct DepthHeader {
   std::int32_t format;
   float a;
   float b;
 };
 
-/// Metres of inverse depths in 16 bits: raw = a / depth + b.
+/// Depth in meters of 16-bit inverse depths: raw = a / depth + b.
 Image<float> dequantised(const Image<std::uint16_t>& raw, const DepthHeader& header) {
   Image<float> depth(raw.width(), raw.height());
   for (std::size_t i = 0; i < raw.size(); ++i) {
@@ -99,7 +99,7 @@ Image<float> dequantised(const Image<std::uint16_t>& raw, const DepthHeader& hea
   return depth;
 }
 
-/// The message but for its data, of rows without gaps.
+/// The message without data, with rows without padding.
 msg::Image message_for(const msg::Header& header, int width, int height, const char* encoding,
                        std::size_t pixel_size) {
   msg::Image message;
@@ -172,10 +172,10 @@ Image<float> depth_of(const msg::CompressedImage& message, const std::string& wh
   if (starts_as_png(message.data)) return millimetres(decode_depth16(message.data, where));
   const std::span bytes(message.data);
   if (bytes.size() < sizeof(DepthHeader) || !starts_as_png(bytes.subspan(sizeof(DepthHeader)))) {
-    throw DataError(where, "has the format '" + message.format + "' and holds no PNG",
-                    "of compressed depth only PNG is read, not RVL");
+    throw DataError(where, "has the format '" + message.format + "' and contains no PNG",
+                    "compressed depth is supported as PNG, not as RVL");
   }
-  DepthHeader header;
+  DepthHeader header{};
   std::memcpy(&header, bytes.data(), sizeof header);
   const Image<std::uint16_t> raw = decode_depth16(bytes.subspan(sizeof header), where);
   return message.format.starts_with("32FC1") ? dequantised(raw, header) : millimetres(raw);

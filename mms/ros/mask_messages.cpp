@@ -8,7 +8,7 @@
 namespace mms {
 namespace {
 
-/// The nearest pixels of a smaller or larger image.
+/// Nearest-neighbor resampling.
 Image<std::uint8_t> resized(const Image<std::uint8_t>& mask, int width, int height) {
   if (mask.width() == width && mask.height() == height) return mask;
   Image<std::uint8_t> result(width, height);
@@ -19,7 +19,7 @@ Image<std::uint8_t> resized(const Image<std::uint8_t>& mask, int width, int heig
   return result;
 }
 
-/// Cuts the object out of a mask of the whole image.
+/// Crops the object from a mask of the whole image.
 Instance instance_of(const Image<std::uint8_t>& mask) {
   int x_begin = mask.width();
   int x_end = 0;

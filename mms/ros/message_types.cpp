@@ -7,7 +7,7 @@
 namespace mms::msg {
 namespace {
 
-/// Fields of a type, and the types among them, in the order in which ROS lists them.
+/// Fields of a type and the types that they use, in the order of ROS.
 struct Entry {
   const char* md5;
   const char* fields;

@@ -6,7 +6,7 @@
 namespace mms {
 namespace {
 
-/// tf1 wrote frames with a slash in front.
+/// tf1 wrote frames with a leading slash.
 std::string plain(const std::string& frame) {
   return frame.starts_with("/") ? frame.substr(1) : frame;
 }

@@ -14,21 +14,21 @@
 
 namespace mms::msg {
 
-// ROS 1's wire format: fields one after the other, little-endian and unaligned, strings and lists
-// behind their 32-bit count. A message is a struct with
-//   template <class Self, class Archive> static void fields(Self& self, Archive& archive)
-// that hands its fields to an archive in their order; the archives are the three classes here.
+// ROS 1's wire format: consecutive fields, little-endian and unaligned; strings and lists are
+// preceded by a 32-bit count. A message is a struct with template <class Self, class Archive>
+// static void fields(Self& self, Archive& archive) that passes its fields to an archive in order;
+// the archives are the three classes here.
 
 template <class T>
 inline constexpr bool kIsNumber = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
-/// Reads messages from bytes that nobody vouches for.
+/// Reads messages from untrusted bytes.
 class WireReader {
  public:
   /// @param where  for messages
   WireReader(std::string_view bytes, const std::string& where) : bytes_(bytes, where) {}
 
-  /// @throws DataError when the bytes end too early.
+  /// @throws DataError if the bytes end too early.
   template <class... Fields>
   void operator()(Fields&... fields) {
     (read(fields), ...);
@@ -64,7 +64,7 @@ class WireReader {
       const std::string_view raw = bytes_.take(values.size() * sizeof(T));
       if (!raw.empty()) std::memcpy(values.data(), raw.data(), raw.size());
     } else {
-      // One by one: a count that lies must not take more memory than the bytes that are there.
+      // Element by element: a wrong count must not allocate more memory than there are bytes.
       values.clear();
       const std::size_t count = bytes_.take_count(1);
       while (values.size() < count) read(values.emplace_back());
@@ -75,13 +75,13 @@ class WireReader {
   ByteReader bytes_;
 };
 
-/// Writes messages where the sink `put(const void*, size)` takes them.
+/// Writes messages to the sink `put(const void*, size)`.
 template <class Sink>
 class WireWriter {
  public:
   explicit WireWriter(Sink& sink) : sink_(sink) {}
 
-  /// @throws DataError for a stamp that ROS cannot express.
+  /// @throws DataError for a stamp outside the range of ROS.
   template <class... Fields>
   void operator()(const Fields&... fields) {
     (write(fields), ...);
@@ -105,8 +105,8 @@ class WireWriter {
     constexpr std::int64_t kSecond = 1'000'000'000;
     const std::int64_t seconds = stamp.nanoseconds() / kSecond;
     if (stamp < Timestamp() || seconds > UINT32_MAX) {
-      throw DataError("stamp " + stamp.to_string(), "does not fit ROS time",
-                      "which goes from 0 to 4294967295 s");
+      throw DataError("stamp " + stamp.to_string(), " does not fit ROS time",
+                      "its range is 0 to 4294967295 s");
     }
     write(static_cast<std::uint32_t>(seconds));
     write(static_cast<std::uint32_t>(stamp.nanoseconds() % kSecond));
@@ -133,7 +133,8 @@ class WireWriter {
   Sink& sink_;
 };
 
-/// The message in `bytes`. @throws DataError at `where` when they end too early.
+/// Decodes the message in `bytes`.
+/// @throws DataError at `where` if they end too early.
 template <class Message>
 Message decode(std::string_view bytes, const std::string& where) {
   Message message;
@@ -142,7 +143,7 @@ Message decode(std::string_view bytes, const std::string& where) {
   return message;
 }
 
-/// Bytes that a message takes.
+/// Encoded size of a message [bytes].
 template <class Message>
 std::size_t encoded_size(const Message& message) {
   struct Counter {
@@ -154,7 +155,8 @@ std::size_t encoded_size(const Message& message) {
   return counter.size;
 }
 
-/// Writes a message to `encoded_size` bytes. @throws DataError for a stamp ROS cannot express.
+/// Writes a message to `encoded_size` bytes.
+/// @throws DataError for a stamp outside the range of ROS.
 template <class Message>
 void encode(const Message& message, std::uint8_t* bytes) {
   struct Memory {

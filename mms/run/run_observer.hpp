@@ -7,24 +7,24 @@
 
 namespace mms {
 
-/// Watches a run from outside: shows its progress, and may end it early.
+/// Observes a run: displays its progress and may end it early.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
 
-  /// @param frames  how many are to come at most
+  /// @param frames  largest number of frames
   virtual void on_start(std::size_t frames) = 0;
 
-  /// A frame is done; it is the last of `log`. In the thread that runs.
+  /// A frame was processed; it is the last of `log`. Called in the thread of the run.
   virtual void on_frame(const RunLog& log) = 0;
 
-  /// May come from another thread.
+  /// May be called from another thread.
   virtual void on_warning(const std::string& message) = 0;
 
-  /// All frames are done.
+  /// All frames were processed.
   virtual void on_end() = 0;
 
-  /// Whether the run is to end with the frames that are in it. Asked by the reading thread.
+  /// Whether the run should end after the frames already read. Called in the reading thread.
   virtual bool stop_requested() const = 0;
 };
 

@@ -17,7 +17,7 @@ namespace mms {
 namespace {
 
 constexpr double kMovingSpeed = 0.05;  // [m/s]
-constexpr float kExposure = 0.78F;     // what white surfaces under good light come to
+constexpr float kExposure = 0.78F;     // radiance of a white surface under good light
 
 SensorPreset sensor_of(const SceneConfig& config) {
   SensorPreset preset = sensor_preset(sensor_names()[static_cast<std::size_t>(config.sensor)]);
@@ -65,9 +65,9 @@ struct SimulatedScene::Impl {
   std::shared_ptr<const Calibration> calibration;
   Eigen::Isometry3d T_world_building;
 
-  explicit Impl(const SceneConfig& wanted)
-      : config(wanted),
-        sensor(sensor_of(wanted)),
+  explicit Impl(const SceneConfig& scene_config)
+      : config(scene_config),
+        sensor(sensor_of(scene_config)),
         seconds(std::max(config.duration, config.frames / sensor.hz) + 1.0),
         stage(make_stage()),
         trajectory(config, stage.building(), seconds),
@@ -89,7 +89,7 @@ struct SimulatedScene::Impl {
     return sensor.lidar ? T * sensor.T_camera_lidar : T;
   }
 
-  /// Sharp view at `at`, and the light of the whole exposure around it.
+  /// Sharp view at `at`, and the light integrated over the exposure.
   ExactView expose(double at, Image<Eigen::Vector3f>& radiance) {
     const int samples = config.blur_samples;
     ExactView view;

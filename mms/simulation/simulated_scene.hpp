@@ -13,18 +13,18 @@
 
 namespace mms {
 
-/// One frame as the sensor gives it, and the truth behind it.
+/// One frame of the sensor with its ground truth.
 struct SimulatedFrame {
   Frame frame;  ///< its mask has the exact labels: 0 static, else 1 + class id
   ExactView exact;
-  TruthCloud scan;  ///< where the scan's points really lie, in the world frame, and on what
+  TruthCloud scan;  ///< exact positions and labels of the scan's points, world frame
   std::vector<ObjectTruth> objects;  ///< all of the scene, in view or not
 };
 
-/// A warehouse with persons and AGVs, and a sensor on a robot that drives through it. Any frame can
-/// be rendered at any time; the same config gives the same bits for any number of threads. Not
-/// thread-safe: frames are rendered one after the other, each by all threads of the surrounding
-/// arena. The world frame is the sensor's at time 0.
+/// A warehouse with persons, AGVs and a sensor on a moving robot. Frames can be rendered in any
+/// order; the same config gives the same bits for any number of threads. Not thread-safe: frames
+/// are rendered one at a time, each by all threads of the current arena. The world frame is the
+/// sensor's at time 0.
 class SimulatedScene {
  public:
   explicit SimulatedScene(const SceneConfig& config);
@@ -37,12 +37,12 @@ class SimulatedScene {
 
   SimulatedFrame render(int index);
 
-  /// The sensor's pose at any time, between frames too.
+  /// The sensor's pose at any time, including between frames.
   StampedPose pose_at(Timestamp stamp) const;
   StampedPose truth(int index) const;
   Timestamp stamp(int index) const;
 
-  /// Everything that stands still, points at most `spacing` [m] apart on all surfaces.
+  /// All static surfaces, with points at most `spacing` [m] apart.
   TruthCloud static_cloud(double spacing = 0.04) const;
 
  private:

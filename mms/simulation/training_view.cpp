@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr int kViewsPerWorld = 8;
 constexpr int kPersons = 6;
 constexpr int kAgvs = 5;
-constexpr std::size_t kMostObjects = 7;
+constexpr std::size_t kMaxObjects = 7;
 constexpr double kPersonRadius = 0.35;  // [m]
 constexpr double kAgvRadius = 0.9;      // [m]
 constexpr double kPi = std::numbers::pi;
@@ -32,7 +32,7 @@ double between(RandomStream& random, double from, double to) {
   return static_cast<double>(random.between(static_cast<float>(from), static_cast<float>(to)));
 }
 
-/// Other colours for everything, so that none of them means anything to the network.
+/// Random colors, so that the network does not learn them.
 void repaint(Mesh& mesh, RandomStream& random) {
   const float strength = random.between(0.0F, 0.6F);
   for (Material& material : mesh.materials) {
@@ -84,7 +84,7 @@ std::unique_ptr<Stage> random_stage(RandomStream& random) {
   return std::make_unique<Stage>(std::move(building), random_actors(random));
 }
 
-/// A pose over the floor with a constant velocity.
+/// A pose on the floor with a constant velocity.
 struct Course {
   Vector2d position{0.0, 0.0};
   double yaw = 0.0;
@@ -98,7 +98,7 @@ struct Course {
   }
 };
 
-/// How the camera is held, and how it moves during the exposure.
+/// Pose of the camera, and its motion during the exposure.
 struct CameraHold {
   Course course;
   double height = 1.0;
@@ -119,7 +119,7 @@ struct CameraHold {
   }
 };
 
-/// Whether a disc on the floor is free of walls and stock, as rays round about it tell.
+/// Whether a disc on the floor is free of walls and stock, checked by radial rays.
 bool is_free(const Stage& stage, const Vector2d& position, double radius) {
   std::vector<Ray> rays;
   for (const float height : {0.25F, 0.9F, 1.5F}) {
@@ -149,7 +149,7 @@ ColorSensor random_camera(RandomStream& random) {
   return color;
 }
 
-/// The scene of one image: who is where.
+/// The scene of one image: positions of all objects.
 class View {
  public:
   View(Stage& stage, RandomStream& random)
@@ -159,8 +159,8 @@ class View {
         activities_(stage.actors().size()) {
     stage_.set(std::vector<Isometry3d>(courses_.size(), hidden()), activities_);
     hold_camera();
-    const std::size_t wanted = random_.below(kMostObjects + 1);
-    for (std::size_t i = 0; i < wanted; ++i) place(random_.below(courses_.size()));
+    const std::size_t count = random_.below(kMaxObjects + 1);
+    for (std::size_t i = 0; i < count; ++i) place(random_.below(courses_.size()));
   }
 
   const CameraHold& camera() const { return camera_; }
@@ -217,7 +217,7 @@ class View {
   }
 
   Course random_course() {
-    constexpr double kHalfView = 0.6;  // a little more than the image shows [rad]
+    constexpr double kHalfView = 0.6;  // slightly more than half the field of view [rad]
     const double distance = 0.5 * std::exp(between(random_, 0.0, std::log(24.0)));
     const double bearing = camera_.course.yaw + between(random_, -kHalfView, kHalfView);
     Course course;
@@ -279,7 +279,7 @@ SimulatedFrame TrainingViews::render(int index) {
   Image<Eigen::Vector3f> radiance(table.width, table.height, Eigen::Vector3f::Zero());
   SimulatedFrame result;
   for (int i = 0; i < samples; ++i) {
-    // An odd number of instants: the center one is the truth's.
+    // An odd number of instants: the center one is that of the ground truth.
     const double at = ((i + 0.5) / samples - 0.5) * color.exposure;
     const bool center = i == samples / 2;
     view.set(at);

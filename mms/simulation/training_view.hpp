@@ -7,17 +7,17 @@
 
 namespace mms {
 
-/// Single images to train a segmentation network with: one of the buildings with colours, stock,
-/// light, exposure, lens and blur drawn at random, a camera 0.3 to 1.8 m over the floor, and up to
-/// seven persons and AGVs 0.5 to 12 m before it, hidden by others and cut off by the image's
-/// boundary as it happens. Image i is the same whichever were rendered before it. Not thread-safe.
+/// Single images for training a segmentation network: one of the buildings with random colors,
+/// stock, light, exposure, lens and blur, a camera 0.3 to 1.8 m above the floor, and up to seven
+/// persons and AGVs at 0.5 to 12 m, with occlusion and truncation. Image i does not depend on
+/// earlier ones. Not thread-safe.
 class TrainingViews {
  public:
   explicit TrainingViews(std::uint64_t seed);
   ~TrainingViews();
 
-  /// Colour image of 640 x 480, mask, exact view and objects; no depth. Poses and boxes are in the
-  /// camera's frame.
+  /// Color image of 640 x 480, mask, exact view and objects; no depth. Poses and boxes are in the
+  /// camera frame.
   SimulatedFrame render(int index);
 
  private:

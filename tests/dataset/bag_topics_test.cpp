@@ -125,12 +125,13 @@ TEST(BagTopics, GivenTopicsHavePriority) {
 TEST(BagTopics, ErrorsListTopics) {
   const Topics topics = Topics().image("/rgb", "rgb8").add("/scan", "sensor_msgs/LaserScan");
   const std::string missing = topics.error();
-  expect_in("x.bag: has neither colour images with depth nor point clouds", missing);
+  expect_in("x.bag: has neither color images with depth nor point clouds", missing);
   expect_in("it has /rgb sensor_msgs/Image (10), /scan sensor_msgs/LaserScan (10)", missing);
-  expect_in("--topic-depth is /none, which is not there; it has /rgb",
+  expect_in("--topic-depth is /none, which is missing; it has /rgb",
             topics.error({.depth = "/none"}));
-  expect_in("--topic-depth is /scan, which is sensor_msgs/LaserScan, expected sensor_msgs/Image or",
-            topics.error({.depth = "/scan"}));
+  expect_in(
+      "--topic-depth is /scan, which has type sensor_msgs/LaserScan, expected sensor_msgs/Image or",
+      topics.error({.depth = "/scan"}));
   expect_in("it has no topics", Topics().error());
   expect_in("/depth, which has no messages",
             Topics().add("/depth", "sensor_msgs/Image", "16UC1", 0).error({.depth = "/depth"}));

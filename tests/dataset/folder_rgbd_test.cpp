@@ -35,7 +35,7 @@ TEST(FolderRgbd, UsesSevenScenesCameraByDefault) {
   const TempFolder folder;
   write_frame(folder, "frame-000000", 2000);
   const auto lines = open_dataset(folder.path())->describe();
-  EXPECT_TRUE(any_has(lines, "7-Scenes' default"));
+  EXPECT_TRUE(any_has(lines, "default of 7-Scenes"));
   EXPECT_TRUE(any_has(lines, "640x480"));
 }
 
@@ -50,7 +50,7 @@ TEST(FolderRgbd, SkipsAndReportsMissingDepthAndPoses) {
   EXPECT_EQ(played.names(), "b");
   EXPECT_EQ(played.source->ground_truth().size(), 1U);
   EXPECT_TRUE(any_has(played.warnings, "frame a skipped: "));
-  EXPECT_TRUE(any_has(played.warnings, "pose left out: "));
+  EXPECT_TRUE(any_has(played.warnings, "pose skipped: "));
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(KittiLidar, ReadsImagesMasksAndPointTimes) {
   const auto facts = played.source->describe();
   EXPECT_TRUE(any_has(facts, "images: 1 of 2 scans"));
   EXPECT_TRUE(any_has(facts, "masks: 1 of 2 scans"));
-  EXPECT_TRUE(any_has(facts, "times of the points: 1 of 2 scans"));
+  EXPECT_TRUE(any_has(facts, "point times: 1 of 2 scans"));
 }
 
 TEST(KittiLidar, ReadsMasksOnlyWhenEnabled) {
@@ -95,7 +95,7 @@ TEST(KittiLidar, ReadsMasksOnlyWhenEnabled) {
   std::filesystem::create_directories(folder.path() / "other");
   write_png(folder.path() / "masks/0.png", Image<std::uint8_t>(kWidth, kHeight, 1));
   EXPECT_FALSE(open_dataset(folder.path(), {.masks = {}, .load_masks = false})->has_masks());
-  expect_in("has a mask for none of the scans (masks are named as the scans, the first one 0.png)",
+  expect_in("has no mask for any scan (masks are named as the scans, the first one 0.png)",
             message_of<DataError>([&] {
               open_dataset(folder.path(), {.masks = folder.path() / "other", .load_masks = true});
             }));
@@ -119,7 +119,7 @@ TEST(KittiLidar, SkipsFramesWithInconsistentFiles) {
   const Playback played(open_dataset(folder.path()));
   EXPECT_EQ(played.source->skipped(), 2U);
   EXPECT_TRUE(any_has(played.warnings, "has 2 times for 1 points"));
-  EXPECT_TRUE(any_has(played.warnings, "is 3x3 pixels, the calibration says 8x6"));
+  EXPECT_TRUE(any_has(played.warnings, "is 3x3 pixels, the calibration has 8x6"));
 }
 
 TEST(KittiLidar, ReadsSharedScans) {

@@ -19,11 +19,12 @@ std::string error_of(const std::filesystem::path& path) {
 
 TEST(OpenDataset, ErrorNamesFoundAndExpectedFiles) {
   const TempFolder folder;
-  expect_in("is empty: no recording (expected rgb.txt and depth.txt", error_of(folder.path()));
+  expect_in("is empty: no recording found (expected rgb.txt and depth.txt",
+            error_of(folder.path()));
   for (const char* name : {"a", "b", "c", "d", "e", "f"}) folder.write(name, "");
-  expect_in("has a, b, c, d and 2 more: no recording", error_of(folder.path()));
-  expect_in("there is no such recording", error_of(folder.path() / "missing"));
-  expect_in("is a file, a recording is a folder", error_of(folder.path() / "a"));
+  expect_in("has a, b, c, d and 2 more: no recording found", error_of(folder.path()));
+  expect_in("no such recording", error_of(folder.path() / "missing"));
+  expect_in("is a file; a recording is a folder", error_of(folder.path() / "a"));
 }
 
 TEST(OpenDataset, SuggestsRecordingInSubfolder) {

@@ -16,7 +16,7 @@ inline constexpr int kHeight = 6;
 inline const std::string kCalibration =
     "fx: 10\nfy: 10\ncx: 4\ncy: 3\nwidth: 8\nheight: 6\ndepth_scale: 1000\n";
 
-/// Writes a colour image and a depth image of the size that kCalibration says.
+/// Write a color or depth image of the size in kCalibration.
 inline void write_color(const std::filesystem::path& path, std::uint8_t red = 50) {
   std::filesystem::create_directories(path.parent_path());
   write_png(path, Image<Rgb>(kWidth, kHeight, {red, 0, 0}));
@@ -42,7 +42,7 @@ inline void write_tum(const TempFolder& folder, int count) {
     color.append("5.").append(std::to_string(i)).append("00 rgb/").append(name).append("\n");
     depth.append("5.").append(std::to_string(i)).append("10 depth/").append(name).append("\n");
   }
-  folder.write("rgb.txt", "# colour\n" + color);
+  folder.write("rgb.txt", "# color\n" + color);
   folder.write("depth.txt", "# depth\n" + depth);
   folder.write("calibration.yaml", kCalibration);
 }

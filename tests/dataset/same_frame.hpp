@@ -12,7 +12,7 @@ inline void expect_same_frame(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.stamp, b.stamp);
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.depth_offset, b.depth_offset);
-  EXPECT_TRUE(a.color.pixels() == b.color.pixels()) << "colours of " << a.name;
+  EXPECT_TRUE(a.color.pixels() == b.color.pixels()) << "colors of " << a.name;
   EXPECT_TRUE(a.depth.pixels() == b.depth.pixels()) << "depth of " << a.name;
   EXPECT_TRUE(a.mask.pixels() == b.mask.pixels()) << "mask of " << a.name;
   EXPECT_TRUE(a.scan.points == b.scan.points) << "points of " << a.name;

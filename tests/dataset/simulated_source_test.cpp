@@ -59,11 +59,11 @@ TEST(SimulatedSource, DefaultsNeedNoQuery) {
 TEST(SimulatedSource, ErrorsExplainInvalidAddress) {
   EXPECT_NE(message_of("sim:moon").find("sim:warehouse_loop"), std::string::npos);
   EXPECT_NE(message_of("sim:crowd?sed=1").find("did you mean 'seed'?"), std::string::npos);
-  EXPECT_NE(message_of("sim:crowd?colour=1").find("known are seed, duration, frames, hz"),
+  EXPECT_NE(message_of("sim:crowd?color=1").find("known: seed, duration, frames, hz"),
             std::string::npos);
-  EXPECT_NE(message_of("sim:crowd?frames=-1").find("allowed is 0 to"), std::string::npos);
+  EXPECT_NE(message_of("sim:crowd?frames=-1").find("allowed: 0 to"), std::string::npos);
   EXPECT_NE(message_of("sim:crowd?frames=ten").find("frames is 'ten'"), std::string::npos);
-  EXPECT_NE(message_of("sim:crowd?noise=maybe").find("true and false"), std::string::npos);
+  EXPECT_NE(message_of("sim:crowd?noise=maybe").find("true, false"), std::string::npos);
   EXPECT_NE(message_of("sim:crowd?frames").find("key=value"), std::string::npos);
 }
 

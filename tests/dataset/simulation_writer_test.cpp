@@ -137,13 +137,13 @@ TEST(SimulationWriter, ReplacesEarlierSimulation) {
 TEST(SimulationWriter, KeepsOtherFolders) {
   const TempFolder folder;
   folder.write("holiday.jpg", "x");
-  expect_in("is not empty (it has holiday.jpg) and no earlier simulation (choose a new folder",
+  expect_in("is not empty (it has holiday.jpg) and not an earlier simulation (choose a new folder",
             message_of<FileError>([&] { write_frames(folder.path(), small_sensor(), 1); }));
   folder.write("mine/scene.yaml", "seed: 3\n");  // a file of the user does not mark a recording
   expect_in("it has scene.yaml", message_of<FileError>([&] {
               write_frames(folder.path() / "mine", small_sensor(), 1);
             }));
-  expect_in("cannot be made a folder", message_of<FileError>([&] {
+  expect_in("cannot create the folder", message_of<FileError>([&] {
               write_frames(folder.path() / "holiday.jpg", small_sensor(), 1);
             }));
 }

@@ -51,15 +51,15 @@ TEST(TrainingSet, ResumesInterruptedWriting) {
 TEST(TrainingSet, ErrorsNameConflicts) {
   const TempFolder folder;
   write_training_set(folder.path() / "set", options_for(1));
-  expect_in(
-      "training_set.json: is of seed 5, not of 6 (give the same --seed",
-      message_of<DataError>([&] { write_training_set(folder.path() / "set", options_for(1, 6)); }));
+  expect_in("training_set.json: has seed 5, not 6 (use the same --seed", message_of<DataError>([&] {
+              write_training_set(folder.path() / "set", options_for(1, 6));
+            }));
   folder.write("other/holiday.jpg", "x");
-  expect_in("is not empty (it has holiday.jpg) and no training set", message_of<FileError>([&] {
+  expect_in("is not empty (it has holiday.jpg) and not a training set", message_of<FileError>([&] {
               write_training_set(folder.path() / "other", options_for(1));
             }));
   folder.write("set/parts/000000.json", "{");
-  expect_in("000000.json: is no JSON", message_of<DataError>([&] {
+  expect_in("000000.json: is not JSON", message_of<DataError>([&] {
               write_training_set(folder.path() / "set", options_for(1));
             }));
 }

@@ -39,7 +39,7 @@ TEST(TumRgbd, DescribesItself) {
   const TempFolder folder;
   write_tum(folder, 3);
   const auto lines = open_dataset(folder.path())->describe();
-  for (const char* fact : {"layout: TUM RGB-D", "3 colour and 3 depth images, 3 matched",
+  for (const char* fact : {"layout: TUM RGB-D", "3 color and 3 depth images, 3 matched",
                            "calibration.yaml", "masks: none", "image: 8x6 pixels, 1000 depth units",
                            "frames: 3", "0.200 s", "rate: 10.00 Hz", "ground truth: none"}) {
     EXPECT_TRUE(any_has(lines, fact)) << fact;
@@ -120,7 +120,7 @@ TEST(TumRgbd, KeepsFirstOfDuplicateStamps) {
   folder.write("rgb.txt", "5.0 rgb/f0.png\n5.0 rgb/f1.png\n5.2 rgb/f2.png\n");
   const Playback played(open_dataset(folder.path()));
   EXPECT_EQ(played.names(), "f0 f2");
-  EXPECT_TRUE(any_has(played.warnings, "rgb.txt:2: line left out, its stamp was there before"));
+  EXPECT_TRUE(any_has(played.warnings, "rgb.txt:2: line skipped, duplicate stamp"));
 }
 
 TEST(TumRgbd, SkipsAndCountsDecreasingStamps) {
@@ -141,7 +141,7 @@ TEST(TumRgbd, SkipsDamagedLines) {
   const Playback played(open_dataset(folder.path()));
   EXPECT_EQ(played.names(), "f0 f1");
   EXPECT_TRUE(
-      any_has(played.warnings, "rgb.txt:2: line left out, expected 'stamp path' (2 such lines)"));
+      any_has(played.warnings, "rgb.txt:2: line skipped, expected 'stamp path' (2 such lines)"));
 }
 
 TEST(TumRgbd, ReadsMasksAndReportsMissingOnce) {
@@ -167,7 +167,7 @@ TEST(TumRgbd, ReadsMasksFromOtherFolder) {
   write_tum(folder, 1);
   std::filesystem::create_directories(folder.path() / "other");
   const SourceOptions options{.masks = folder.path() / "other"};
-  expect_in("has a mask for none of the frames", error_of(folder, options));
+  expect_in("has no mask for any frame", error_of(folder, options));
   write_png(options.masks / "f0.png", Image<std::uint8_t>(kWidth, kHeight, 1));
   EXPECT_EQ(Playback(open_dataset(folder.path(), options)).frames[0].mask(0, 0), 1);
 }
@@ -187,7 +187,7 @@ TEST(TumRgbd, RejectsListsWithoutMatches) {
   const TempFolder folder;
   write_tum(folder, 1);
   folder.write("depth.txt", "9.0 depth/f0.png\n");
-  expect_in("of 1 colour and 1 depth images no two have stamps within 0.02 s", error_of(folder));
+  expect_in("of 1 color and 1 depth images, no two match within 0.02 s", error_of(folder));
   folder.write("depth.txt", "# nothing\n");
   expect_in("depth.txt: lists no images", error_of(folder));
 }

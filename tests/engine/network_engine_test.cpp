@@ -56,7 +56,7 @@ TEST(NetworkEngine, SameResultForAnyThreadCount) {
 TEST(NetworkEngine, ErrorsExplainMismatch) {
   SegmentationModel incomplete = random_model({}, 1);
   incomplete.weights.tensors.erase("mask_head.conv_cls.bias");
-  expect_in("net.file: lacks the network's tensor mask_head.conv_cls.bias",
+  expect_in("net.file: misses the tensor mask_head.conv_cls.bias",
             message_of<DataError>([&] { NetworkEngine(incomplete, "net.file", {}); }));
   SegmentationModel deformable{
       NetworkConfig::preset(NetworkSize::kR50, NetworkVariant::kSac), {"person", "agv"}, {}};

@@ -198,19 +198,19 @@ TEST(SegmentationError, ErrorsNameProblemAndExpectation) {
   const CocoResult valid = {1, 1, 0.5, box(0, 0, 1, 1)};
   EXPECT_EQ(error_of(truth, {valid, {7, 1, 0.5, box(0, 0, 1, 1)}},
                      {.truth_name = "a.json", .results_name = "b.json"}),
-            "b.json: [1].image_id: is 7, there is no such image (the images are those of a.json)");
+            "b.json: [1].image_id: is 7, no such image (the images are those of a.json)");
   EXPECT_EQ(error_of(truth, {{1, 1, 0.5, box(0, 0, 1, 1, 50)}}),
-            "results: [0].segmentation: is of 50 x 50 px, its image 1 of 100 x 100 px (masks have "
-            "to be of the size of the image in truth)");
+            "results: [0].segmentation: has 50 x 50 px, its image 1 has 100 x 100 px (masks must "
+            "have the size of the image in truth)");
   EXPECT_EQ(error_of(truth, {{1, 1, kNone, box(0, 0, 1, 1)}}),
-            "results: [0].score: is no number (expected 0 to 1)");
+            "results: [0].score: is not a number (expected 0 to 1)");
   EXPECT_EQ(error_of(truth, {valid}, {.category = "cat"}),
-            "truth: has no class 'cat' (its classes are: agv, person)");
+            "truth: has no class 'cat' (its classes: agv, person)");
   EXPECT_EQ(error_of(truth, {valid}, {.split = "holdout"}),
-            "truth: has no images of the split 'holdout' (its splits are: none)");
+            "truth: has no images in the split 'holdout' (its splits: none)");
   truth.images[0].split = "train";
   EXPECT_EQ(error_of(truth, {valid}, {.split = "holdout"}),
-            "truth: has no images of the split 'holdout' (its splits are: train)");
+            "truth: has no images in the split 'holdout' (its splits: train)");
 }
 
 TEST(SegmentationError, JsonHasDocumentedKeysInOrder) {

@@ -44,7 +44,7 @@ struct View {
   Image<Surface> truth;
 };
 
-/// The scene's depth image (and a grey colour image) with the surface of every pixel.
+/// The scene's depth image (and a grey color image) with the surface of every pixel.
 View render(const Scene& scene);
 
 /// The pixels of `surface` as the mask of one instance, dilated by `grow` pixels (eroded if

@@ -139,15 +139,15 @@ TEST(FrameAssembler, RejectsUnregisteredDepth) {
 TEST(FrameAssembler, ReportsMissingInputs) {
   FrameAssembler none(Sensor::kDepth);
   EXPECT_EQ(none.report(1.0),
-            "colour images: none arrive; camera_info: none arrived; depth images: none arrive");
+            "color images: none received; camera_info: none received; depth images: none received");
   Assembly unmatched(Sensor::kDepth);
   for (int t = 0; t < 1000; t += 100) {
     unmatched.color(t);
     unmatched.depth(t + 350);
   }
   EXPECT_EQ(unmatched.frames().find("0+"), std::string::npos);
-  expect_in("colour images: 5.0 a second", unmatched.assembler.report(2.0));
-  EXPECT_EQ(FrameAssembler(Sensor::kCloud).report(1.0), "clouds: none arrive");
+  expect_in("color images: 5.0 per second", unmatched.assembler.report(2.0));
+  EXPECT_EQ(FrameAssembler(Sensor::kCloud).report(1.0), "clouds: none received");
 }
 
 }  // namespace

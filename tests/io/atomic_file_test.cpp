@@ -56,7 +56,7 @@ TEST(AtomicFile, ErrorsNameFile) {
 TEST(Files, ErrorsNameFile) {
   const TempFolder folder;
   const auto missing = folder.path() / "a.txt";
-  expect_in(missing.string() + ": there is no such file",
+  expect_in(missing.string() + ": no such file",
             message_of<FileError>([&] { read_file(missing); }));
   message_of<FileError>([&] { read_file(folder.path()); });
   message_of<FileError>([] { read_file("/dev/zero"); });

@@ -76,7 +76,7 @@ TEST(CocoIo, KeepsSplitOfImage) {
   EXPECT_EQ(read.images[1].split, "");
   write_coco(folder.path() / "b.json", sample());
   EXPECT_EQ(read_file(folder.path() / "b.json").find("split"), std::string::npos);
-  expect_in("images[0].split: is a number, expected a text",
+  expect_in("images[0].split: is a number, expected a string",
             error_of(R"({"images": [{"id": 7, "file_name": "a", "width": 4, "height": 3,)"
                      R"("split": 3}], "categories": [], "annotations": []})"));
 }
@@ -100,28 +100,28 @@ TEST(CocoIo, ReadsEveryKindOfMask) {
 
 TEST(CocoIo, ErrorsNameEntry) {
   const std::string valid = R"({"size": [3, 4], "counts": [12]})";
-  expect_in("is no JSON: parse error at line 1", error_of("{"));
-  expect_in("is a list, as results are", error_of("[]"));
-  expect_in("has no key 'images'", error_of("{}"));
+  expect_in("is not JSON: parse error at line 1", error_of("{"));
+  expect_in("is a list, as of results", error_of("[]"));
+  expect_in("missing key 'images'", error_of("{}"));
   expect_in("images: is a number, expected a list", error_of(R"({"images": 3})"));
   expect_in("annotations[0]: is a number, expected an object", error_of(with_annotation("3")));
-  expect_in("annotations[0].segmentation.counts: mask: its runs are of 11 pixels",
+  expect_in("annotations[0].segmentation.counts: mask: its runs have 11 pixels",
             error_of(with_annotation(annotation(R"({"size": [3, 4], "counts": [11]})"))));
-  expect_in("annotations[0].segmentation.counts[0]: is -1, allowed is 0 to",
+  expect_in("annotations[0].segmentation.counts[0]: is -1, allowed: 0 to",
             error_of(with_annotation(annotation(R"({"size": [3, 4], "counts": [-1]})"))));
-  expect_in("annotations[0].segmentation: is of 3 x 4 px, its image 7 of 4 x 3",
+  expect_in("annotations[0].segmentation: has 3 x 4 px, its image 7 has 4 x 3",
             error_of(with_annotation(annotation(R"({"size": [4, 3], "counts": [12]})"))));
-  expect_in("segmentation.size: is no list of height and width",
+  expect_in("segmentation.size: is not a list of height and width",
             error_of(with_annotation(annotation(R"({"size": [4], "counts": [12]})"))));
   expect_in("segmentation: polygon: has 2 numbers",
             error_of(with_annotation(annotation("[[1, 2]]"))));
-  expect_in("annotations[0].image_id: is 9, there is no such image",
+  expect_in("annotations[0].image_id: is 9, no such image",
             error_of(with_annotation(annotation(valid, "", R"("image_id": 9, "category_id": 1)"))));
-  expect_in("annotations[0].category_id: is 3, there is no such category",
+  expect_in("annotations[0].category_id: is 3, no such category",
             error_of(with_annotation(annotation(valid, "", R"("image_id": 7, "category_id": 3)"))));
-  expect_in("annotations[0].iscrowd: is 2, allowed is 0 to 1",
+  expect_in("annotations[0].iscrowd: is 2, allowed: 0 to 1",
             error_of(with_annotation(annotation(valid, R"(, "iscrowd": 2)"))));
-  expect_in("annotations[1].id: is 5, which was there before",
+  expect_in("annotations[1].id: is 5, a duplicate",
             error_of(with_annotation(annotation(valid) + "," + annotation(valid))));
 }
 
@@ -134,12 +134,12 @@ TEST(CocoIo, ResultsRoundTrip) {
   EXPECT_EQ(read[0].image_id, 7);
   EXPECT_EQ(read[0].score, 0.25);
   EXPECT_EQ(read[0].segmentation, kMask);
-  expect_in("[0].score: is 2, allowed is 0 to 1", message_of<DataError>([&] {
+  expect_in("[0].score: is 2, allowed: 0 to 1", message_of<DataError>([&] {
               write_coco_results(path, {{7, 1, 2.0, kMask}});
               read_coco_results(path);
             }));
   write_coco(path, sample());
-  expect_in("is no list of results", message_of<DataError>([&] { read_coco_results(path); }));
+  expect_in("is not a list of results", message_of<DataError>([&] { read_coco_results(path); }));
 }
 
 TEST(CocoIo, WriterEqualsSingleCall) {

@@ -60,13 +60,13 @@ TEST(ConfigAssignments, LastAssignmentCounts) {
 TEST(ConfigAssignments, ErrorsExplainProblem) {
   expect_in("'speed' is not key=value", error_of("speed"));
   expect_in("unknown key 'sped' (did you mean 'speed'?)", error_of("sped=1"));
-  expect_in("unknown key 'x' (known are speed, count, color, group.enabled)", error_of("x=1"));
-  expect_in("speed is '9', allowed is 0 to 5", error_of("speed=9"));
+  expect_in("unknown key 'x' (known: speed, count, color, group.enabled)", error_of("x=1"));
+  expect_in("speed is '9', allowed: 0 to 5", error_of("speed=9"));
   expect_in("speed is 'nan'", error_of("speed=nan"));
-  expect_in("count is '1.5', allowed is at least 1", error_of("count=1.5"));
+  expect_in("count is '1.5', allowed: at least 1", error_of("count=1.5"));
   expect_in("count is '3000000000'", error_of("count=3000000000"));
   expect_in("color cannot be 'gren' (did you mean 'green'?)", error_of("color=gren"));
-  expect_in("group.enabled is 'yes', allowed are true and false", error_of("group.enabled=yes"));
+  expect_in("group.enabled is 'yes', allowed: true, false", error_of("group.enabled=yes"));
 }
 
 TEST(ConfigAssignments, FailedAssignmentKeepsConfig) {

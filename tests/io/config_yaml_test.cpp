@@ -93,15 +93,15 @@ TEST(ConfigYaml, DumpRoundTrips) {
 TEST(ConfigYaml, UnknownKeysSuggestNearest) {
   EXPECT_EQ(error_of("enabled: true\nkeyframes:\n  translatoin: 1\n"),
             ":3: unknown key 'keyframes.translatoin' (did you mean 'translation'?)");
-  EXPECT_EQ(error_of("x: 1\n"), ":1: unknown key 'x' (known are enabled, mode, limit, keyframes)");
+  EXPECT_EQ(error_of("x: 1\n"), ":1: unknown key 'x' (known: enabled, mode, limit, keyframes)");
 }
 
 TEST(ConfigYaml, WrongTypesNameExpectedType) {
   EXPECT_EQ(error_of("keyframes:\n  translation: far\n"),
             ":2: keyframes.translation is 'far', expected a number: 0 to 10");
   EXPECT_EQ(error_of("keyframes: {count: 2.5}\n"),
-            ":1: keyframes.count is '2.5', expected a whole number: 1 to 100");
-  EXPECT_EQ(error_of("enabled: yes\n"), ":1: enabled is 'yes', allowed is true or false");
+            ":1: keyframes.count is '2.5', expected an integer: 1 to 100");
+  EXPECT_EQ(error_of("enabled: yes\n"), ":1: enabled is 'yes', allowed: true, false");
   EXPECT_EQ(error_of("limit: [1, 2]\n"), ":1: limit is a list, expected a number: at least 0");
   EXPECT_EQ(error_of("limit: '1'\n"), ":1: limit is '1', expected a number: at least 0");
   EXPECT_EQ(error_of("keyframes: 3\n"), ":1: keyframes is '3', expected lines of 'key: value'");
@@ -111,25 +111,25 @@ TEST(ConfigYaml, WrongTypesNameExpectedType) {
 
 TEST(ConfigYaml, ValuesOutOfRangeNameRange) {
   EXPECT_EQ(error_of("keyframes:\n  translation: 10.5\n"),
-            ":2: keyframes.translation is 10.5, allowed is 0 to 10");
+            ":2: keyframes.translation is 10.5, allowed: 0 to 10");
   EXPECT_EQ(error_of("keyframes:\n  translation: .inf\n"),
-            ":2: keyframes.translation is .inf, allowed is 0 to 10");
-  EXPECT_EQ(error_of("keyframes:\n  count: 0\n"), ":2: keyframes.count is 0, allowed is 1 to 100");
+            ":2: keyframes.translation is .inf, allowed: 0 to 10");
+  EXPECT_EQ(error_of("keyframes:\n  count: 0\n"), ":2: keyframes.count is 0, allowed: 1 to 100");
   EXPECT_EQ(error_of("mode: exakt\n"),
-            ":1: mode is 'exakt', allowed is one of none, fast, exact (did you mean 'exact'?)");
+            ":1: mode is 'exakt', allowed: one of none, fast, exact (did you mean 'exact'?)");
 }
 
 TEST(ConfigYaml, RejectsDuplicateKeys) {
   EXPECT_EQ(error_of("enabled: true\nenabled: false\n"),
-            ":2: enabled is there twice (keep one of them)");
-  expect_in(":3: keyframes.count is there twice", error_of("keyframes:\n  count: 1\n  count: 2\n"));
+            ":2: enabled appears twice (keep one of them)");
+  expect_in(":3: keyframes.count appears twice", error_of("keyframes:\n  count: 1\n  count: 2\n"));
 }
 
 TEST(ConfigYaml, RejectsInvalidYaml) {
   expect_in("is not YAML", error_of("a: [1, 2\nb: }"));
   expect_in("is not YAML", error_of("\t- x: {"));
   expect_in("expected lines of 'key: value'", error_of("just words\n"));
-  expect_in("cannot be a key", error_of("[1, 2]: 3\n"));
+  expect_in("expected a key", error_of("[1, 2]: 3\n"));
   error_of(std::string("\x00\x01\xff\xfe garbage", 12));
   error_of(std::string(2000, '['));
 }

@@ -115,7 +115,7 @@ TEST(ImageIo, RejectsDamagedImages) {
   std::string huge(png.begin(), png.end());
   huge[16] = 0x7f;
   const auto too_large = folder.write("b.png", huge);
-  expect_in("allowed is up to 16384x16384", message_of<DataError>([&] { read_color(too_large); }));
+  expect_in("allowed: up to 16384x16384", message_of<DataError>([&] { read_color(too_large); }));
 }
 
 TEST(ImageIo, RejectsOtherFiles) {

@@ -125,7 +125,7 @@ TEST(Journal, TruncatedFileGivesFramesBefore) {
     EXPECT_EQ(count_frames(reader), sample.complete_frames(size));
     const bool ends_at_record = sample.ends[sample.complete_frames(size)] == size;
     EXPECT_EQ(reader.damage().empty(), ends_at_record);
-    if (!ends_at_record) expect_in("is cut off", reader.damage());
+    if (!ends_at_record) expect_in("is truncated", reader.damage());
   }
 }
 
@@ -170,18 +170,18 @@ TEST(Journal, RejectsInvalidRecordsBeforeAllocation) {
   constexpr std::size_t kMap = 18 + 96;  // after stamps, status, flags and pose
   constexpr std::size_t kBlocks = kMap + 12 + 8 + 1;
   const std::string many(4, '\xFF');
-  expect_in("the status is 9, allowed is 0 to 4",
+  expect_in("the status is 9, allowed: 0 to 4",
             damage_with(folder, changed_record(kStatus, "\x09")));
-  expect_in("promises 4294967295 entries, but has room for",
+  expect_in("promises 4294967295 entries, but has space for",
             damage_with(folder, changed_record(kBlocks, many)));
   expect_in("the voxel size is 0 m",
             damage_with(folder, changed_record(kMap + 12, std::string(8, '\0'))));
   expect_in("a block is at 2147483647",
             damage_with(folder, changed_record(kBlocks + 4, "\xFF\xFF\xFF\x7F")));
-  expect_in("a voxel is at place 65535",
+  expect_in("a voxel has the index 65535",
             damage_with(folder, changed_record(kBlocks + 4 + 12 + 2 + 4, "\xFF\xFF")));
-  expect_in("is cut off", damage_with(folder, many + "\x02 and not four gigabytes"));
-  expect_in("is of type 1, expected is 2",
+  expect_in("is truncated", damage_with(folder, many + "\x02 and not four gigabytes"));
+  expect_in("has type 1, expected 2",
             damage_with(folder, make_record(RecordType::kHeader, "again")));
   expect_in("ends 8 bytes too early", damage_with(folder, make_record(RecordType::kFrame, "")));
 }
@@ -189,14 +189,15 @@ TEST(Journal, RejectsInvalidRecordsBeforeAllocation) {
 TEST(Journal, RejectsOtherFiles) {
   const TempFolder folder;
   const auto open = [&](const fs::path& path) { return [path] { JournalReader reader(path); }; };
-  expect_in("there is no such file", message_of<FileError>(open(folder.path() / "none.bin")));
+  expect_in("no such file", message_of<FileError>(open(folder.path() / "none.bin")));
   expect_in("is not a regular file", message_of<FileError>(open(folder.path())));
   expect_in("is empty", message_of<DataError>(open(folder.write("empty.bin", ""))));
-  expect_in("is no journal", message_of<DataError>(open(folder.write("text.bin", "hello there"))));
+  expect_in("is not a journal",
+            message_of<DataError>(open(folder.write("text.bin", "hello there"))));
   std::string payload(40, '\0');
   payload[0] = 7;
   const std::string later = std::string(kJournalMagic) + make_record(RecordType::kHeader, payload);
-  expect_in("is of version 7, known is version 1",
+  expect_in("has version 7, supported: version 1",
             message_of<DataError>(open(folder.write("later.bin", later))));
 }
 

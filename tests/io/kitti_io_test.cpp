@@ -36,7 +36,7 @@ TEST(KittiIo, ReflectanceIsZeroWithoutIntensity) {
   write_kitti_scan(folder.path() / "a.bin", scan);
   EXPECT_EQ(read_kitti_scan(folder.path() / "a.bin").intensity, std::vector{0.0F});
   scan.intensity = {1.0F, 2.0F};
-  expect_in("is to hold 1 points, but there are 2 intensities",
+  expect_in("has 1 points and 2 intensities",
             message_of<DataError>([&] { write_kitti_scan(folder.path() / "a.bin", scan); }));
 }
 

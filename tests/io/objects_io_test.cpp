@@ -82,13 +82,13 @@ TEST(ObjectsIo, ErrorsNameEntry) {
     const auto file = folder.write("truth.json", text);
     return message_of<DataError>([&] { read_objects_truth(file); });
   };
-  expect_in("frames[0].objects[0]: has no key 'pixels'", error(truth_with("")));
-  expect_in("occlusion: is 2, allowed is", error(truth_with(R"(, "pixels": 1, "occlusion": 2)")));
+  expect_in("frames[0].objects[0]: missing key 'pixels'", error(truth_with("")));
+  expect_in("occlusion: is 2, allowed:", error(truth_with(R"(, "pixels": 1, "occlusion": 2)")));
   expect_in("moving: is a number, expected true or false", error(truth_with(R"(, "moving": 1)")));
-  expect_in("class: is 'dog', allowed are person, agv and unknown",
+  expect_in("class: is 'dog', allowed: person, agv, unknown",
             error(truth_with(R"(, "class": "dog")")));
-  expect_in("quaternion: is no rotation", error(truth_with(R"(, "quaternion": [0, 0, 0, 0])")));
-  expect_in("position: is no list of 3 numbers", error(truth_with(R"(, "position": [1])")));
+  expect_in("quaternion: is not a rotation", error(truth_with(R"(, "quaternion": [0, 0, 0, 0])")));
+  expect_in("position: is not a list of 3 numbers", error(truth_with(R"(, "position": [1])")));
   expect_in("stamp: is 'now'", error(R"({"frames": [{"stamp": "now", "objects": []}]})"));
 }
 

@@ -68,7 +68,7 @@ TEST(PointCloudIo, RejectsVectorsOfDifferentLength) {
   const TempFolder folder;
   PointCloudFile cloud = full_cloud();
   cloud.labels.pop_back();
-  expect_in("100 points, but 99 labels",
+  expect_in("100 points and 99 labels",
             message_of<DataError>([&] { write_ply(folder.path() / "a.ply", cloud); }));
   message_of<DataError>([&] { write_pcd(folder.path() / "a.pcd", cloud); });
   EXPECT_TRUE(list_folder(folder.path()).empty());
@@ -108,14 +108,14 @@ TEST(Ply, RejectsInvalidHeadersBeforeAllocation) {
       {kBinary + "element vertex -1\n" + kXyz + "end_header\n", "'-1' is not a count"},
       {kBinary + "element vertex many\n" + kXyz + "end_header\n", "'many' is not a count"},
       {kBinary + "element vertex 9000000000000000000\n" + kXyz + "end_header\n0123456789ab",
-       "promises 9000000000000000000 points, but has the bytes of 1"},
+       "promises 9000000000000000000 points, but has only the bytes of 1"},
       {"ply\nformat ascii 1.0\nelement vertex 1000000000\n" + kXyz + "end_header\n1 2 3\n",
-       "promises 1000000000 points, but has room for"},
-      {kBinary + "element vertex 1\nend_header\n", "has points without x y z"},
-      {kBinary + "element vertex 1\n" + kXyz + "property float x\nend_header\n", "twice"},
-      {kBinary + "element vertex 1\nproperty list int int x\nend_header\n", "lists"},
+       "promises 1000000000 points, but has space for"},
+      {kBinary + "element vertex 1\nend_header\n", "misses x, y or z"},
+      {kBinary + "element vertex 1\n" + kXyz + "property float x\nend_header\n", "duplicate"},
+      {kBinary + "element vertex 1\nproperty list int int x\nend_header\n", "list properties"},
       {kBinary + "element vertex 1\nproperty text x\nend_header\n", "unknown property type"},
-      {kBinary + "element face 1\nend_header\n", "the first element is no vertex"},
+      {kBinary + "element face 1\nend_header\n", "the first element is not 'vertex'"},
       {kBinary + "property float x\nend_header\n", "unexpected 'property'"},
       {kBinary + "element vertex 1\n" + kXyz + "property float nx\nend_header\n", "only some of"},
       {kBinary + "element vertex 1\n" + kXyz + "property float red\nend_header\n", "uchar"},
@@ -133,7 +133,7 @@ TEST(Ply, RejectsValuesOutOfRange) {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\n" + kXyz;
   const auto label =
       folder.write("a.ply", head + "property double label\nend_header\n0 0 0 1e10\n");
-  expect_in("value 1e+10, allowed is", message_of<DataError>([&] { read_ply(label); }));
+  expect_in("value 1e+10, allowed:", message_of<DataError>([&] { read_ply(label); }));
   const auto nan = folder.write("a.ply", head + "property float label\nend_header\n0 0 0 nan\n");
   message_of<DataError>([&] { read_ply(nan); });
   const auto word = folder.write("a.ply", head + "end_header\n0 zero 0\n");
@@ -142,7 +142,7 @@ TEST(Ply, RejectsValuesOutOfRange) {
   expect_in("ends before point 0", message_of<DataError>([&] { read_ply(truncated); }));
 }
 
-TEST(Pcd, ReadsAsciiWithPackedColours) {
+TEST(Pcd, ReadsAsciiWithPackedColors) {
   const TempFolder folder;
   const auto path = folder.write("a.pcd",
                                  "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb curvature\n"
@@ -158,14 +158,15 @@ TEST(Pcd, RejectsInvalidHeaders) {
   const std::string xyz = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
   const std::pair<std::string, const char*> cases[] = {
       {"hello\n", "the header does not end"},
-      {"DATA binary\n", "it has no FIELDS"},
+      {"DATA binary\n", "missing FIELDS"},
       {xyz + "POINTS 5\nDATA binary_compressed\n", "unsupported DATA 'binary_compressed'"},
-      {xyz + "POINTS 5\nDATA binary\n0123456789ab", "promises 5 points, but has the bytes of 1"},
+      {xyz + "POINTS 5\nDATA binary\n0123456789ab",
+       "promises 5 points, but has only the bytes of 1"},
       {xyz + "POINTS\nDATA binary\n", "is not a count"},
-      {xyz + "COUNT 1 1\nPOINTS 1\nDATA binary\n", "different lengths"},
-      {xyz + "COUNT 1 1 1000000000000\nPOINTS 1\nDATA binary\n", "allowed is up to 4096"},
+      {xyz + "COUNT 1 1\nPOINTS 1\nDATA binary\n", "differ in length"},
+      {xyz + "COUNT 1 1 1000000000000\nPOINTS 1\nDATA binary\n", "allowed: up to 4096"},
       {"FIELDS x\nSIZE 3\nTYPE F\nPOINTS 1\nDATA binary\n", "unknown TYPE and SIZE 'F3'"},
-      {"FIELDS\nSIZE\nTYPE\nPOINTS 1\nDATA binary\n", "without x y z"},
+      {"FIELDS\nSIZE\nTYPE\nPOINTS 1\nDATA binary\n", "misses x, y or z"},
   };
   for (const auto& [bytes, expected] : cases) {
     const auto path = folder.write("a.pcd", bytes);
@@ -190,7 +191,7 @@ TEST(KittiScan, RejectsInvalidSizes) {
   const TempFolder folder;
   const auto empty = folder.write("a.bin", "");
   const auto truncated = folder.write("b.bin", std::string(33, 'x'));
-  expect_in("empty scan of 0 bytes", message_of<DataError>([&] { read_kitti_scan(empty); }));
+  expect_in("is empty", message_of<DataError>([&] { read_kitti_scan(empty); }));
   expect_in("has 33 bytes, not a multiple of 16",
             message_of<DataError>([&] { read_kitti_scan(truncated); }));
 }

@@ -59,14 +59,13 @@ TEST(PolygonMask, TriangleHasHalfTheArea) {
 }
 
 TEST(PolygonMask, ErrorsExplainProblem) {
-  expect_in("polygon: has 4 numbers (expected x and y of three corners", message_of<DataError>([] {
+  expect_in("polygon: has 4 numbers (expected x and y of at least three corners",
+            message_of<DataError>([] {
               mask_of({{0, 0, 1, 1}});
             }));
   message_of<DataError>([] { mask_of({{0, 0, 1, 1, 2, 2, 3}}); });
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  expect_in("allowed are finite ones", message_of<DataError>([] {
-              mask_of({{0, 0, 1, 1, 2, kNan}});
-            }));
+  expect_in("allowed: finite", message_of<DataError>([] { mask_of({{0, 0, 1, 1, 2, kNan}}); }));
 }
 
 }  // namespace

@@ -71,10 +71,10 @@ TEST(Rle, RoundTrips) {
 }
 
 TEST(Rle, ErrorsExplainProblem) {
-  expect_in("its runs are of 5 pixels, the image has 4 x 3", message_of<DataError>([] {
+  expect_in("its runs have 5 pixels, the image has 4 x 3", message_of<DataError>([] {
               decode_rle({4, 3, {2, 3}});
             }));
-  expect_in("has the letter 'z', allowed are '0' to 'o'",
+  expect_in("has the character 'z', allowed: '0' to 'o'",
             message_of<DataError>([] { rle_from_string("3z", 4, 3); }));
   expect_in("ends within a number", message_of<DataError>([] { rle_from_string("`", 4, 3); }));
   expect_in("more than 32 bits",

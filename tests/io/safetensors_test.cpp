@@ -154,7 +154,7 @@ TEST(Safetensors, ReadsTensorsInAnyOrder) {
 
 TEST(Safetensors, ReportsTruncation) {
   const TempFolder folder;
-  expect_in("there is no such file",
+  expect_in("no such file",
             message_of<FileError>([&] { read_safetensors(folder.path() / "none"); }));
   EXPECT_TRUE(message_of<DataError>([&] {
                 read_safetensors(folder.write("a", "abc"));
@@ -171,13 +171,13 @@ TEST(Safetensors, ReportsTruncation) {
 }
 
 TEST(Safetensors, RejectsExcessiveHeaderLength) {
-  expect_in("its header would be of 100000001 bytes, allowed is up to 100000000",
+  expect_in("its header has 100000001 bytes, allowed: up to 100000000",
             error_of(length_bytes(100'000'001) + "{}"));
-  expect_in("its header would be of 18446744073709551615 bytes",
+  expect_in("its header has 18446744073709551615 bytes",
             error_of(length_bytes(~std::uint64_t{0}) + "{}"));
   expect_in("is truncated: 99999998 of its 100000008 bytes are missing",
             error_of(length_bytes(100'000'000) + "{}"));
-  expect_in("is it a safetensors file? a .pth has to be converted",  // a zip, as PyTorch writes
+  expect_in("is it a safetensors file? convert a .pth file to one",  // a zip, as PyTorch writes
             error_of("PK\x03\x04\x14\x08\x08\x08 archive/data.pkl"));
 }
 
@@ -185,9 +185,9 @@ TEST(Safetensors, RejectsHeaderThatIsNoObject) {
   expect_in("its header does not begin with '{'", error_of(file_of("")));
   expect_in("its header does not begin with '{'", error_of(file_of("[1]")));
   expect_in("its header does not begin with '{'", error_of(file_of(" {}")));
-  expect_in("its header is no JSON: parse error at line 1, column 2", error_of(file_of("{")));
-  expect_in("its header is no JSON: parse error", error_of(file_of("{} {}")));
-  expect_in("its header is no JSON: parse error", error_of(file_of("{\"\xFF\": 1}")));
+  expect_in("its header is not JSON: parse error at line 1, column 2", error_of(file_of("{")));
+  expect_in("its header is not JSON: parse error", error_of(file_of("{} {}")));
+  expect_in("its header is not JSON: parse error", error_of(file_of("{\"\xFF\": 1}")));
   expect_in("a: is a number, expected an object", error_of(file_with("3")));
   expect_in("a: is a list, expected an object", error_of(file_with("[1]")));
   expect_in("a: is a null, expected an object", error_of(file_with("null")));
@@ -211,8 +211,8 @@ TEST(Safetensors, RejectsDeepNesting) {
        std::vector<std::pair<std::string, std::string>>{{"[", "]"}, {R"({"a": )", "}"}}) {
     std::string nested = R"({"a": )";
     for (int i = 0; i < 1'000'000; ++i) nested += open;
-    expect_in("its header is nested more than 3 deep", error_of(file_of(nested)));
-    expect_in("its header is nested more than 3 deep",
+    expect_in("its header is nested more than 3 levels deep", error_of(file_of(nested)));
+    expect_in("its header is nested more than 3 levels deep",
               error_of(file_with(open + open + open + "1" + close + close + close)));
   }
   expect_in("nested more than 3", error_of(file_with(entry("F32", "[[1]]", "[0, 4]"), kFour)));
@@ -223,33 +223,32 @@ TEST(Safetensors, ErrorsNameEntry) {
                         const std::string& offsets, const std::string& more = "") {
     return error_of(file_with(entry(dtype, shape, offsets, more), kEight));
   };
-  expect_in("a.dtype: is 'U8', allowed are F32, F16, BF16, F64, I64, I32, I8",
+  expect_in("a.dtype: is 'U8', allowed: F32, F16, BF16, F64, I64, I32, I8",
             error("U8", "[]", "[]"));
-  expect_in("a: has no key 'dtype'", error_of(file_with("{}")));
+  expect_in("a: missing key 'dtype'", error_of(file_with("{}")));
   expect_in("a.dtype: is a number", error_of(file_with(R"({"dtype": 1})")));
-  expect_in("a: has no key 'shape'", error_of(file_with(R"({"dtype": "F32"})")));
-  expect_in("a: has no key 'data_offsets'",
+  expect_in("a: missing key 'shape'", error_of(file_with(R"({"dtype": "F32"})")));
+  expect_in("a: missing key 'data_offsets'",
             error_of(file_with(R"({"dtype": "F32", "shape": []})")));
-  expect_in("a: has the unknown key 'stride', allowed are dtype, shape, data_offsets",
+  expect_in("a: has the unknown key 'stride', allowed: dtype, shape, data_offsets",
             error("F32", "[2]", "[0, 8]", R"(, "stride": [1])"));
   expect_in("a.shape: is a number, expected a list", error("F32", "2", "[0, 8]"));
-  expect_in("a.shape[1]: is -2, allowed is 0 to 9e+18", error("F32", "[1, -2]", "[0, 8]"));
+  expect_in("a.shape[1]: is -2, allowed: 0 to 9e+18", error("F32", "[1, -2]", "[0, 8]"));
   expect_in("a.shape[0]: is a string, expected a number", error("F32", R"(["2"])", "[0, 8]"));
-  expect_in("has the floating-point number 2, allowed are whole numbers",
-            error("F32", "[2.0]", "[0, 8]"));
-  expect_in("has the floating-point number 1e+20, allowed are whole numbers below 2^63",
+  expect_in("has the floating-point number 2, allowed: integers", error("F32", "[2.0]", "[0, 8]"));
+  expect_in("has the floating-point number 1e+20, allowed: integers below 2^63",
             error("F32", "[100000000000000000000]", "[0, 8]"));
   expect_in("a.shape[0]: is 1.844", error("F32", "[18446744073709551615]", "[0, 8]"));
-  expect_in("a.shape: is of more bytes than 64 bits count",
-            error("F32", "[4611686018427387904]", "[0, 0]"));
-  expect_in("a.shape: is of more bytes than 64 bits count",
-            error("F32", "[4294967296, 4294967296, 0]", "[0, 0]"));
+  expect_in("a.shape: exceeds 64 bits", error("F32", "[4611686018427387904]", "[0, 0]"));
+  expect_in("a.shape: exceeds 64 bits", error("F32", "[4294967296, 4294967296, 0]", "[0, 0]"));
   expect_in("a.data_offsets: has 1 numbers", error("F32", "[2]", "[8]"));
-  expect_in("a.data_offsets: end at byte 0, before they begin at byte 8",
+  expect_in("a.data_offsets: end at byte 0, before its begin at byte 8",
             error("F32", "[2]", "[8, 0]"));
-  expect_in("a.data_offsets[0]: is -8, allowed is 0 to 9e+18", error("F32", "[2]", "[-8, 0]"));
-  expect_in("a.data_offsets: hold 8 bytes, shape and dtype make 12", error("F32", "[3]", "[0, 8]"));
-  expect_in("a.data_offsets: hold 8 bytes, shape and dtype make 16", error("F64", "[2]", "[0, 8]"));
+  expect_in("a.data_offsets[0]: is -8, allowed: 0 to 9e+18", error("F32", "[2]", "[-8, 0]"));
+  expect_in("a.data_offsets: have 8 bytes, expected from shape and dtype: 12",
+            error("F32", "[3]", "[0, 8]"));
+  expect_in("a.data_offsets: have 8 bytes, expected from shape and dtype: 16",
+            error("F64", "[2]", "[0, 8]"));
 }
 
 TEST(Safetensors, RejectsUnusedAndSharedData) {
@@ -258,21 +257,23 @@ TEST(Safetensors, RejectsUnusedAndSharedData) {
         R"({"a": )" + entry("F32", "[1]", first) + R"(, "b": )" + entry("F32", "[1]", second) + "}",
         kEight));
   };
-  expect_in("tensor 'b' begins at byte 2 of the data, where byte 4 is the first that is free",
+  expect_in("tensor 'b' begins at byte 2 of the data, but byte 4 is the first free one",
             two("[0, 4]", "[2, 6]"));
   expect_in("tensor 'b' begins at byte 0 of the data", two("[0, 4]", "[0, 4]"));
-  expect_in("no tensor has the 4 bytes of data before 'b'", two("[0, 4]", "[8, 12]"));
-  expect_in("no tensor has the 2 bytes of data before 'a'", two("[2, 6]", "[6, 10]"));
+  expect_in("4 unused bytes of data before 'b'", two("[0, 4]", "[8, 12]"));
+  expect_in("2 unused bytes of data before 'a'", two("[2, 6]", "[6, 10]"));
   expect_in("is truncated: 4 of its", error_of(file_with(entry("F32", "[3]", "[0, 12]"), kEight)));
   expect_in("is truncated: 8000000000000000000 of its",  // without an allocation of that size
             error_of(file_with(entry("F64", "[1000000000000000000]", "[0, 8000000000000000000]"))));
 }
 
 TEST(Safetensors, RejectsMetadataThatIsNoText) {
-  expect_in("__metadata__.epoch: is a number, expected a text",
+  expect_in("__metadata__.epoch: is a number, expected a string",
             error_of(file_of(R"({"__metadata__": {"epoch": 3}})")));
-  expect_in("__metadata__: is no object of texts", error_of(file_of(R"({"__metadata__": ["x"]})")));
-  expect_in("__metadata__: is no object of texts", error_of(file_of(R"({"__metadata__": null})")));
+  expect_in("__metadata__: is not an object of strings",
+            error_of(file_of(R"({"__metadata__": ["x"]})")));
+  expect_in("__metadata__: is not an object of strings",
+            error_of(file_of(R"({"__metadata__": null})")));
 }
 
 TEST(Safetensors, RejectsNonFiniteValues) {
@@ -280,7 +281,7 @@ TEST(Safetensors, RejectsNonFiniteValues) {
     const std::string offsets = "[0, " + std::to_string(2 * bits.size()) + "]";
     return error_of(file_with(entry(type, "[2]", offsets), std::string(bits.size(), '\0') + bits));
   };
-  expect_in("tensor 'a': value 1 is nan, allowed is -3.40", second("F32", {"\0\0\xC0\x7F", 4}));
+  expect_in("tensor 'a': value 1 is nan, allowed: -3.40", second("F32", {"\0\0\xC0\x7F", 4}));
   expect_in("tensor 'a': value 1 is -inf", second("F32", {"\0\0\x80\xFF", 4}));
   expect_in("tensor 'a': value 1 is inf", second("F16", {"\0\x7C", 2}));
   expect_in("tensor 'a': value 1 is nan", second("BF16", {"\xC0\x7F", 2}));
@@ -311,14 +312,14 @@ TEST(Safetensors, RejectsWritingInvalidWeights) {
   expect_in("tensor 'a': value 0 is nan", error("a", {{1}, {std::nanf("")}}, TensorType::kFloat16));
   expect_in("tensor 'a': value 0 is -inf",
             error("a", {{1}, {-std::numeric_limits<float>::infinity()}}, TensorType::kFloat32));
-  expect_in("tensor 'a' has 3 values, which is not the product of its shape",
+  expect_in("tensor 'a' has 3 values, expected the product of its shape",
             error("a", {{2, 2}, {1, 2, 3}}, TensorType::kFloat32));
   expect_in("tensor 'a' has 1 values", error("a", {{-1, -1}, {1}}, TensorType::kFloat32));
   expect_in("tensor 'a' has 0 values",
             error("a", {{1LL << 32, 1LL << 32}, {}}, TensorType::kFloat32));
-  expect_in("a tensor may not be called '__metadata__'",
+  expect_in("the tensor name '__metadata__'",
             error("__metadata__", {{}, {1}}, TensorType::kFloat32));
-  expect_in("is no UTF-8", error("\xFF", {{}, {1}}, TensorType::kFloat32));
+  expect_in("is not UTF-8", error("\xFF", {{}, {1}}, TensorType::kFloat32));
 }
 
 TEST(Safetensors, ChangedBytesCauseAtMostDataErrors) {

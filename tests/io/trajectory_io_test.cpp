@@ -69,7 +69,7 @@ TEST(TrajectoryTum, ErrorsNameFileAndLine) {
               message_of<DataError>([&] { read_trajectory_tum(path); }));
   }
   const auto empty = folder.write("t.txt", "# nothing\n");
-  expect_in("holds no poses", message_of<DataError>([&] { read_trajectory_tum(empty); }));
+  expect_in("has no poses", message_of<DataError>([&] { read_trajectory_tum(empty); }));
   expect_in("no such file",
             message_of<FileError>([&] { read_trajectory_tum(folder.path() / "missing.txt"); }));
 }
@@ -100,7 +100,7 @@ TEST(TrajectoryKitti, ErrorsNameFileAndLine) {
   message_of<DataError>([&] { read_trajectory_kitti(mirrored); });
   const auto valid = folder.write("p.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
   const Timestamp stamps[2];
-  expect_in("1 poses, but 2 stamps",
+  expect_in("1 poses and 2 stamps",
             message_of<DataError>([&] { read_trajectory_kitti(valid, stamps); }));
 }
 

@@ -45,7 +45,7 @@ double texture(const Eigen::Vector3d& world_point);
 /// 160 x 120, 63 degrees wide.
 CameraIntrinsics box_camera();
 
-/// View of the room by a camera at that pose: organised, static, coloured by `texture`.
+/// View of the room by a camera at that pose: organised, static, colored by `texture`.
 /// `noise` scales the default DepthNoise; 0 is exact.
 LabeledCloud organised_cloud(const BoxRoom& room, const Eigen::Isometry3d& T_world_sensor,
                              double noise = 0.0, unsigned seed = 1);

@@ -168,15 +168,15 @@ TEST(SoloNetwork, RejectsWeightsOfOtherArchitecture) {
   const Weights valid = to_weights(*network);
   Weights missing = valid;
   missing.tensors.erase("neck.fpn_convs.0.conv.bias");
-  expect_in("file: lacks the network's tensor neck.fpn_convs.0.conv.bias",
+  expect_in("file: misses the tensor neck.fpn_convs.0.conv.bias",
             message_of<DataError>([&] { load_weights(*network, missing, "file"); }));
   Weights extra = valid;
   extra.tensors["neck.rfp_weight.bias"] = {{1}, {0.0F}};
-  expect_in("has the tensor neck.rfp_weight.bias, which the network does not",
+  expect_in("has the tensor neck.rfp_weight.bias, which its network does not have",
             message_of<DataError>([&] { load_weights(*network, extra, "file"); }));
   Weights other = valid;
   other.tensors["mask_head.conv_cls.bias"] = {{80}, std::vector<float>(80)};
-  expect_in("tensor mask_head.conv_cls.bias is (80), but the network's is (2)",
+  expect_in("tensor mask_head.conv_cls.bias is (80), the network has (2)",
             message_of<DataError>([&] { load_weights(*network, other, "file"); }));
   EXPECT_EQ(to_weights(*network), valid);
 }

@@ -38,16 +38,17 @@ void expect_skipped(const TempFolder& folder, int frames, int skipped, const std
 TEST(BadInput, RejectsEmptyFolder) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "data");
-  expect_error(run_data(folder), "data: is empty: no recording (expected rgb.txt and depth.txt");
-  expect_error(run_mms(folder.path(), {"info", "data"}), "data: is empty: no recording");
+  expect_error(run_data(folder),
+               "data: is empty: no recording found (expected rgb.txt and depth.txt");
+  expect_error(run_mms(folder.path(), {"info", "data"}), "data: is empty: no recording found");
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
 }
 
 TEST(BadInput, RejectsMissingFolder) {
   const TempFolder folder;
-  expect_error(run_data(folder), "data: there is no such recording");
+  expect_error(run_data(folder), "data: no such recording");
   folder.write("data", "a file");
-  expect_error(run_data(folder), "data: is a file, a recording is a folder");
+  expect_error(run_data(folder), "data: is a file; a recording is a folder");
 }
 
 TEST(BadInput, RejectsMissingDepthList) {
@@ -79,14 +80,14 @@ TEST(BadInput, SkipsColorAndDepthOfDifferentSize) {
   write_scene(folder.path() / "data", small_scene(3));
   write_png(folder.path() / "data/depth/0000.png", Image<std::uint16_t>(80, 60, 1500));
   write_png(folder.path() / "data/rgb/0002.png", Image<Rgb>(80, 60));
-  expect_skipped(folder, 1, 2, "is 80x60 pixels, the calibration says 320x240");
+  expect_skipped(folder, 1, 2, "is 80x60 pixels, the calibration has 320x240");
 }
 
 TEST(BadInput, SkipsMaskOfOtherSize) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(3));
   write_png(folder.path() / "data/masks/0001.png", Image<std::uint8_t>(80, 60));
-  expect_skipped(folder, 2, 1, "data/masks/0001.png: is 80x60 pixels, the calibration says");
+  expect_skipped(folder, 2, 1, "data/masks/0001.png: is 80x60 pixels, the calibration has");
 }
 
 TEST(BadInput, RejectsRecordingWithoutValidFrames) {
@@ -110,7 +111,7 @@ TEST(BadInput, SurvivesFiftyFramesWithoutDepth) {
   const TempFolder folder;
   write_scene_without_depth(folder, 50);
   expect_skipped(folder, 58, 0, "warning");
-  expect_in(" of 58 frames, whose poses are predictions", run_data(folder).out);
+  expect_in(" of 58 frames, whose poses are predicted", run_data(folder).out);
   const auto status = json_file(folder.path() / "out/metrics.json")["status"];
   EXPECT_GT(status["lost"].get<int>() + status["degenerate"].get<int>(), 0);
   for (const StampedPose& pose : read_trajectory_tum(folder.path() / "out/trajectory.tum")) {
@@ -156,7 +157,7 @@ TEST(BadInput, SkipsEmptyScan) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 3);
   folder.write("data/000001.bin", "");
-  expect_skipped(folder, 2, 1, "frame 000001 skipped: data/000001.bin: is an empty scan of 0 b");
+  expect_skipped(folder, 2, 1, "frame 000001 skipped: data/000001.bin: is empty");
 }
 
 TEST(BadInput, SkipsTruncatedScan) {
@@ -194,10 +195,10 @@ TEST(BadInput, RejectsUnwritableOutput) {
   folder.write("occupied", "a file");
   const std::string small = "sim:corridor?width=320&frames=2";
   expect_error(run_mms(folder.path(), {"run", small, "--segmenter", "masks", "-o", "occupied"}),
-               "occupied: cannot be made a folder");
+               "occupied: cannot create the folder");
   expect_error(
       run_mms(folder.path(), {"run", small, "--segmenter", "masks", "-o", "occupied/below"}),
-      "occupied/below: cannot be made a folder");
+      "occupied/below: cannot create the folder");
 }
 
 TEST(BadInput, RejectsResultThatCannotBeReplaced) {

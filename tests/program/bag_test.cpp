@@ -41,14 +41,14 @@ TEST_F(BagCommands, InfoListsAllAndChosenTopics) {
   expect_success(outcome);
   expect_in("layout: ROS 1 bag", outcome.out);
   expect_in("topic: /camera/color/image_raw, sensor_msgs/Image, 8 messages", outcome.out);
-  expect_in("colour topic: /camera/color/image_raw", outcome.out);
+  expect_in("color topic: /camera/color/image_raw", outcome.out);
   expect_in("frame 7: readable", outcome.out);
 }
 
 TEST_F(BagCommands, ConvertsToFolderAndBack) {
   const Outcome outcome = run({"convert", "x.bag"});
   expect_success(outcome);
-  expect_in("x: 8 frames, 8 true poses", outcome.out);
+  expect_in("x: 8 frames, 8 ground-truth poses", outcome.out);
   EXPECT_EQ(trajectory_of("x", "masks"), trajectory_of("tum", "masks"));
   expect_error(run({"convert", "x.bag"}), "x: is not empty");
 }
@@ -65,9 +65,10 @@ TEST_F(BagCommands, ErrorsOfBadBagsAreOneLine) {
   folder_.write("empty.bag", "");
   expect_error(run({"run", "cut.bag"}), "cut.bag: is truncated: it has /camera/");
   expect_error(run({"run", "empty.bag"}), "empty.bag: is empty");
-  expect_error(run({"run", "x.bag", "--topic-depth", "/d"}), "--topic-depth is /d, which is not");
-  expect_error(run({"run", "tum", "--topic-depth", "/d"}), "is no bag");
-  expect_error(run({"convert", "sim:crowd?frames=1"}), "give -o x.bag");
+  expect_error(run({"run", "x.bag", "--topic-depth", "/d"}),
+               "--topic-depth is /d, which is missing");
+  expect_error(run({"run", "tum", "--topic-depth", "/d"}), "is not a bag");
+  expect_error(run({"convert", "sim:crowd?frames=1"}), "use -o x.bag");
 }
 
 TEST_F(BagCommands, ConvertsSimulationsToBags) {

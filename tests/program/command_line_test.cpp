@@ -138,8 +138,8 @@ TEST(Info, DescribesRecording) {
   const Outcome outcome = run_mms(folder.path(), {"info", "data"});
   expect_success(outcome);
   for (const char* fact :
-       {"layout: TUM RGB-D", "5 colour and 5 depth images, 5 matched", "masks: 5 of 5",
-        "image: 320x240 pixels, 1000 depth units per metre", "rate: 15.00 Hz",
+       {"layout: TUM RGB-D", "5 color and 5 depth images, 5 matched", "masks: 5 of 5",
+        "image: 320x240 pixels, 1000 depth units per meter", "rate: 15.00 Hz",
         "ground truth: 5 poses", "frame 0: readable", "frame 2: readable", "frame 4: readable"}) {
     expect_in(fact, outcome.out);
   }

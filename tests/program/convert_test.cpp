@@ -38,7 +38,7 @@ TEST(Convert, ConvertsTrajectoriesBothDirections) {
   write_trajectory_tum(folder.path() / "a.tum", sample_poses());
   const Outcome forward = run_mms(folder.path(), {"convert", "a.tum"});
   expect_success(forward);
-  expect_in("a_kitti.txt: 3 poses, without their stamps", forward.out);
+  expect_in("a_kitti.txt: 3 poses, without stamps", forward.out);
   fs::rename(folder.path() / "a.tum", folder.path() / "stamps.tum");
   expect_success(run_mms(folder.path(), {"convert", "a_kitti.txt", "--stamps", "stamps.tum"}));
   expect_same(read_trajectory_tum(folder.path() / "a.tum"), sample_poses());
@@ -76,16 +76,18 @@ TEST(Convert, ErrorsExplainImpossibleConversions) {
   folder.write("words.txt", "one\n");
   fs::create_directory(folder.path() / "results");
   expect_usage_error(run({}), "IN is required");
-  expect_error(run({"none.tum"}), "none.tum: there is no such file");
-  expect_error(run({"a.obj"}), "a.obj: has the unknown extension '.obj' (trajectories are .tum");
+  expect_error(run({"none.tum"}), "none.tum: no such file");
+  expect_error(run({"a.obj"}),
+               "a.obj: has the unknown extension '.obj' (supported: trajectories .tum");
   expect_error(run({"a"}), "a: has no extension");
   expect_error(run({"empty.ply"}), "empty.ply");
-  expect_error(run({"empty.txt"}), "empty.txt: holds no poses");
+  expect_error(run({"empty.txt"}), "empty.txt: has no poses");
   expect_error(run({"a.tum", "-o", "a.ply"}), "a.ply: is a cloud, but a.tum is a trajectory");
-  expect_error(run({"k.txt"}), "k.txt: has no stamps, which TUM trajectories need (give --stamps");
-  expect_error(run({"k.txt", "--stamps", "two.txt"}), "k.txt: 3 poses, but 2 stamps");
+  expect_error(run({"k.txt"}),
+               "k.txt: has no stamps, which TUM trajectories require (use --stamps");
+  expect_error(run({"k.txt", "--stamps", "two.txt"}), "k.txt: 3 poses and 2 stamps");
   expect_error(run({"k.txt", "--stamps", "words.txt"}), "words.txt:1: 'one' is not a stamp");
-  expect_error(run({"a.tum", "--stamps", "two.txt"}), "a.tum has stamps of its own");
+  expect_error(run({"a.tum", "--stamps", "two.txt"}), "a.tum has stamps");
   expect_error(run({"results"}), "results: has no journal.bin");
 }
 
@@ -97,10 +99,10 @@ TEST(Convert, ErrorsExplainDamagedJournal) {
     return run_mms(folder.path(), {"convert", "results"});
   };
   expect_error(convert(""), "results/journal.bin: is empty");
-  expect_error(convert("not one"), "results/journal.bin: is no journal");
+  expect_error(convert("not one"), "results/journal.bin: is not a journal");
   expect_error(convert(header.substr(0, 20)), "results/journal.bin: the record at byte 8");
-  expect_error(convert(header), "results/journal.bin: holds no whole frame");
-  expect_error(convert(header + "\xFF\xFF\xFF\x7F torn"), "holds no whole frame");
+  expect_error(convert(header), "results/journal.bin: has no complete frame");
+  expect_error(convert(header + "\xFF\xFF\xFF\x7F torn"), "has no complete frame");
   EXPECT_FALSE(fs::exists(folder.path() / "results/trajectory.tum"));
   const Outcome outcome = convert(header + encode_frame({}) + "torn");
   expect_success(outcome);

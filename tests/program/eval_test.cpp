@@ -57,7 +57,7 @@ TEST(EvalTrajectory, ErrorsAreOneLine) {
   expect_error(run("missing.tum"), "missing.tum: ");
   expect_error(run("late.tum"), "0 of 3 estimated poses match");
   expect_error(run("garbled.tum"), "garbled.tum:2: ");
-  expect_error(run("kitti.txt"), "kitti.txt: is of another form than a.tum");
+  expect_error(run("kitti.txt"), "kitti.txt: has another format than a.tum");
   expect_error(run("empty.tum"), "empty.tum: ");
 }
 
@@ -185,9 +185,9 @@ TEST_F(EvalSegmentation, SelectsClassOrSplit) {
 
 TEST_F(EvalSegmentation, WrongNamesAreOneLineErrors) {
   expect_error(run({"--category", "cat"}),
-               "truth.json: has no class 'cat' (its classes are: agv, person)");
+               "truth.json: has no class 'cat' (its classes: agv, person)");
   expect_error(run({"--split", "test"}),
-               "truth.json: has no images of the split 'test' (its splits are: holdout, train)");
+               "truth.json: has no images in the split 'test' (its splits: holdout, train)");
 }
 
 TEST_F(EvalSegmentation, DamagedFilesAreOneLineErrors) {
@@ -202,15 +202,15 @@ TEST_F(EvalSegmentation, DamagedFilesAreOneLineErrors) {
     expect_error(run({}, "truth.json", found), part);
   };
   expect_error_of("missing.json", "missing.json: ");
-  expect_error_of("cut.json", "cut.json: is no JSON: parse error");
-  expect_error_of("empty.json", "empty.json: is no JSON: parse error");
+  expect_error_of("cut.json", "cut.json: is not JSON: parse error");
+  expect_error_of("empty.json", "empty.json: is not JSON: parse error");
   expect_error_of("number.json", "number.json: [0]: is a number, expected an object");
-  expect_error_of("truth.json", "truth.json: is no list of results");
-  expect_error_of("stranger.json", "stranger.json: [0].image_id: is 9, there is no such image");
+  expect_error_of("truth.json", "truth.json: is not a list of results");
+  expect_error_of("stranger.json", "stranger.json: [0].image_id: is 9, no such image");
   expect_error_of("turned.json",
-                  "turned.json: [0].segmentation: is of 3 x 4 px, its image 1 of 4 x 3 px");
-  expect_error(run({}, "cut.json"), "cut.json: is no JSON: parse error");
-  expect_error(run({}, "found.json"), "found.json: is a list, as results are");
+                  "turned.json: [0].segmentation: has 3 x 4 px, its image 1 has 4 x 3 px");
+  expect_error(run({}, "cut.json"), "cut.json: is not JSON: parse error");
+  expect_error(run({}, "found.json"), "found.json: is a list, as of results");
 }
 
 /// The reference implementations' values for the shared trajectories.

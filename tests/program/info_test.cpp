@@ -14,7 +14,7 @@ TEST(Info, DescribesWeightsFile) {
       run_mms(folder.path(), {"info", MMS_SOURCE_DIR "/weights/nano.safetensors"});
   expect_success(outcome);
   expect_in("segmentation network of the classes person, agv", outcome.out);
-  expect_in("GFLOP for a picture of 640x480 (input 416x320)", outcome.out);
+  expect_in("GFLOP for an image of 640x480 (input 416x320)", outcome.out);
   expect_in("size: nano", outcome.out);
 }
 

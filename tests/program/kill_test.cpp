@@ -102,7 +102,7 @@ TEST(Kill, TerminationSignalsLetRunWriteResults) {
     run.send(signal);
     const Outcome outcome = run.wait();
     expect_success(outcome);
-    EXPECT_EQ(lines_with(outcome, "interrupted, writing what is done so far"), 1);
+    EXPECT_EQ(lines_with(outcome, "interrupted, writing the results so far"), 1);
     const std::size_t poses = read_trajectory_tum(out / "trajectory.tum").size();
     EXPECT_GE(poses, 1U);
     EXPECT_LT(poses, std::size_t{kFrames});

@@ -52,7 +52,7 @@ TEST(Quantize, WritesFloatOrInt8Weights) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run_mms(folder.path(), arguments);
     expect_success(outcome);
-    expect_in("calibrated on 4 pictures", outcome.out);
+    expect_in("calibrated on 4 images", outcome.out);
     return fs::file_size(folder.path() / output);
   };
   const auto floats = quantize("floats", {});

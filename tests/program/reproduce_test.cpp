@@ -49,7 +49,7 @@ TEST(Reproduce, WritesPaperTablesIntoReport) {
   EXPECT_EQ(tables[1]["rows"][2][3], "0.875 / 0.502");
   EXPECT_EQ(tables[3]["rows"].size(), 2U);
   const std::string report = read_file(folder.path() / "out/report.html");
-  expect_in("Localisation comparison", report);
+  expect_in("Localization comparison", report);
   expect_in("truth", report);
   expect_in("Table II", outcome.out);
   EXPECT_TRUE(fs::exists(folder.path() / "out/still_vision/metrics.json"));
@@ -58,9 +58,9 @@ TEST(Reproduce, WritesPaperTablesIntoReport) {
 
 TEST(Reproduce, ErrorsNameInvalidTrainings) {
   const TempFolder folder;
-  expect_error(reproduce(folder, {"--trainings", "nowhere"}), "nowhere: is no folder");
+  expect_error(reproduce(folder, {"--trainings", "nowhere"}), "nowhere: is not a folder");
   fs::create_directories(folder.path() / "empty");
-  expect_error(reproduce(folder, {"--trainings", "empty"}), "empty: holds no finished training");
+  expect_error(reproduce(folder, {"--trainings", "empty"}), "empty: has no finished training");
   folder.write("bad/solov2-1/ap.json", "{}");
   expect_error(reproduce(folder, {"--trainings", "bad"}), "ap.json");
 }

@@ -62,7 +62,7 @@ TEST(RobotMaps, WarnsWithoutFloor) {
   folder.write("large.yaml", "occupancy: {floor: {min_area: 10000}}\n");
   const Outcome outcome = run_scene(folder, {"-c", "large.yaml"});
   expect_success(outcome);
-  EXPECT_EQ(lines_with(outcome, "warning: no floor of 10000 m^2 was found"), 1) << outcome.err;
+  EXPECT_EQ(lines_with(outcome, "warning: no floor of 10000 m^2 found"), 1) << outcome.err;
   EXPECT_TRUE(fs::exists(folder.path() / "out/map.yaml"));
 }
 

@@ -196,7 +196,7 @@ TEST(Run, WritesOtherResultsWhenPicturesFail) {
   folder.write("out/pictures", "a file");
   const Outcome outcome = run_recording(folder);
   EXPECT_NE(outcome.exit_code, 0);
-  expect_in("out/pictures: cannot be made a folder", outcome.err);
+  expect_in("out/pictures: cannot create the folder", outcome.err);
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/report.html"));
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/static_map.ply"));
 }
@@ -205,7 +205,7 @@ TEST(Run, ReadsMasksFromOtherFolder) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(2));
   fs::rename(folder.path() / "data/masks", folder.path() / "people");
-  expect_error(run_recording(folder, {"--segmenter", "masks"}), "data: has no masks (put label");
+  expect_error(run_recording(folder, {"--segmenter", "masks"}), "data: has no masks (add label");
   expect_success(run_recording(folder, {"--segmenter", "masks", "--masks", "people"}));
   EXPECT_GT(json_file(folder.path() / "out/metrics.json")["dynamic_share"], 0.0);
 }

@@ -20,7 +20,7 @@ TEST(Segment, FindsPeopleOfSimulation) {
   const TempFolder folder;
   const Outcome outcome = run_mms(folder.path(), {"segment", "sim:crowd?frames=3", "-o", "out"});
   expect_success(outcome);
-  expect_in("out: 3 pictures, ", outcome.out);
+  expect_in("out: 3 images, ", outcome.out);
   const CocoDataset images = read_coco(folder.path() / "out/images.json");
   ASSERT_EQ(images.images.size(), 3U);
   const std::vector<CocoResult> results = read_coco_results(folder.path() / "out/results.json");
@@ -122,17 +122,16 @@ TEST(Segment, WeightsOfOtherNetworkAreOneLineError) {
   weights.tensors.erase("neck.fpn_convs.1.conv.weight");
   write_safetensors(folder.path() / "made.safetensors", weights);
   expect_error(segment_with(folder, read_file(folder.path() / "made.safetensors")),
-               "lacks the network's tensor neck.fpn_convs.1.conv.weight");
+               "misses the tensor neck.fpn_convs.1.conv.weight");
   weights.metadata.clear();
   write_safetensors(folder.path() / "made.safetensors", weights);
   expect_error(segment_with(folder, read_file(folder.path() / "made.safetensors")),
-               "does not say what network it is for");
+               "does not describe its network");
 }
 
 TEST(Segment, MissingFilesAreOneLineErrors) {
   const TempFolder folder;
-  expect_error(run_mms(folder.path(), {"segment", "none", "-o", "out"}),
-               "none: there is no such recording");
+  expect_error(run_mms(folder.path(), {"segment", "none", "-o", "out"}), "none: no such recording");
   write_png(folder.path() / "picture.png", Image<Rgb>(64, 48));
   expect_error(run_mms(folder.path(),
                        {"segment", "picture.png", "--weights", "no.safetensors", "-o", "out"}),

@@ -84,7 +84,7 @@ TEST(Simulate, ErrorsExplainProblem) {
   expect_error(run_mms(folder.path(), {"simulate", "crowd?seed=3", "-o", "x"}),
                "with values it is sim:crowd?seed=3");
   expect_error(simulate(folder, {"-o", "x", "--sensor", "d453"}), "--sensor: sensor cannot be");
-  expect_error(simulate(folder, {"-o", "x", "--seed", "-1"}), "--seed: seed is '-1', allowed is");
+  expect_error(simulate(folder, {"-o", "x", "--seed", "-1"}), "--seed: seed is '-1', allowed:");
   expect_error(simulate(folder, {"-o", "x", "--set", "spead=1"}), "did you mean 'speed'?");
   folder.write("bad.yaml", "sped: 1\n");
   expect_error(run_mms(folder.path(), {"simulate", "bad.yaml", "-o", "x"}), "bad.yaml:1");
@@ -118,8 +118,8 @@ TEST(Simulate, WritesTrainingSet) {
   const Words words = {"simulate", "training-set", "-o", "set", "--images", "2", "--seed", "4"};
   const Outcome outcome = run_mms(folder.path(), words);
   expect_success(outcome);
-  expect_in("set: 2 images, 2 of them rendered now", outcome.out);
-  expect_in("2 images, 0 of them rendered now", run_mms(folder.path(), words).out);
+  expect_in("set: 2 images, 2 of them rendered by this call", outcome.out);
+  expect_in("2 images, 0 of them rendered by this call", run_mms(folder.path(), words).out);
   const auto dataset = json_file(folder.path() / "set/annotations.json");
   EXPECT_EQ(dataset["images"].size(), 2U);
   EXPECT_TRUE(fs::exists(folder.path() / "set/images/000001.jpg"));

@@ -71,7 +71,7 @@ TEST(Train, ErrorsAreOneLine) {
   expect_error(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}), "none.json: ");
   folder.write("train.yaml", "network: {size: huge}\n");
   expect_error(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}),
-               "network.size is 'huge', allowed is one of nano, r18, r50");
+               "network.size is 'huge', allowed: one of nano, r18, r50");
 }
 
 }  // namespace

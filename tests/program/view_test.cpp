@@ -174,12 +174,12 @@ TEST(View, ErrorsExplainProblem) {
   const auto view = [&](const std::string& where) {
     return run_mms(folder.path(), {"view", where, "--port", "0"});
   };
-  expect_error(view("nowhere"), "nowhere: is not there");
-  expect_error(view("empty/readme.txt"), "is no folder");
-  expect_error(view("empty"), "holds no results of a run");
+  expect_error(view("nowhere"), "nowhere: does not exist");
+  expect_error(view("empty/readme.txt"), "is not a folder");
+  expect_error(view("empty"), "is not a result folder");
   expect_error(view("broken"), "trajectory.tum:1");
   expect_usage_error(run_mms(folder.path(), {"view", "empty", "--port", "70000"}), "70000");
-  expect_usage_error(run_mms(folder.path(), {"run", "data", "--view", "99999"}), "is no port");
+  expect_usage_error(run_mms(folder.path(), {"run", "data", "--view", "99999"}), "is not a port");
 }
 
 TEST(View, ErrorNamesUsedPort) {

@@ -19,7 +19,7 @@ constexpr Rgb kBlue{0, 0, 255};
 using Points = std::vector<Eigen::Vector3f>;
 using Colors = std::vector<Rgb>;
 
-/// Mean pixel of a colour.
+/// Mean pixel of a color.
 Eigen::Vector2d pixel_of(const Image<Rgb>& picture, const Rgb& color) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int count = 0;

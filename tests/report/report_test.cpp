@@ -43,8 +43,8 @@ TEST(Report, HasEverySection) {
   report.pictures = {{"frame 7", Image<Rgb>(4, 4)}};
   const std::string html = report_html(report);
   for (const char* part :
-       {"<!DOCTYPE html>", "12.3 Hz", "20 frames", "Trajectory from above", "truth, aligned",
-        "Position error against the aligned truth", "Time per stage", "whole frame",
+       {"<!DOCTYPE html>", "12.3 Hz", "20 frames", "Trajectory, top view", "ground truth, aligned",
+        "Position error against the aligned ground truth", "Time per stage", "whole frame",
         "Dynamic share", "tracking: 19", "initialized: 1", "data:image/png;base64,iVBOR",
         "data:image/jpeg;base64,/9j/", "frame 7", "</html>"}) {
     EXPECT_TRUE(contains(html, part)) << part;
@@ -84,7 +84,7 @@ TEST(Report, ShowsDistanceFromFirstPoseWithoutTruth) {
   for (ReportFrame& frame : report.frames) frame.truth_position.reset();
   const std::string html = report_html(report);
   EXPECT_TRUE(contains(html, "Distance from the first pose"));
-  EXPECT_FALSE(contains(html, "truth, aligned"));
+  EXPECT_FALSE(contains(html, "ground truth, aligned"));
 }
 
 TEST(Report, HandlesRunWithoutFrames) {

@@ -67,7 +67,7 @@ TEST_F(Bag, LeavesNoFileWithoutFinish) {
   }
   EXPECT_FALSE(fs::exists(path));
   EXPECT_FALSE(fs::exists(path.string() + ".part"));
-  expect_in("its folder is not there",
+  expect_in("its folder does not exist",
             message_of<FileError>([&] { BagWriter bag(folder_.path() / "no" / "c.bag"); }));
 }
 
@@ -98,7 +98,7 @@ TEST_F(Bag, UnindexedBagErrorListsTopics) {
   unclosed.replace(at, sizeof index, sizeof index, '\0');
   const std::string message = error(unclosed);
   expect_in(
-      "b.bag: has no index, as it was not closed: it has /image sensor_msgs/Image (5), "
+      "b.bag: has no index because it was not closed: it has /image sensor_msgs/Image (5), "
       "/pose geometry_msgs/PoseStamped (1)",
       message);
   expect_in("rosbag reindex b.bag", message);
@@ -106,9 +106,9 @@ TEST_F(Bag, UnindexedBagErrorListsTopics) {
 
 TEST_F(Bag, RejectsOtherFiles) {
   expect_in("b.bag: is empty, 0 bytes", error(""));
-  expect_in("b.bag: is no ROS 1 bag of version 2.0", error("#ROSBAG V1.2\n"));
-  expect_in("b.bag: is no ROS 1 bag of version 2.0", error("SQLite format 3"));
-  expect_in("there is no such file",
+  expect_in("b.bag: is not a ROS 1 bag of version 2.0", error("#ROSBAG V1.2\n"));
+  expect_in("b.bag: is not a ROS 1 bag of version 2.0", error("SQLite format 3"));
+  expect_in("no such file",
             message_of<FileError>([&] { BagReader bag(folder_.path() / "none.bag"); }));
 }
 

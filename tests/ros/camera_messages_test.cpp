@@ -32,7 +32,8 @@ TEST(CameraMessages, RejectsUnsupportedDistortion) {
   };
   msg::CameraInfo message = camera_info_message({}, kCamera);
   message.distortion_model = "equidistant";
-  expect_in("has the lens 'equidistant' of 5 coefficients, expected plumb_bob", error(message));
+  expect_in("has the distortion model 'equidistant' of 5 coefficients, expected plumb_bob",
+            error(message));
   message.D = {0, 0, 0, 0};
   EXPECT_EQ(intrinsics_of(message, false, "test").distortion, (std::array<double, 5>{}));
   message.distortion_model = "rational_polynomial";

@@ -137,7 +137,7 @@ TEST(CloudMessages, ErrorsExplainProblem) {
   expect_in("has 23 bytes for 2x1 points of 12", error(few));
   msg::PointCloud2 outside = valid;
   outside.point_fields[2].offset = 9;
-  expect_in("its field 'z' ends at byte 13 of points of 12", error(outside));
+  expect_in("its field 'z' ends at byte 13 of points with 12", error(outside));
   msg::PointCloud2 wrapped = valid;
   wrapped.point_fields[2].offset = 0xFFFFFFFE;
   expect_in("its field 'z' ends at byte 4294967298", error(wrapped));

@@ -138,7 +138,7 @@ TEST(ImageMessages, ErrorsExplainProblem) {
   expect_in("has the encoding 'rgb8', expected 16UC1", error(valid, true));
   msg::Image few = valid;
   few.data.pop_back();
-  expect_in("has 11 bytes in rows of 6, but 2x2 pixels of rgb8 take 12", error(few));
+  expect_in("has 11 bytes in rows of 6, but 2x2 pixels of rgb8 need 12", error(few));
   msg::Image narrow = valid;
   narrow.step = 5;
   expect_in("in rows of 5", error(narrow));
@@ -147,8 +147,8 @@ TEST(ImageMessages, ErrorsExplainProblem) {
   expect_in("is 0x2 pixels", error(none));
   msg::Image huge = valid;
   huge.width = huge.height = 0xFFFFFFFF;
-  expect_in("allowed is 1x1 to 16384x16384", error(huge));
-  expect_in("not RVL", message_of<DataError>([] {
+  expect_in("allowed: 1x1 to 16384x16384", error(huge));
+  expect_in("not as RVL", message_of<DataError>([] {
               depth_of(msg::CompressedImage{{}, "16UC1; compressedDepth rvl", {1, 2, 3}}, "test");
             }));
 }

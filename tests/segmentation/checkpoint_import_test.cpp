@@ -109,13 +109,13 @@ TEST(CheckpointImport, ImportsDetectors) {
 TEST(CheckpointImport, ErrorsNameUnknownTensors) {
   Weights weights = small_checkpoint();
   weights.tensors["module.rpn_head.conv.weight"] = {{1}, {1}};
-  expect_in("has 1 tensors that its network has no place for: 'module.rpn_head.conv.weight'",
+  expect_in("has 1 tensors that do not fit its network: 'module.rpn_head.conv.weight'",
             error_of(weights));
   for (const char* name : {"fc.bias", "fc.weight", "mask_head.conv_cls.scale"}) {
     weights.tensors[name] = {{1}, {1}};
   }
   expect_in(
-      "has 4 tensors that its network has no place for: 'fc.bias', 'fc.weight', "
+      "has 4 tensors that do not fit its network: 'fc.bias', 'fc.weight', "
       "'mask_head.conv_cls.scale', ...",
       error_of(weights));
   weights = small_checkpoint();
@@ -126,13 +126,13 @@ TEST(CheckpointImport, ErrorsNameUnknownTensors) {
 TEST(CheckpointImport, ErrorsNameMissingTensors) {
   Weights weights = small_checkpoint();
   weights.tensors.erase("neck.fpn_convs.1.conv.bias");
-  expect_in("lacks 1 tensors of its network, the first is 'neck.fpn_convs.1.conv.bias' (64)",
+  expect_in("lacks 1 tensors of its network, the first one: 'neck.fpn_convs.1.conv.bias' (64)",
             error_of(weights));
   weights.tensors.erase("backbone.layer1.1.conv2.weight");
   expect_in(
-      "lacks 2 tensors of its network, the first is 'backbone.layer1.1.conv2.weight' (64, 64,",
+      "lacks 2 tensors of its network, the first one: 'backbone.layer1.1.conv2.weight' (64, 64,",
       error_of(weights));
-  expect_in("is no SOLOv2 network", error_of({}));
+  expect_in("is not a SOLOv2 network", error_of({}));
 }
 
 TEST(CheckpointImport, ErrorsNameWrongShapes) {
@@ -140,12 +140,13 @@ TEST(CheckpointImport, ErrorsNameWrongShapes) {
   weights.tensors["bbox_head.solo_cate.weight"] = {{2, 128, 1, 1}, std::vector<float>(256)};
   weights.tensors.erase("mask_head.conv_cls.weight");
   expect_in(
-      "tensor 'bbox_head.solo_cate.weight' is of shape (2, 128, 1, 1), expected "
+      "tensor 'bbox_head.solo_cate.weight' has shape (2, 128, 1, 1), expected "
       "(2, 128, 3, 3)",
       error_of(weights));
   weights = small_checkpoint();
   weights.tensors["mask_head.conv_cls.bias"].values.push_back(0.0F);
-  expect_in("tensor 'mask_head.conv_cls.bias' has 3 values, its shape makes 2", error_of(weights));
+  expect_in("tensor 'mask_head.conv_cls.bias' has 3 values, expected by its shape: 2",
+            error_of(weights));
 }
 
 TEST(CheckpointImport, RejectsDuplicateTensors) {

@@ -66,23 +66,24 @@ TEST(ConfigInference, ErrorsExplainUnknownNetworks) {
     EXPECT_TRUE(message.starts_with("net: ")) << message;
     return message;
   };
-  expect_in("is no SOLOv2 network: it has no tensor 'mask_head.kernel_convs.0.conv.weight' (check",
-            error([](TensorShapes& t) { t.clear(); }));
-  expect_in("it has no tensor 'mask_head.conv_cls.weight'",
+  expect_in(
+      "is not a SOLOv2 network: missing tensor 'mask_head.kernel_convs.0.conv.weight' (supported",
+      error([](TensorShapes& t) { t.clear(); }));
+  expect_in("missing tensor 'mask_head.conv_cls.weight'",
             error([](TensorShapes& t) { t.erase("mask_head.conv_cls.weight"); }));
-  expect_in("stages of 2, 2, 23, 2 plain blocks, allowed are ResNet-18 (2, 2, 2, 2 plain)",
+  expect_in("stages of 2, 2, 23, 2 plain blocks, allowed: ResNet-18 (2, 2, 2, 2 plain)",
             error([](TensorShapes& t) { t["backbone.layer3.22.conv1.weight"] = {}; }));
   expect_in("stages of 2, 2, 2, 2 bottleneck blocks",
             error([](TensorShapes& t) { t["backbone.layer1.0.conv3.weight"] = {}; }));
-  expect_in("tensor 'mask_head.conv_cls.weight' is of shape (2), a convolution's (out, in, height",
+  expect_in("tensor 'mask_head.conv_cls.weight' has shape (2), a convolution's (out, in, height",
             error([](TensorShapes& t) { t["mask_head.conv_cls.weight"] = {2}; }));
-  expect_in("is of shape (4294967296, 0, 1, 1)", error([](TensorShapes& t) {
+  expect_in("has shape (4294967296, 0, 1, 1)", error([](TensorShapes& t) {
               t["mask_head.conv_cls.weight"] = {1LL << 32, 0, 1, 1};
             }));
-  expect_in("a network whose classes is 0, allowed is 1 to 1000", error([](TensorShapes& t) {
+  expect_in("a network whose classes is 0, allowed: 1 to 1000", error([](TensorShapes& t) {
               t["mask_head.conv_cls.weight"] = {0, 128, 3, 3};
             }));
-  expect_in("a network whose tower_depth is 100, allowed is 1 to 8",
+  expect_in("a network whose tower_depth is 100, allowed: 1 to 8",
             error([](TensorShapes& t) { t["mask_head.kernel_convs.99.conv.weight"] = {}; }));
 }
 

@@ -45,32 +45,34 @@ TEST(ModelHeader, IgnoresMissingAndInvalidNames) {
 }
 
 TEST(ModelHeader, RejectsOtherInputs) {
-  expect_in("takes an input of shape (1, 1, 64, 64), expected (1, 3, height, width)",
+  expect_in("has an input of shape (1, 1, 64, 64), expected (1, 3, height, width)",
             error_of(tiny_onnx({.channels = 1})));
   expect_in("shape (2, 3, any, any), expected", error_of(tiny_onnx({.batch = 2, .side = 0})));
   expect_in("(1, 3, 5000, 5000), expected (1, 3, height, width) with sides of at most 4096",
             error_of(tiny_onnx({.side = 5000})));
   expect_in("(18446744073709551615, 3, 64, 64), expected", error_of(tiny_onnx({.batch = -1})));
-  expect_in("takes an input of shape (), expected",
+  expect_in("has an input of shape (), expected",
             error_of(ProtobufWriter().bytes(7, "").message()));
 }
 
 TEST(ModelHeader, RejectsOtherFiles) {
-  expect_in("is no ONNX model: it has no graph", error_of(""));
-  expect_in("is no ONNX model: it has no graph", error_of(ProtobufWriter().number(1, 7).message()));
+  expect_in("is not an ONNX model: it has no graph", error_of(""));
+  expect_in("is not an ONNX model: it has no graph",
+            error_of(ProtobufWriter().number(1, 7).message()));
   expect_in(
-      "is no whole ONNX model: it has a field without a number (is it an .onnx file, and was it",
+      "is not a complete ONNX model: it has a field without a number (is it an .onnx file, and was "
+      "it",
       error_of("PK\x03\x04 a zip file, as of TorchScript"));
-  expect_in("it has a field of 111 bytes where 2 are left", error_of("\x3aoop"));
+  expect_in("it has a field of 111 bytes, but only 2 are left", error_of("\x3aoop"));
   expect_in("it has a field of the unknown type", error_of("<html><body>404</body></html>"));
   expect_in("it has a field without a number", error_of(std::string(100, '\0')));
   expect_in("it has a number of more than 64 bits", error_of("\x08" + std::string(11, '\xff')));
-  expect_in("it has a field of 18446744073709551615 bytes where 0 are left",
+  expect_in("it has a field of 18446744073709551615 bytes, but only 0 are left",
             error_of("\x3a" + std::string(9, '\xff') + "\x01"));
-  expect_in("it has a field of 8 bytes where 3 are left", error_of("\x09"
-                                                                   "abc"));
-  expect_in("it has a field of 1 bytes where 0 are left", error_of("\x08"));
-  expect_in("it has a field of 4 bytes where 0 are left", error_of("\x0d"));
+  expect_in("it has a field of 8 bytes, but only 3 are left", error_of("\x09"
+                                                                       "abc"));
+  expect_in("it has a field of 1 bytes, but only 0 are left", error_of("\x08"));
+  expect_in("it has a field of 4 bytes, but only 0 are left", error_of("\x0d"));
 }
 
 TEST(ModelHeader, DamagedFilesCauseAtMostDataErrors) {
@@ -109,9 +111,11 @@ TEST(GraphCheck, RejectsUnknownLayerInputs) {
     return message_of<DataError>([&] { check_graph(graph_of(layers), "net"); });
   };
   EXPECT_EQ(error({{{"image", "b"}, "a"}, {{"a"}, "b"}}),
-            "net: has a layer Conv that takes 'b', which nothing before it makes (export it anew)");
-  expect_in("takes 'a', which nothing", error({{{"a"}, "a"}}));
-  expect_in("takes 'imagf', which nothing", error({{{"image"}, "a"}, {{"a", "imagf"}, "b"}}));
+            "net: has a layer Conv with the input 'b', which no earlier layer computes (export it "
+            "again)");
+  expect_in("with the input 'a', which no earlier layer", error({{{"a"}, "a"}}));
+  expect_in("with the input 'imagf', which no earlier layer",
+            error({{{"image"}, "a"}, {{"a", "imagf"}, "b"}}));
 }
 
 TEST(ClassNames, ReadsPythonTexts) {
@@ -158,7 +162,7 @@ TEST(ClassNames, ReadsLists) {
             (Names{"person", "traffic light", "agv"}));
   EXPECT_EQ(listed_names("  ", "classes"), Names{});
   for (const char* text : {"person,,agv", "person, "}) {
-    expect_in("classes: class 2 of '" + std::string(text) + "' has no name",
+    expect_in("classes: class 2 of '" + std::string(text) + "' is empty",
               message_of<DataError>([&] { listed_names(text, "classes"); }));
   }
   expect_in("class 1 of ','", message_of<DataError>([] { listed_names(",", "classes"); }));

@@ -38,10 +38,10 @@ std::string error_of(const std::string& key, const std::string& value) {
 }
 
 TEST(Model, ErrorsNameField) {
-  expect_in("file: does not say what network it is for: no 'network.size'",
+  expect_in("file: does not describe its network: missing 'network.size'",
             message_of<DataError>([] { unpack_model({}, "file"); }));
   expect_in("network.head.norm is 'x', expected one of gn, bn", error_of("network.head.norm", "x"));
-  expect_in("network.neck.channels is '-5', expected a whole number in [8, 512]",
+  expect_in("network.neck.channels is '-5', expected an integer in [8, 512]",
             error_of("network.neck.channels", "-5"));
   expect_in("network.head.tower_depth is '2x'", error_of("network.head.tower_depth", "2x"));
   expect_in("names 3 classes, but its network has 2", error_of("classes", "a,b,c"));

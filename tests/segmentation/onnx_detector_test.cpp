@@ -108,11 +108,11 @@ TEST(OnnxDetector, ConfiguredClassesOverrideFile) {
   const TempFolder folder;
   EXPECT_EQ(detector_of(folder, {}, {.classes = "person, agv"}).classes(),
             (Names{"person", "agv"}));
-  expect_in("known with 3 classes are (1, 4 + 3 + M, N)",
+  expect_in("supported for 3 classes: (1, 4 + 3 + M, N)",
             message_of<DataError>([&] { detector_of(folder, {}, {.classes = "person,agv,dog"}); }));
-  expect_in("known with 80 classes are",
+  expect_in("supported for 80 classes:",
             message_of<DataError>([&] { detector_of(folder, {.names = "unreadable"}); }));
-  expect_in("classes: class 2 of 'person,' has no name",
+  expect_in("classes: class 2 of 'person,' is empty",
             message_of<DataError>([&] { detector_of(folder, {}, {.classes = "person,"}); }));
 }
 
@@ -135,11 +135,11 @@ TEST(OnnxDetector, ErrorsNameInvalidModel) {
     return message;
   };
   expect_in("has no graph", error(""));
-  expect_in("is no whole ONNX model", error("not a model at all"));
+  expect_in("is not a complete ONNX model", error("not a model at all"));
   const std::string whole = tiny_onnx({});
-  expect_in("is no whole ONNX model: it has a field of", error(whole.substr(0, 5000)));
-  expect_in("gives (1, 8, 64), known with 2 classes", error(tiny_onnx({.prototypes = false})));
-  expect_in("takes an input of shape (1, 1, 64, 64)", error(tiny_onnx({.channels = 1})));
+  expect_in("is not a complete ONNX model: it has a field of", error(whole.substr(0, 5000)));
+  expect_in("gives (1, 8, 64), supported for 2 classes", error(tiny_onnx({.prototypes = false})));
+  expect_in("has an input of shape (1, 1, 64, 64)", error(tiny_onnx({.channels = 1})));
   const std::string unknown = error(tiny_onnx({.last = "Frobnicate"}));
   expect_in("OpenCV ", unknown);
   expect_in("Frobnicate", unknown);
@@ -151,7 +151,7 @@ TEST(OnnxDetector, ErrorsNameUnreadableFile) {
   const auto error = [](const std::filesystem::path& path) {
     return message_of<FileError>([&] { OnnxDetector(path, {}, 1); });
   };
-  expect_in("nowhere.onnx: there is no such file", error(folder.path() / "nowhere.onnx"));
+  expect_in("nowhere.onnx: no such file", error(folder.path() / "nowhere.onnx"));
   expect_in(": is not a regular file", error(folder.path()));
 }
 

@@ -40,12 +40,12 @@ TEST(YoloLayout, ErrorsNameFoundAndSupportedShapes) {
     return message_of<DataError>([&] { find_layout(outputs, classes, "net.onnx"); });
   };
   EXPECT_EQ(error({{1, 116, 8400}, {1, 32, 160, 160}}, 2),
-            "net.onnx: gives (1, 116, 8400) and (1, 32, 160, 160), known with 2 classes are "
+            "net.onnx: gives (1, 116, 8400) and (1, 32, 160, 160), supported for 2 classes: "
             "(1, 4 + 2 + M, N) of YOLOv8-seg and YOLO11-seg and (1, N, 5 + 2 + M) of YOLOv5-seg, "
-            "each with (1, M, H, W) (take a model for segmentation, exported without NMS, and name "
-            "its classes in their order)");
-  expect_in("gives (1, 84, 8400), known", error({{1, 84, 8400}}, 80));
-  expect_in("gives nothing, known", error({}, 80));
+            "each with (1, M, H, W) (use a model for segmentation, exported without NMS, and give "
+            "its class names in order)");
+  expect_in("gives (1, 84, 8400), supported", error({{1, 84, 8400}}, 80));
+  expect_in("gives nothing, supported", error({}, 80));
   expect_in("gives (2, 116, 8400) and (1, 32, 160, 160)",
             error({{2, 116, 8400}, {1, 32, 160, 160}}, 80));
   expect_in("gives (1, 116, 0) and", error({{1, 116, 0}, {1, 32, 160, 160}}, 80));

@@ -34,19 +34,19 @@ TEST(Command, RejectsInvalidCommandsWithReason) {
   const auto reason = [](std::string_view text) {
     return message_of<DataError>([&] { parse_command(text); });
   };
-  expect_in("is no JSON object", reason(""));
-  expect_in("is no JSON object", reason("\xff\xfe{"));
-  expect_in("is no JSON object", reason("[1,2]"));
-  expect_in("is no JSON object", reason(std::string(2000, '[')));
+  expect_in("is not a JSON object", reason(""));
+  expect_in("is not a JSON object", reason("\xff\xfe{"));
+  expect_in("is not a JSON object", reason("[1,2]"));
+  expect_in("is not a JSON object", reason(std::string(2000, '[')));
   expect_in("has no \"type\"", reason("{}"));
-  expect_in("known are play", reason(R"({"type":"format"})"));
-  expect_in("known are play", reason(R"({"type":7})"));
+  expect_in("known: play", reason(R"({"type":"format"})"));
+  expect_in("known: play", reason(R"({"type":7})"));
   expect_in("has no \"frame\"", reason(R"({"type":"seek"})"));
-  expect_in("\"frame\" has to be a number from 0.0 to", reason(R"({"type":"seek","frame":-1})"));
-  expect_in("\"frame\" has to be a number", reason(R"({"type":"seek","frame":1e300})"));
-  expect_in("\"value\" has to be a number from 0.1 to 20", reason(R"({"type":"speed","value":0})"));
-  expect_in("\"value\" has to be", reason(R"({"type":"speed","value":"fast"})"));
-  expect_in("\"points\" has to be true or false", reason(R"({"type":"want","points":1})"));
+  expect_in("\"frame\" must be a number from 0.0 to", reason(R"({"type":"seek","frame":-1})"));
+  expect_in("\"frame\" must be a number", reason(R"({"type":"seek","frame":1e300})"));
+  expect_in("\"value\" must be a number from 0.1 to 20", reason(R"({"type":"speed","value":0})"));
+  expect_in("\"value\" must be", reason(R"({"type":"speed","value":"fast"})"));
+  expect_in("\"points\" must be true or false", reason(R"({"type":"want","points":1})"));
   expect_in("[x, y, z]", reason(R"({"type":"focus","point":[1,2]})"));
   expect_in("longer than 4096", reason(std::string(5000, ' ')));
 }

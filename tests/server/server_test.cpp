@@ -105,7 +105,7 @@ TEST(Server, SurvivesGarbage) {
                                          std::string(100'000, 'b')));
   ViewerClient client(server.port());
   client.send("no JSON");
-  expect_in("is no JSON object", client.wait_for("error").json["message"].get<std::string>());
+  expect_in("is not a JSON object", client.wait_for("error").json["message"].get<std::string>());
   client.send(std::string(300, '\xfe'), true);
   client.wait_for("error");
   client.send(std::string(100'000, 'x'));  // longer than a message may be
@@ -221,7 +221,7 @@ TEST(Server, ErrorsNameAddressProblem) {
   expect_in("--port N", error(used));
   ServerOptions invalid = any_port();
   invalid.address = "here";
-  expect_in("'here' is no address", error(invalid));
+  expect_in("'here' is not an address", error(invalid));
   invalid.address = "192.0.2.1";
   expect_in("192.0.2.1", error(invalid));
 }

@@ -25,7 +25,7 @@ class TestViewer {
   void advance(Clock::duration time) {
     now_ += time;
     viewer_.tick(now_);
-    if (const auto wanted = viewer_.wanted_pictures(now_)) {
+    if (const auto wanted = viewer_.requested_pictures(now_)) {
       const auto view = scene_->view(*wanted);
       viewer_.loaded(view ? std::make_shared<EncodedPictures>(encode_pictures(*view)) : nullptr);
     }

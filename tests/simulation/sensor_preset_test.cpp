@@ -28,7 +28,7 @@ TEST(SensorPreset, ErrorListsKnownNames) {
   } catch (const DataError& error) {
     EXPECT_STREQ(error.what(),
                  "sensor: 'l516' is none of l515, d435, kinect, lidar16, lidar64, livox (choose "
-                 "one of these)");
+                 "one of them)");
   }
 }
 

@@ -134,7 +134,7 @@ TEST(ColorChanges, KeepObjectsAndCanBeDisabled) {
   EXPECT_EQ(changed.objects[0].mask.pixels(), sample.objects[0].mask.pixels());
 }
 
-TEST(ColorChanges, GreyHasNoColour) {
+TEST(ColorChanges, GreyHasNoColor) {
   RandomStream random(3);
   Sample sample = sample_of(64, 48);
   change_colors(sample, {.color = 0, .blur = 0, .noise = 0, .grey = 1}, random);

@@ -140,7 +140,7 @@ TEST(TrainingRun, RejectsFolderOfOtherSettings) {
   config.validation.clear();
   TrainingRun(config, folder.path() / "out", 1).train();
   config.schedule.learning_rate = 1e-5;
-  expect_in("has a training of other settings",
+  expect_in("has a training with other settings",
             message_of<ConfigError>([&] { TrainingRun(config, folder.path() / "out", 1); }));
 }
 
@@ -151,7 +151,7 @@ TEST(TrainingRun, ErrorNamesDamagedCheckpoint) {
   config.validation.clear();
   TrainingRun(config, folder.path() / "out", 1).train();
   fs::resize_file(folder.path() / "out/checkpoint.pt", 1000);
-  expect_in("checkpoint.pt: is no checkpoint of this network",
+  expect_in("checkpoint.pt: is not a checkpoint of this network",
             message_of<DataError>([&] { TrainingRun(config, folder.path() / "out", 1); }));
 }
 
@@ -161,11 +161,11 @@ TEST(TrainingRun, ErrorsNameInvalidData) {
   TrainingConfig config = small_training(folder.path(), 4);
   config.data[0].split = "train";
   config.validation.clear();
-  expect_in("has no images of the split 'train'",
+  expect_in("has no images in the split 'train'",
             message_of<DataError>([&] { TrainingRun(config, folder.path() / "out", 1).train(); }));
   config.data[0].split = "";
   write_png(folder.path() / "images/1.png", Image<Rgb>(64, 96));
-  expect_in("1.png: is 64x96, annotated is 128x96",
+  expect_in("1.png: is 64x96, annotated as 128x96",
             message_of<DataError>([&] { TrainingRun(config, folder.path() / "out", 1).train(); }));
   config.data.clear();
   expect_in("data: is empty",

@@ -19,7 +19,7 @@ import { listenToKeys } from './ui/shortcuts';
 import { Tabs } from './ui/tabs';
 import { ViewModes } from './ui/view_modes';
 
-/** Points of the map that this machine shall draw: phones have less memory. */
+/** Largest number of map points on this device: phones have less memory. */
 const kMapPoints = matchMedia('(pointer: coarse)').matches ? 1_500_000 : 5_000_000;
 const kFocusEvery = 600;
 let focus: Vector3 = [0, 0, 0];
@@ -81,13 +81,13 @@ function showBadge(): void {
   badge.classList.toggle('live', run.live);
 }
 
-/** Spares the server and the line what is not shown. */
+/** Saves server time and bandwidth for hidden layers. */
 function sendWanted(): void {
   const image = part('panel-image').offsetParent !== null;
   connection.send({ type: 'want', points: settings.shows('scan'), image, map: true, budget: kMapPoints });
 }
 
-/** The map is refined first where the user looks. */
+/** The map is refined first near the user's focus. */
 function sendFocus(): void {
   const point = scene.focus;
   if (Math.hypot(...point.map((value, i) => value - focus[i])) < 1) return;

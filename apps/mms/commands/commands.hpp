@@ -11,42 +11,43 @@ namespace mms {
 /// Adds `mms config dump` and `mms config check FILE`.
 void add_config_command(CLI::App& app);
 
-/// Adds `mms convert`: files in other formats, and the files of a run that was killed.
+/// Adds `mms convert`: conversion of files, and recovery of a killed run.
 void add_convert_command(CLI::App& app);
 
-/// Adds `mms doctor`: what this machine and build can do, and whether the program works on it.
+/// Adds `mms doctor`: capabilities of machine and build, and a short self-test.
 void add_doctor_command(CLI::App& app);
 
-/// Adds `mms eval trajectory|drift|map|residue`. Running one prints a table, or with --json one
-/// object with the contract's keys, on stdout. @throws Error from its callback
+/// Adds `mms eval trajectory|drift|map|ghost-points|objects|segmentation`. Each prints a table, or
+/// with --json one object, on stdout.
+/// @throws Error from its callback
 void add_eval_command(CLI::App& app);
 
 /// Adds `mms import`.
 void add_import_command(CLI::App& app);
 
-/// Adds `mms info DATA`: what a recording holds, and whether its frames can be read.
+/// Adds `mms info DATA`: content of a recording, and whether its frames can be read.
 void add_info_command(CLI::App& app);
 
 /// Adds `mms quantize`.
 void add_quantize_command(CLI::App& app);
 
-/// Adds `mms reproduce`: the paper's tables and figures by one command.
+/// Adds `mms reproduce`: the paper's tables and figures.
 void add_reproduce_command(CLI::App& app);
 
-/// Adds `mms run [DATA]`: the whole system over a recording, results in a folder.
+/// Adds `mms run [DATA]`: runs the system on a recording, with results in a folder.
 void add_run_command(CLI::App& app);
 
 /// Adds `mms segment`.
 void add_segment_command(CLI::App& app);
 
-/// Adds `mms simulate SCENE -o DIR`, which writes a simulated recording with its truth, and
-/// `mms simulate training-set`.
+/// Adds `mms simulate SCENE -o DIR`, which writes a simulated recording with ground truth, and `mms
+/// simulate training-set`.
 void add_simulate_command(CLI::App& app);
 
-/// Adds `mms train`; without libtorch it hands over to `mms-torch` beside this program.
+/// Adds `mms train`; without libtorch it starts `mms-torch` in the same folder.
 void add_train_command(CLI::App& app);
 
-/// `mms view`: shows a finished run in a browser.
+/// Adds `mms view`: shows a finished run in a browser.
 void add_view_command(CLI::App& app);
 
 }  // namespace mms

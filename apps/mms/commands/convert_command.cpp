@@ -14,7 +14,7 @@ namespace {
 
 struct ConvertArguments {
   std::filesystem::path input;
-  std::filesystem::path output;  ///< empty: beside the input
+  std::filesystem::path output;  ///< empty: next to the input
   std::filesystem::path stamps;  ///< empty: none
   BagTopicNames topics;
   bool compressed = false;
@@ -40,24 +40,21 @@ void add_convert_command(CLI::App& app) {
   const auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command = app.add_subcommand(
       "convert",
-      "Turn trajectories (.tum, _kitti.txt), clouds (.ply, .pcd) and recordings (folders, .bag) "
-      "into one another, or the journal of a run that was killed into its trajectory and map");
+      "Convert trajectories (.tum, _kitti.txt), clouds (.ply, .pcd) and recordings (folders, "
+      ".bag), or recover trajectory and map from the journal of a killed run");
   command
       ->add_option("IN", arguments->input,
-                   "file, recording, sim:SCENE, or the result folder of a run that did not come to "
-                   "its end")
+                   "file, recording, sim:SCENE, or the result folder of a killed run")
       ->required();
-  command->add_option(
-      "-o,--output", arguments->output,
-      "file, its format by its extension, or the folder for what a journal or a bag "
-      "holds: a bag becomes a TUM-layout sequence, one of LiDAR scans KITTI's "
-      "(default: beside IN in the other format, or into the result folder)");
-  command->add_option(
-      "--stamps", arguments->stamps,
-      "file with a stamp [s] at the start of each line, a TUM trajectory or KITTI's "
-      "times.txt: KITTI trajectories have none of their own");
+  command->add_option("-o,--output", arguments->output,
+                      "output file, its format by extension, or output folder for a bag or "
+                      "journal: a bag becomes a TUM-layout sequence, with LiDAR scans a KITTI "
+                      "folder (default: next to IN in the other format, or the result folder)");
+  command->add_option("--stamps", arguments->stamps,
+                      "file with a stamp [s] at the start of each line, a TUM trajectory or "
+                      "KITTI's times.txt, for KITTI trajectories, which have no stamps");
   command->add_flag("--compressed", arguments->compressed,
-                    "write images into a bag as JPEG, and depth as PNG in millimetres");
+                    "write images into a bag as JPEG, and depth as PNG in millimeters");
   add_topic_options(*command, arguments->topics);
   command->callback([arguments] { convert(*arguments); });
 }

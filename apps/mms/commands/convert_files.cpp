@@ -40,10 +40,10 @@ Format format_of(const fs::path& path) {
   throw DataError(
       path.string(),
       extension.empty() ? "has no extension" : "has the unknown extension '" + extension + "'",
-      "trajectories are .tum (TUM) and .txt (KITTI), clouds .ply and .pcd");
+      "supported: trajectories .tum (TUM) and .txt (KITTI), clouds .ply and .pcd");
 }
 
-/// Many a TUM trajectory is called .txt, so that the columns decide.
+/// TUM trajectories may be called .txt, so the number of columns decides.
 Format format_of_input(const fs::path& path) {
   const Format format = format_of(path);
   if (is_cloud(format)) return format;
@@ -69,11 +69,11 @@ std::vector<Timestamp> read_stamps(const fs::path& path) {
     const auto stamp = parse_stamp(line.fields[0]);
     if (!stamp) {
       throw DataError(table.where(line), "'" + std::string(line.fields[0]) + "' is not a stamp",
-                      "stamps are seconds, below 9.2e9");
+                      "stamps are seconds below 9.2e9");
     }
     stamps.push_back(*stamp);
   }
-  if (stamps.empty()) throw DataError(path.string(), "holds no stamps");
+  if (stamps.empty()) throw DataError(path.string(), "has no stamps");
   return stamps;
 }
 
@@ -85,9 +85,8 @@ void convert_cloud(const fs::path& input, Format from, const fs::path& output, F
 
 Trajectory read_poses(const fs::path& input, Format from, const fs::path& stamps) {
   if (from == Format::kTum && !stamps.empty()) {
-    throw DataError("--stamps",
-                    "is " + stamps.string() + ", but " + input.string() + " has stamps of its own",
-                    "only KITTI trajectories need them");
+    throw DataError("--stamps", "is " + stamps.string() + ", and " + input.string() + " has stamps",
+                    "only KITTI trajectories need --stamps");
   }
   if (from == Format::kTum) return read_trajectory_tum(input);
   return stamps.empty() ? read_trajectory_kitti(input)
@@ -98,14 +97,14 @@ void convert_trajectory(const fs::path& input, Format from, const fs::path& outp
                         const fs::path& stamps) {
   const Trajectory trajectory = read_poses(input, from, stamps);
   if (to == Format::kTum && from == Format::kKitti && stamps.empty()) {
-    throw DataError(input.string(), "has no stamps, which TUM trajectories need",
-                    "give --stamps FILE with one at the start of each line: times.txt, or the "
-                    "TUM trajectory it was made from");
+    throw DataError(input.string(), "has no stamps, which TUM trajectories require",
+                    "use --stamps FILE with one at the start of each line: times.txt, or the "
+                    "original TUM trajectory");
   }
   to == Format::kTum ? write_trajectory_tum(output, trajectory)
                      : write_trajectory_kitti(output, trajectory);
   fmt::print("{}: {} poses{}\n", output.string(), trajectory.size(),
-             from == Format::kTum && to == Format::kKitti ? ", without their stamps" : "");
+             from == Format::kTum && to == Format::kKitti ? ", without stamps" : "");
 }
 
 }  // namespace

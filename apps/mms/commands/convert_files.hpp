@@ -4,12 +4,11 @@
 
 namespace mms {
 
-/// Writes a trajectory or a cloud in another format, and says on stdout what was written.
+/// Writes a trajectory or a cloud in another format, and prints a summary on stdout.
 /// @param input   .tum or .txt (TUM or KITTI, by its columns), .ply or .pcd
-/// @param output  of the same kind; empty: beside the input in the other format
+/// @param output  of the same kind; empty: next to the input in the other format
 /// @param stamps  file whose lines begin with the stamps of a KITTI trajectory's poses; empty: none
-/// @throws DataError for an unknown or unfit extension and for what the readers refuse; FileError
-///         when a file cannot be read or written.
+/// @throws DataError for an unknown or unsuitable extension and invalid files
 void convert_file(const std::filesystem::path& input, const std::filesystem::path& output,
                   const std::filesystem::path& stamps);
 

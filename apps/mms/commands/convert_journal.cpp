@@ -19,8 +19,8 @@ fs::path journal_of(const fs::path& input) {
   if (fs::exists(journal)) return journal;
   const bool done = fs::exists(input / "trajectory.tum");
   throw DataError(input.string(), "has no journal.bin",
-                  done ? "its run came to its end: trajectory and map are there"
-                       : "only the result folder of a run that was killed has one");
+                  done ? "the run was completed: trajectory and map exist"
+                       : "only the result folder of a killed run has one");
 }
 
 /// "2026-03-01 12:30:01.250 UTC".
@@ -37,7 +37,7 @@ void print_summary(const RecoveredRun& run, const fs::path& folder) {
   fmt::print("{}: {} frames up to stamp {}, written {}\n", run.header.data, run.trajectory.size(),
              run.trajectory.back().stamp.to_string(), date_of(run.written));
   fmt::print("{} keyframes, {} map points\n", run.keyframes.size(), run.map.size());
-  if (!run.damage.empty()) fmt::print("nothing is known of what came then: {}\n", run.damage);
+  if (!run.damage.empty()) fmt::print("later frames are lost: {}\n", run.damage);
   fmt::print("trajectory: {}\nmap:        {}\n", (folder / "trajectory.tum").string(),
              (folder / "static_map.ply").string());
 }

@@ -6,11 +6,10 @@
 
 namespace mms {
 
-/// Writes the trajectory and the map of a run that did not come to its end, and says on stdout how
-/// far they go.
+/// Writes the trajectory and the map of a killed run, and prints a summary on stdout.
 /// @param input   a result folder with a journal, or the journal
-/// @param output  folder, made where there is none; empty: that of the journal
-/// @throws FileError, DataError when there is no journal, none of a frame, or no place to write to.
+/// @param output  folder, created if missing; empty: that of the journal
+/// @throws FileError, DataError if there is no valid journal or the output cannot be written.
 void convert_journal(const std::filesystem::path& input, const std::filesystem::path& output);
 
 }  // namespace mms

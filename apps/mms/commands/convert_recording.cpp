@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 fs::path other_recording(const RecordingConversion& conversion) {
   if (!conversion.output.empty()) return conversion.output;
   if (is_bag_name(conversion.input)) return fs::path(conversion.input).replace_extension();
-  throw DataError(conversion.input, "is converted into what?", "give -o x.bag");
+  throw DataError(conversion.input, "has no default output name", "use -o x.bag");
 }
 
 std::unique_ptr<FrameRecorder> open_recorder(const fs::path& output, bool compressed) {
@@ -50,7 +50,7 @@ void convert_recording(const RecordingConversion& conversion) {
   progress.finish();
   if (done == 0) throw DataError(conversion.input, "none of its frames could be read");
   recorder->finish(source->ground_truth());
-  fmt::print("{}: {} frames, {} true poses\nplay it: mms run {}\n", output.string(), done,
+  fmt::print("{}: {} frames, {} ground-truth poses\nplay it: mms run {}\n", output.string(), done,
              source->ground_truth().size(), output.string());
 }
 

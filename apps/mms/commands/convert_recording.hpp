@@ -7,19 +7,19 @@
 
 namespace mms {
 
-/// A recording to be written in another form.
+/// Conversion of a recording.
 struct RecordingConversion {
   std::string input;             ///< as of mms run
   std::filesystem::path output;  ///< x.bag, or else a folder
-  BagTopicNames topics;          ///< of a bag that is read
-  bool compressed = false;       ///< of a bag that is written
+  BagTopicNames topics;          ///< of an input bag
+  bool compressed = false;       ///< for an output bag
 };
 
-/// Whether that is what is asked for: from a bag or a simulation, or into a bag.
+/// Whether a recording is to be converted: from a bag or a simulation, or to a bag.
 bool is_recording_conversion(const std::string& input, const std::filesystem::path& output);
 
-/// Writes the recording frame by frame, with its masks and truth.
-/// @throws Error when it cannot be read or written, or none of its frames can be read.
+/// Writes the recording frame by frame, with masks and ground truth.
+/// @throws Error if it cannot be read or written, or none of its frames can be read.
 void convert_recording(const RecordingConversion& conversion);
 
 }  // namespace mms

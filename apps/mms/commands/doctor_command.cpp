@@ -33,7 +33,8 @@ bool check(const std::string& what, const std::string& fault) {
   return fault.empty();
 }
 
-/// Tracks a few simulated frames. @returns what is wrong, or nothing.
+/// Tracks a few simulated frames.
+/// @returns the fault; empty if none
 std::string trial_run() {
   const auto source = open_dataset(fmt::format("sim:rack_aisle?frames={}", kTrialFrames));
   SlamSystem system({}, std::make_unique<MaskSegmenter>());
@@ -48,23 +49,23 @@ std::string trial_run() {
     if (system.process(*frame).odometry.status == Status::kLost) return "lost track";
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  fmt::print("{:<44} {:.1f} ms a frame, one thread after the other\n", "speed without network",
+  fmt::print("{:<44} {:.1f} ms/frame, sequential on one thread\n", "speed without network",
              1000.0 * (elapsed.count() - read_seconds) / kTrialFrames);
   return "";
 }
 
-/// Segments a simulated frame with the network that the program comes with.
+/// Segments a simulated frame with the default network.
 std::string network_trial() {
   try {
     const std::unique_ptr<Detector> detector = make_detector({});
     const auto frame = open_dataset("sim:crowd?frames=1")->next();
-    detector->detect(frame->color);  // the first picture prepares the others
+    detector->detect(frame->color);  // warm-up
     const auto start = std::chrono::steady_clock::now();
     const std::size_t objects = detector->detect(frame->color).size();
     const std::chrono::duration<double, std::milli> elapsed =
         std::chrono::steady_clock::now() - start;
-    fmt::print("{:<44} {:.1f} ms a picture, one thread\n", "speed of the network", elapsed.count());
-    return objects > 0 ? "" : "found nobody in a crowd";
+    fmt::print("{:<44} {:.1f} ms/image, one thread\n", "speed of the network", elapsed.count());
+    return objects > 0 ? "" : "detected no person in a crowd";
   } catch (const Error& error) {
     return error.what();
   }
@@ -88,7 +89,7 @@ void add_doctor_command(CLI::App& app) {
   command->callback([] {
     print_machine();
     const bool tracked = check("tracking in a simulated warehouse", trial_run());
-    const bool segmented = check("finding people with the network", network_trial());
+    const bool segmented = check("person detection by the network", network_trial());
     const bool writable = check("writing to the working directory", write_trial());
     if (!tracked || !segmented || !writable)
       throw Error("doctor", "a check failed", "see the lines above");

@@ -24,13 +24,14 @@ struct InfoOptions {
   BagTopicNames topics;
 };
 
-/// Reads one frame of a freshly opened recording. @returns what is wrong with it, or nothing.
+/// Reads one frame of a newly opened recording.
+/// @returns the fault; empty if none
 std::string fault_of_frame(const InfoOptions& options, std::size_t index) {
   const auto source =
       open_dataset(options.data, {.masks = options.masks, .topics = options.topics});
   std::vector<std::string> warnings;
   source->on_warning([&](const std::string& message) { warnings.push_back(message); });
-  warnings.clear();  // those of opening, which print_info shows
+  warnings.clear();  // those of opening are shown by print_info
   source->skip(index);
   const auto frame = source->next();
   const bool read = frame && frame->index == static_cast<std::int64_t>(index);
@@ -45,7 +46,7 @@ void print_frame_checks(const InfoOptions& options, std::size_t size) {
   }
 }
 
-/// What a weights file is, and what it costs for a camera's usual picture.
+/// Prints architecture and cost of a weights file.
 void print_model(const std::string& path) {
   SegmentationModel model = unpack_model(read_safetensors(path), path);
   const NetworkConfig& network = model.network;
@@ -55,7 +56,7 @@ void print_model(const std::string& path) {
   fmt::print("segmentation network of the classes {}\n", names);
   fmt::print("{:.2f} million parameters\n",
              1e-6 * static_cast<double>(network_parameters(network)));
-  fmt::print("{:.2f} GFLOP for a picture of 640x480 (input {}x{})\n",
+  fmt::print("{:.2f} GFLOP for an image of 640x480 (input {}x{})\n",
              1e-9 * static_cast<double>(network_operations(network, input.width, input.height)),
              input.width, input.height);
   fmt::print("{}", dump_config(network));
@@ -74,12 +75,13 @@ void print_info(const InfoOptions& options) {
 
 void add_info_command(CLI::App& app) {
   const auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = app.add_subcommand("info", "Show what a recording or a weights file holds");
+  CLI::App* command =
+      app.add_subcommand("info", "Show the content of a recording or a weights file");
   command
       ->add_option("DATA", options->data,
                    "folder of the recording, x.bag, sim:SCENE, or weights.safetensors")
       ->required();
-  command->add_option("--masks", options->masks, "folder of label images named like the frames");
+  command->add_option("--masks", options->masks, "folder of label images, named as the frames");
   add_topic_options(*command, options->topics);
   command->callback([options] { print_info(*options); });
 }

@@ -45,8 +45,7 @@ const Method kWithout{"without semantics", "none", "none"};
 const Method kVision{"vision-based", "vision", "vision"};
 const Method kMultimodal{"multi-modal", "multimodal", "multimodal"};
 
-/// Plays the recordings and keeps what the report needs of every run; its files go to a folder of
-/// their own.
+/// Plays the recordings and collects the data for the report; each run has a separate folder.
 class Reproducer {
  public:
   Reproducer(const ReproduceOptions& options, const fs::path& folder)
@@ -64,7 +63,7 @@ class Reproducer {
   }
 
  private:
-  /// @return the run's numbers
+  /// @return the run's results
   PaperRun play(const std::string& data, const std::string& place, const Method& method) {
     RunOptions words;
     words.data = data;
@@ -79,7 +78,7 @@ class Reproducer {
     Progress progress;
     run.play(folder, progress);
     run.write(folder);
-    if (run.interrupted()) throw Error(data, "was interrupted", "the tables need all runs");
+    if (run.interrupted()) throw Error(data, "was interrupted", "the tables require all runs");
     last_trajectory_ = run.log().trajectory();
     last_truth_ = run.log().truth();
     return {method.name, run.log().metrics()};
@@ -106,7 +105,8 @@ class Reproducer {
     add_picture("The semantic map: people red, vehicles green", "objects.png");
   }
 
-  /// Adds the last run's path in the frame of the truth, before the first the truth itself.
+  /// Adds the last run's trajectory in the frame of the ground truth; before the first one, the
+  /// ground truth.
   void add_path(const std::string& name) {
     const auto T = align_truth(last_truth_, last_trajectory_);
     if (!T) return;
@@ -145,24 +145,22 @@ void reproduce(const ReproduceOptions& options) {
 void add_reproduce_command(CLI::App& app) {
   const auto options = std::make_shared<ReproduceOptions>();
   CLI::App* command = app.add_subcommand(
-      "reproduce", "The paper's tables and figures, in one report, from a few runs");
-  command
-      ->add_option("DATA", options->still,
-                   "recording of a sensor that stands still, for the table of drifts")
+      "reproduce", "Write a report with the paper's tables and figures, from a few runs");
+  command->add_option("DATA", options->still, "recording of a static sensor, for the drift table")
       ->capture_default_str();
   command
       ->add_option("--trajectory", options->trajectory,
-                   "recording with truth, for the localisation figure")
+                   "recording with ground truth, for the localization figure")
       ->capture_default_str();
   CLI::Option* former = command->add_option("--ride", options->trajectory)->group("");
   command->add_option("-o,--output", options->output,
                       "folder for the results (default: results/<time>_reproduction)");
   command->add_option("--trainings", options->trainings,
                       "folder of benchmarks/table1.sh, for the table of networks");
-  command->add_option("--segmenter", options->segmenter, "where masks come from: network or masks")
+  command->add_option("--segmenter", options->segmenter, "source of the masks: network or masks")
       ->check(CLI::IsMember({"network", "masks"}))
       ->capture_default_str();
-  add_frames_option(*command, options->frames, "of every recording, at most");
+  add_frames_option(*command, options->frames, "largest number of frames per recording");
   add_threads_option(*command, options->threads);
   command->callback([options, former] {
     if (former->count() > 0) print_warnings({"--ride is now called --trajectory"});

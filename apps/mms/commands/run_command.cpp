@@ -18,20 +18,20 @@
 namespace mms {
 namespace {
 
-/// The table a run ends with, and where its files are, on stdout.
+/// Prints the summary of a run and its folder on stdout.
 void print_summary(const std::filesystem::path& folder, const RunLog& log) {
   fmt::print("{}", to_table(metric_values(log.metrics())));
   const std::int64_t lost = log.metrics().status[static_cast<std::size_t>(Status::kLost)];
   if (lost > 0) {
-    fmt::print("lost in {} of {} frames, whose poses are predictions; the report shows when\n",
-               lost, log.frames().size());
+    fmt::print("lost in {} of {} frames, whose poses are predicted; the report shows when\n", lost,
+               log.frames().size());
   }
   fmt::print("report: {}\nmap:    {}\n", (folder / "report.html").string(),
              (folder / "static_map.ply").string());
 }
 
-/// Lets viewers know where the files are. Where a person is at the terminal, goes on to show the
-/// run until Ctrl-C; a script goes on at once.
+/// Passes the result folder to viewers. On a terminal it keeps serving until Ctrl-C; in a script it
+/// returns.
 void keep_showing(const SlamRun& run, const std::filesystem::path& folder) {
   run.view()->end(folder, run.log());
   if (run.interrupted()) return;
@@ -40,7 +40,7 @@ void keep_showing(const SlamRun& run, const std::filesystem::path& folder) {
                folder.string());
     return;
   }
-  fmt::print(stderr, "the viewer stays at {} until Ctrl-C\n", run.view()->server().url());
+  fmt::print(stderr, "the viewer runs at {} until Ctrl-C\n", run.view()->server().url());
   wait_for_interrupt();
 }
 
@@ -60,7 +60,7 @@ void run(const RunOptions& options) {
   if (run.view() != nullptr) keep_showing(run, folder.path());
 }
 
-/// What `--view` has after it is a port, or DATA where that is not given elsewhere.
+/// The argument of `--view` is a port, or DATA if that is not given elsewhere.
 ViewOptions view_of(const CLI::App& command, const std::string& word, ViewOptions place,
                     RunOptions& options) {
   if (word.empty()) return place;
@@ -77,47 +77,45 @@ ViewOptions view_of(const CLI::App& command, const std::string& word, ViewOption
 
 void add_run_command(CLI::App& app) {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand("run", "Localise a recording and map its surroundings");
+  CLI::App* command = app.add_subcommand("run", "Localize a recording and map its surroundings");
   command
       ->add_option("DATA", options->data,
                    "recording (folder or .bag), or a simulation: "
                    "sim:warehouse_loop[?seed=N&frames=N]")
       ->capture_default_str();
-  command->add_option("-c,--config", options->config, "settings (mms config dump prints them all)");
+  command->add_option("-c,--config", options->config,
+                      "settings file (mms config dump prints all settings)");
   command->add_option("-o,--output", options->output,
                       "folder for the results (default: results/<time>_<name>)");
   command
       ->add_option("--segmenter", options->segmenter,
-                   "where masks of people and vehicles come from: a network, the recording's "
-                   "masks/ (or --masks), or nowhere")
+                   "source of the masks of people and vehicles: a network, the recording's masks/ "
+                   "(or --masks), or none")
       ->check(CLI::IsMember({"network", "masks", "none"}))
       ->default_str("network, or masks with --masks");
   command->add_option("--weights", options->weights,
-                      "network to use in place of the settings': a safetensors file of ours, or an "
-                      "ONNX model with YOLO-seg's outputs");
-  command->add_option("--masks", options->masks, "folder of label images named like the frames");
+                      "network instead of that of the settings: our safetensors, or an ONNX model "
+                      "with YOLO-seg outputs");
+  command->add_option("--masks", options->masks, "folder of label images, named as the frames");
   command
       ->add_option("--fusion", options->fusion,
-                   "what makes a point dynamic (default: as the settings say, multimodal)")
+                   "how points are labeled dynamic (default: that of the settings, multimodal)")
       ->check(CLI::IsMember({"multimodal", "vision", "none"}));
   add_frames_option(*command, options->frames, "process at most N frames");
-  command->add_option("--start", options->start, "pass over the first K frames")
+  command->add_option("--start", options->start, "skip the first K frames")
       ->check(CLI::Range(std::size_t{0}, kMaxFrames))
       ->capture_default_str();
-  command->add_flag("--realtime", options->realtime,
-                    "play at the recording's pace and drop frames that come too fast");
+  command->add_flag("--realtime", options->realtime, "play in real time and drop late frames");
   add_threads_option(
       *command, options->threads,
-      "threads to use (default: one a core); the results are the same for any number");
-  command->add_flag("--keep-journal", options->keep_journal,
-                    "leave journal.bin, from which mms convert recovers a run that was killed, in "
-                    "the folder of a run that came to its end");
+      "threads to use (default: one per core); the results are the same for any number");
+  command->add_flag(
+      "--keep-journal", options->keep_journal,
+      "keep journal.bin, from which mms convert recovers a killed run, after the run");
   add_topic_options(*command, options->topics);
   const auto view = std::make_shared<std::string>();
   const auto place = std::make_shared<ViewOptions>();
-  command
-      ->add_option("--view", *view,
-                   "show the run in a browser while it goes on, at this port (8080)")
+  command->add_option("--view", *view, "show the live run in a browser, at this port (8080)")
       ->expected(0, 1)
       ->type_name("[PORT]");
   add_bind_option(*command, *place);

@@ -32,13 +32,13 @@ namespace fs = std::filesystem;
 struct SimulateOptions {
   std::string scene = "warehouse_loop";
   fs::path output;
-  std::string seed, frames, sensor, hz, blur;  ///< empty: as the scene says
+  std::string seed, frames, sensor, hz, blur;  ///< empty: that of the scene
   std::vector<std::string> set;                ///< key=value
-  int threads = 0;                             ///< 0: one a core
+  int threads = 0;                             ///< 0: one per core
   bool print = false;
 };
 
-/// A built-in scene, one as `mms run` takes it (sim:crowd?seed=3), or the file of one.
+/// A built-in scene, an address as for `mms run` (sim:crowd?seed=3), or a YAML file.
 SceneConfig load_scene(const std::string& scene) {
   if (is_simulated(scene)) return simulated_scene(scene);
   const auto names = scene_names();
@@ -48,7 +48,7 @@ SceneConfig load_scene(const std::string& scene) {
     const std::string hint = scene.find('?') == std::string::npos
                                  ? suggestion(scene, known)
                                  : "with values it is sim:" + scene;
-    throw DataError(scene, "there is no such scene, nor a YAML file of one", hint);
+    throw DataError(scene, "no such scene and no such YAML file", hint);
   }
   SceneConfig config;
   print_warnings(load_config(scene, config));
@@ -74,8 +74,8 @@ SceneConfig config_of(const SimulateOptions& options) {
 void print_summary(const fs::path& folder, const SimulatedScene& scene,
                    const WrittenRecording& written, double seconds) {
   fmt::print(
-      "{}: {} frames of {}, {:.1f} a second; {} instances, {} static points, {} points of "
-      "the true map\n",
+      "{}: {} frames of {}, {:.1f} frames/s; {} instances, {} static points, {} ground-truth map "
+      "points\n",
       folder.string(), written.frames, scene.sensor().name, written.frames / seconds,
       written.annotations, written.static_points, written.map_points);
   fmt::print("play it: mms run {}\n", folder.string());
@@ -113,25 +113,25 @@ std::string listed(std::span<const std::string_view> names) {
 
 void add_simulate_command(CLI::App& app) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command =
-      app.add_subcommand("simulate", "Render a warehouse into a recording with exact truth");
+  CLI::App* command = app.add_subcommand(
+      "simulate", "Render a simulated warehouse into a recording with exact ground truth");
   command
       ->add_option("SCENE", options->scene,
                    "YAML file of a scene (--print shows one), or one of " + listed(scene_names()) +
-                       ", also as mms run takes them: sim:crowd?seed=3")
+                       ", also as for mms run: sim:crowd?seed=3")
       ->capture_default_str();
-  command->add_option("-o,--output", options->output, "folder for the recording");
-  command->add_option("--seed", options->seed, "of everything that is left to chance");
-  command->add_option("--frames", options->frames, "number of frames (default: the scene's own)");
+  command->add_option("-o,--output", options->output, "output folder for the recording");
+  command->add_option("--seed", options->seed, "seed of all random numbers");
+  command->add_option("--frames", options->frames, "number of frames (default: that of the scene)");
   command->add_option("--sensor", options->sensor, "one of " + listed(sensor_names()));
-  command->add_option("--hz", options->hz, "frames a second (default: the scene's own)");
-  command->add_option("--blur", options->blur, "instants an exposure is made of; 1: no blur");
+  command->add_option("--hz", options->hz, "frame rate [Hz] (default: that of the scene)");
+  command->add_option("--blur", options->blur, "renderings per exposure; 1: no blur");
   command
       ->add_option("--set", options->set,
-                   "any value of the scene, as key=value or group.key=value; may be given again")
+                   "any setting of the scene, as key=value or group.key=value; repeatable")
       ->allow_extra_args(false);
   add_threads_option(*command, options->threads);
-  command->add_flag("--print", options->print, "only print the scene as documented YAML");
+  command->add_flag("--print", options->print, "only print the scene as YAML with descriptions");
   add_training_set_command(*command);
   command->callback([options, command] {
     if (command->get_subcommands().empty()) simulate(*options);

@@ -4,14 +4,15 @@ namespace mms {
 
 void add_topic_options(CLI::App& command, BagTopicNames& topics) {
   const auto add = [&](const char* name, std::string& topic, const char* help) {
-    command.add_option(name, topic, help)->group("Topics of a bag (found by type and name)");
+    command.add_option(name, topic, help)->group("Topics of a bag (default: by type and name)");
   };
-  add("--topic-color", topics.color, "colour images, Image or CompressedImage");
+  add("--topic-color", topics.color, "color images, Image or CompressedImage");
   add("--topic-depth", topics.depth, "depth images registered to them");
   add("--topic-cloud", topics.cloud, "LiDAR scans, PointCloud2");
-  add("--topic-camera-info", topics.camera_info, "CameraInfo of the colour images");
+  add("--topic-camera-info", topics.camera_info, "CameraInfo of the color images");
   add("--topic-mask", topics.mask, "label images: 0 static, 1 person, 2 vehicle");
-  add("--topic-truth", topics.truth, "true poses: PoseStamped, TransformStamped, Odometry or tf");
+  add("--topic-truth", topics.truth,
+      "ground-truth poses: PoseStamped, TransformStamped, Odometry or tf");
 }
 
 }  // namespace mms

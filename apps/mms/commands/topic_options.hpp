@@ -6,7 +6,7 @@
 
 namespace mms {
 
-/// Adds the options that name the topics of a bag: --topic-color and so on.
+/// Adds the options for the topics of a bag: --topic-color and so on.
 void add_topic_options(CLI::App& command, BagTopicNames& topics);
 
 }  // namespace mms

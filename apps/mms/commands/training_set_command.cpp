@@ -16,13 +16,13 @@
 namespace mms {
 namespace {
 
-constexpr int kMaxImages = 1'000'000;  // names have six digits
+constexpr int kMaxTrainingImages = 1'000'000;  // file names have six digits
 
 struct TrainingSetArguments {
   std::filesystem::path output;
   int images = 0;
   int seed = 1;
-  int threads = 0;  ///< 0: one a core
+  int threads = 0;  ///< 0: one per core
 };
 
 void write_set(const TrainingSetArguments& arguments) {
@@ -39,11 +39,11 @@ void write_set(const TrainingSetArguments& arguments) {
   const WrittenTrainingSet written = write_training_set(arguments.output, options);
   progress.finish();
   fmt::print(
-      "{}: {} images, {} of them rendered now; {} objects in annotations.json, {} of them "
+      "{}: {} images, {} of them rendered by this call; {} objects in annotations.json, {} of them "
       "marked as crowd\n",
       arguments.output.string(), written.images, written.fresh, written.annotations, written.crowd);
   if (written.images < arguments.images) {
-    fmt::print("interrupted; the same command goes on with image {}\n", written.images);
+    fmt::print("interrupted; the same command continues with image {}\n", written.images);
   }
 }
 
@@ -52,15 +52,15 @@ void write_set(const TrainingSetArguments& arguments) {
 void add_training_set_command(CLI::App& simulate) {
   const auto arguments = std::make_shared<TrainingSetArguments>();
   CLI::App* command = simulate.add_subcommand(
-      "training-set", "Render single images with COCO annotations to train a network with");
+      "training-set", "Render single images with COCO annotations for training a network");
   command
       ->add_option("-o,--output", arguments->output,
-                   "folder for the set; one left unfinished is continued")
+                   "folder of the set; an unfinished one is continued")
       ->required();
-  command->add_option("--images", arguments->images, "number of images in the whole set")
-      ->check(CLI::Range(1, kMaxImages))
+  command->add_option("--images", arguments->images, "number of images of the whole set")
+      ->check(CLI::Range(1, kMaxTrainingImages))
       ->required();
-  command->add_option("--seed", arguments->seed, "of everything that is left to chance")
+  command->add_option("--seed", arguments->seed, "seed of all random numbers")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
   add_threads_option(*command, arguments->threads);

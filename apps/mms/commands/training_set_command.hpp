@@ -5,7 +5,7 @@
 namespace mms {
 
 /// Adds `mms simulate training-set -o DIR --images N`, which writes single images with COCO
-/// annotations to train a segmentation network with.
+/// annotations for training a segmentation network.
 void add_training_set_command(CLI::App& simulate);
 
 }  // namespace mms

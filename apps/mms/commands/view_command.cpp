@@ -34,11 +34,9 @@ void view(const ViewArguments& arguments) {
 
 void add_view_command(CLI::App& app) {
   const auto arguments = std::make_shared<ViewArguments>();
-  CLI::App* command =
-      app.add_subcommand("view", "Show a finished run, or what a killed one left, in a browser");
-  command->add_option("DIR", arguments->folder, "folder that mms run wrote to")
-      ->capture_default_str();
-  command->add_option("--port", arguments->options.port, "to serve it at; 0: any that is free")
+  CLI::App* command = app.add_subcommand("view", "Show a finished or killed run in a browser");
+  command->add_option("DIR", arguments->folder, "result folder of mms run")->capture_default_str();
+  command->add_option("--port", arguments->options.port, "port of the viewer; 0: any free port")
       ->capture_default_str();
   add_bind_option(*command, arguments->options);
   command->callback([arguments] { view(*arguments); });

@@ -5,7 +5,7 @@
 namespace mms {
 
 void add_threads_option(CLI::App& command, int& threads, const std::string& help) {
-  constexpr int kMaxThreads = 256;  // more cores than one machine of today gives the program
+  constexpr int kMaxThreads = 256;  // more than any present machine has cores
   command.add_option("--threads", threads, help)->check(CLI::Range(1, kMaxThreads));
 }
 

@@ -6,14 +6,16 @@
 
 namespace mms {
 
-/// The largest number of frames an option may name; more than any recording has.
+/// Largest value of an option for a number of frames.
 inline constexpr std::size_t kMaxFrames = 1'000'000'000;
 
-/// Adds --threads, 1 to 256. @param threads  0 where it is not given: one a core
+/// Adds --threads, 1 to 256.
+/// @param threads  0 by default: one per core
 void add_threads_option(CLI::App& command, int& threads,
-                        const std::string& help = "threads to use (default: one a core)");
+                        const std::string& help = "threads to use (default: one per core)");
 
-/// Adds --frames, 1 to kMaxFrames. @param frames  unchanged where it is not given: all
+/// Adds --frames, 1 to kMaxFrames.
+/// @param frames  unchanged by default: all
 void add_frames_option(CLI::App& command, std::size_t& frames, const std::string& help);
 
 }  // namespace mms

@@ -12,7 +12,7 @@ void handle_both(void (*handler)(int)) {
   std::signal(SIGTERM, handler);
 }
 
-/// Whichever of the two comes next ends the program.
+/// A second signal ends the program.
 void on_signal(int) {
   requested_flag = 1;
   handle_both(SIG_DFL);

@@ -2,8 +2,8 @@
 
 namespace mms {
 
-/// While one lives, the first Ctrl-C (SIGINT) or SIGTERM only asks the program to come to an end,
-/// so that what was done so far is written; the second ends it at once.
+/// During its lifetime the first Ctrl-C (SIGINT) or SIGTERM only requests an end, so that results
+/// are written; the second one ends the program immediately.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -11,7 +11,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Whether the program was asked to end since the guard was made.
+  /// Whether an end was requested since the guard was created.
   static bool requested();
 };
 

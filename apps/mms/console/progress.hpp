@@ -10,7 +10,7 @@
 
 namespace mms {
 
-/// The progress of a run on stderr; the first Ctrl-C ends the run early.
+/// Shows the progress of a run on stderr; the first Ctrl-C ends the run early.
 class Progress : public RunObserver {
  public:
   void on_start(std::size_t frames) override;

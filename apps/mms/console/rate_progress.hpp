@@ -7,14 +7,14 @@
 
 namespace mms {
 
-/// Progress of work whose length is known, on stderr, with its rate and the time left.
+/// Shows the progress of work of known length on stderr, with rate and remaining time.
 class RateProgress {
  public:
-  /// @param what  that is counted: "frame", "image"
+  /// @param what  name of the counted items: "frame", "image"
   explicit RateProgress(std::string what) : what_(std::move(what)) {}
 
-  /// @param fresh  how many of `done` were done since the start, and not before
-  /// @param note   what to say behind it
+  /// @param fresh  number of `done` since the start
+  /// @param note   text to append
   void show(int done, int total, int fresh, const std::string& note = "");
   void show(int done, int total) { show(done, total, done); }
   void say(const std::string& message) { status_.say(message); }

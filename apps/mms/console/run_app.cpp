@@ -27,12 +27,12 @@ int run_app(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const bool asked = error.get_exit_code() == 0;  // for help or the version
+    const bool asked = error.get_exit_code() == 0;  // --help or --version
     return asked ? app.exit(error) : fail(usage_fault(app, error), kUsage);
   } catch (const Error& error) {
     return fail(error.what());
   } catch (const std::bad_alloc&) {
-    return fail("out of memory (less data with --frames, or a larger static_map.voxel_size)");
+    return fail("out of memory (use less data with --frames, or a larger static_map.voxel_size)");
   } catch (const std::exception& error) {
     return fail(error.what());
   }

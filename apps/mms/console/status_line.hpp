@@ -6,20 +6,20 @@
 
 namespace mms {
 
-/// A line about what is going on, on stderr: rewritten in place on a terminal, a plain line every
-/// five seconds when piped. Warnings may come from another thread.
+/// A status line on stderr: updated in place on a terminal, a new line every five seconds in a
+/// pipe. Warnings may come from another thread.
 class StatusLine {
  public:
   StatusLine();
 
-  /// Whether a line is to be shown now: now and then, and always when it is the last one.
+  /// Whether to show a line now: at intervals, and always if it is the last one.
   bool due(bool last);
 
   void show(const std::string& text);
-  void say(const std::string& message);  ///< in a line of its own, which stays
+  void say(const std::string& message);  ///< in a separate line
   void warn(const std::string& message) { say("warning: " + message); }
 
-  /// Ends the line, so that what is printed next begins a new one.
+  /// Ends the line.
   void finish();
 
  private:

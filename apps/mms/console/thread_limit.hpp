@@ -7,7 +7,7 @@
 
 namespace mms {
 
-/// While one lives, parallel work uses at most so many threads; 0: one a core.
+/// Limits the threads of parallel work during its lifetime; 0: one per core.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads) {

@@ -7,7 +7,7 @@
 
 namespace mms {
 
-/// Shows a training on stderr: a progress line, and the APs as they are measured.
+/// Shows a training on stderr: a progress line, and the APs of validations.
 class TrainingProgress {
  public:
   void show(const TrainingEvent& event);

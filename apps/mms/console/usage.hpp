@@ -5,9 +5,9 @@
 
 namespace mms {
 
-/// One line that says what is wrong with the command line and where its help is.
+/// One line with the fault in the command line and the way to its help.
 /// @param app    after a failed parse
-/// @param error  what the parse threw
+/// @param error  the exception of the parser
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace mms

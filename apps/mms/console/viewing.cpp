@@ -14,17 +14,18 @@
 namespace mms {
 
 std::uint16_t checked_port(const std::string& option, const std::string& word) {
-  constexpr std::int64_t kLargest = 65535;
+  constexpr std::int64_t kMaxPort = 65535;
   const std::optional<std::int64_t> port = parse_integer(word);
-  if (port && *port >= 0 && *port <= kLargest) return static_cast<std::uint16_t>(*port);
-  throw CLI::ValidationError(option, fmt::format("'{}' is no port, 0 to {} are", word, kLargest));
+  if (port && *port >= 0 && *port <= kMaxPort) return static_cast<std::uint16_t>(*port);
+  throw CLI::ValidationError(option,
+                             fmt::format("'{}' is not a port; allowed: 0 to {}", word, kMaxPort));
 }
 
 void add_bind_option(CLI::App& command, ViewOptions& options) {
   command
-      .add_option("--bind", options.bind,
-                  "address to serve the viewer at; 0.0.0.0 lets all who reach this machine see the "
-                  "run and fetch its files")
+      .add_option(
+          "--bind", options.bind,
+          "address of the viewer; with 0.0.0.0 other machines can see the run and fetch its files")
       ->capture_default_str();
 }
 
@@ -32,8 +33,8 @@ void announce(const ViewerServer& server, const ViewOptions& options) {
   fmt::print(stderr, "viewer: {}\n", server.url());
   if (server.is_open()) {
     fmt::print(stderr,
-               "warning: the viewer is open to the network ({} port {}): whoever reaches this "
-               "machine can see the run and fetch its files; there is no password\n",
+               "warning: the viewer is open to the network ({} port {}): everyone with access to "
+               "this machine can see the run and fetch its files; there is no password\n",
                options.bind, server.port());
   }
 }

@@ -11,16 +11,16 @@
 namespace mms {
 
 /// @param option  for the message
-/// @throws CLI::ValidationError when the word is no port.
+/// @throws CLI::ValidationError if the word is not a port.
 std::uint16_t checked_port(const std::string& option, const std::string& word);
 
 /// Adds --bind to a command.
 void add_bind_option(CLI::App& command, ViewOptions& options);
 
-/// Says on stderr where the viewer is, and what it means if others can reach it.
+/// Prints the viewer's address on stderr, with a warning if other machines can connect.
 void announce(const ViewerServer& server, const ViewOptions& options);
 
-/// Lets time pass until Ctrl-C or SIGTERM.
+/// Waits for Ctrl-C or SIGTERM.
 void wait_for_interrupt();
 
 }  // namespace mms

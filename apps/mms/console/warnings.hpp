@@ -5,7 +5,7 @@
 
 namespace mms {
 
-/// Writes a line "warning: ..." each to stderr.
+/// Writes a line "warning: ..." for each to stderr.
 void print_warnings(const std::vector<std::string>& warnings);
 
 }  // namespace mms

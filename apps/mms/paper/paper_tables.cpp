@@ -48,18 +48,19 @@ Trained read_training(const fs::path& folder) {
     return {1, json.at("AP").get<double>(), classes.at("person").at("AP").get<double>(),
             classes.at("agv").at("AP").get<double>(), std::stod(read_file(folder / "ms"))};
   } catch (const std::logic_error& error) {
-    throw DataError(folder.string(), std::string("is no finished training: ") + error.what(),
-                    "benchmarks/table1.sh FOLDER makes them");
+    throw DataError(folder.string(), std::string("is not a finished training: ") + error.what(),
+                    "create it with benchmarks/table1.sh FOLDER");
   } catch (const nlohmann::json::exception& error) {
     throw DataError((folder / "ap.json").string(), error.what(),
-                    "benchmarks/table1.sh FOLDER makes it");
+                    "create it with benchmarks/table1.sh FOLDER");
   }
 }
 
 std::map<std::string, Trained> read_trainings(const fs::path& trainings) {
   std::map<std::string, Trained> sums;
   if (!fs::is_directory(trainings)) {
-    throw FileError(trainings.string(), "is no folder", "benchmarks/table1.sh FOLDER makes it");
+    throw FileError(trainings.string(), "is not a folder",
+                    "create it with benchmarks/table1.sh FOLDER");
   }
   for (const auto& entry : fs::directory_iterator(trainings)) {
     const std::string name = entry.path().filename().string();
@@ -73,8 +74,8 @@ std::map<std::string, Trained> read_trainings(const fs::path& trainings) {
     sum.ms += one.ms;
   }
   if (sums.empty()) {
-    throw DataError(trainings.string(), "holds no finished training",
-                    "benchmarks/table1.sh FOLDER makes them");
+    throw DataError(trainings.string(), "has no finished training",
+                    "create it with benchmarks/table1.sh FOLDER");
   }
   return sums;
 }
@@ -87,7 +88,7 @@ PlainTable segmentation_table(const fs::path& trainings) {
                    {"network", "seeds", "AP", "AP person", "AP agv", "ms", "paper AP", "paper ms"},
                    {},
                    "Small networks on simulated images, one CPU; the paper's are ResNet-50 on COCO "
-                   "with a GPU: the order is what compares."};
+                   "with a GPU: only the order is comparable."};
   for (const PaperNetwork& paper : kPaperNetworks) {
     const auto found = sums.find(std::string(paper.variant));
     if (found == sums.end()) continue;
@@ -102,12 +103,11 @@ PlainTable segmentation_table(const fs::path& trainings) {
 }
 
 PlainTable drift_table(const std::string& data, const std::vector<PaperRun>& runs) {
-  PlainTable table{
-      "Table II: drift of a sensor that stands still [cm], " + data,
-      {"method", "ATDE (mean)", "MTDE (max)", "paper, as printed", "paper, swapped"},
-      {},
-      "A mean cannot exceed a maximum: the paper's columns are most likely swapped, so "
-      "both readings are given (mean / maximum)."};
+  PlainTable table{"Table II: drift of a static sensor [cm], " + data,
+                   {"method", "ATDE (mean)", "MTDE (max)", "paper, as printed", "paper, swapped"},
+                   {},
+                   "A mean cannot exceed a maximum: the paper's columns are most likely swapped, "
+                   "so both readings are given (mean / maximum)."};
   for (std::size_t i = 0; i < runs.size() && i < kPaperDrifts.size(); ++i) {
     const Drift& drift = runs[i].metrics.drift.value();
     const auto [first, second] = kPaperDrifts[i];
@@ -119,7 +119,7 @@ PlainTable drift_table(const std::string& data, const std::vector<PaperRun>& run
 }
 
 PlainTable localization_table(const std::string& data, const std::vector<PaperRun>& runs) {
-  PlainTable table{"Localisation against the truth, " + data,
+  PlainTable table{"Localization against ground truth, " + data,
                    {"method", "ATE rmse [cm]", "ATE max [cm]", "RPE [cm]", "RPE [deg]", "SA [%]",
                     "DA [%]", "AA [%]"},
                    {},
@@ -149,10 +149,10 @@ PlainTable localization_table(const std::string& data, const std::vector<PaperRu
 
 PlainTable stage_table(const std::vector<PaperRun>& runs) {
   PlainTable table{
-      "Time a frame [ms, mean]", {"method"}, {}, "Stages of successive frames overlap."};
+      "Time per frame [ms, mean]", {"method"}, {}, "Stages of consecutive frames overlap."};
   if (runs.empty()) return table;
   for (const auto& [name, times] : runs.front().metrics.stages) table.columns.push_back(name);
-  table.columns.insert(table.columns.end(), {"whole", "99 % within", "frames/s"});
+  table.columns.insert(table.columns.end(), {"whole", "p99", "frames/s"});
   for (const PaperRun& run : runs) {
     std::vector<std::string> row = {run.name};
     for (const auto& [name, times] : run.metrics.stages) row.push_back(to_fixed(times.mean, 1));

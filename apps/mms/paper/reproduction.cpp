@@ -21,7 +21,7 @@ std::string figure(const ReportPicture& picture) {
 
 std::string paths_plot(const std::vector<NamedPath>& paths) {
   if (paths.empty()) return "";
-  SvgPlot plot({.title = "localisation comparison",
+  SvgPlot plot({.title = "localization comparison",
                 .x_label = "x [m]",
                 .y_label = "z [m]",
                 .height = 560,
@@ -37,7 +37,7 @@ std::string paths_plot(const std::vector<NamedPath>& paths) {
     }
     plot.add_line(path.name, color++, x, y);
   }
-  return "<section><h2>Localisation comparison, from above</h2>" + plot.render() + "</section>\n";
+  return "<section><h2>Localization comparison, top view</h2>" + plot.render() + "</section>\n";
 }
 
 }  // namespace

@@ -10,21 +10,21 @@
 
 namespace mms {
 
-/// Where a sensor was said to be, for the localisation figure.
+/// A trajectory with its name, for the localization figure.
 struct NamedPath {
   std::string name;
   Trajectory poses;
 };
 
-/// What `mms reproduce` found, for its report.
+/// Results of `mms reproduce` for its report.
 struct Reproduction {
   std::string title;
   std::vector<PlainTable> tables;
-  std::vector<NamedPath> paths;  ///< the truth first, where it is known; all in one frame
+  std::vector<NamedPath> paths;  ///< ground truth first, if known; all in one frame
   std::vector<ReportPicture> pictures;
 };
 
-/// One HTML page that needs nothing else.
+/// One self-contained HTML page.
 std::string reproduction_html(const Reproduction& found);
 
 /// The tables as one JSON object: {"tables": [{"title", "columns", "rows", "note"}]}.

@@ -10,8 +10,8 @@ namespace {
 
 constexpr Duration kReach = std::chrono::milliseconds(20);
 constexpr Duration kCloudReach = std::chrono::milliseconds(50);
-constexpr Duration kCertain = std::chrono::milliseconds(5);  // no image that comes later is nearer
-constexpr std::size_t kWaiting = 30;                         // of a kind, at most
+constexpr Duration kExact = std::chrono::milliseconds(5);  // closer than any later image can be
+constexpr std::size_t kMaxWaiting = 30;                    // largest number per kind
 
 Duration distance(Timestamp a, Timestamp b) {
   return a < b ? b - a : a - b;
@@ -25,14 +25,14 @@ void check_size(const Image<T>& image, const Calibration& calibration, const cha
                   "is " + std::to_string(image.width()) + "x" + std::to_string(image.height()) +
                       " pixels, the camera_info says " + std::to_string(camera.width) + "x" +
                       std::to_string(camera.height),
-                  "depth has to be registered to the colour image");
+                  "depth must be registered to the color image");
 }
 
 std::string counted(const char* what, std::size_t arrived, double seconds) {
-  if (arrived == 0) return std::string(what) + ": none arrive";
+  if (arrived == 0) return std::string(what) + ": none received";
   char rate[32];
   std::snprintf(rate, sizeof rate, "%.1f", static_cast<double>(arrived) / seconds);
-  return std::string(what) + ": " + rate + " a second";
+  return std::string(what) + ": " + rate + " per second";
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ void FrameAssembler::Stream<T>::add(Timestamp stamp, T data) {
   ++arrived;
   if (!waiting.empty() && stamp <= waiting.back().stamp) return;
   waiting.push_back({stamp, std::move(data)});
-  if (waiting.size() > kWaiting) waiting.pop_front();
+  if (waiting.size() > kMaxWaiting) waiting.pop_front();
 }
 
 void FrameAssembler::set_camera(const CameraIntrinsics& camera) {
@@ -67,11 +67,11 @@ void FrameAssembler::add_cloud(Timestamp stamp, LidarScan scan) {
   cloud_.add(stamp, std::move(scan));
 }
 
-/// Whether the partner nearest to `stamp` is there, as well as none can come that is nearer.
+/// Whether the partner nearest to `stamp` has arrived and none that arrives later can be nearer.
 template <class T>
 bool FrameAssembler::is_decided(Timestamp stamp, const Stream<T>& partners, Duration reach) const {
   for (const auto& partner : partners.waiting) {
-    if (distance(partner.stamp, stamp) <= kCertain || partner.stamp > stamp + reach) return true;
+    if (distance(partner.stamp, stamp) <= kExact || partner.stamp > stamp + reach) return true;
     if (partner.stamp >= stamp) return true;
   }
   return false;
@@ -117,7 +117,7 @@ std::optional<Frame> FrameAssembler::next_depth_frame() {
       ++unmatched_;
       continue;
     }
-    check_size(color, calibration_, "colour image");
+    check_size(color, calibration_, "color image");
     check_size(depth->data, calibration_, "depth image");
     Frame frame = frame_at(stamp);
     frame.color = std::move(color);
@@ -140,7 +140,7 @@ std::optional<Frame> FrameAssembler::next_cloud_frame() {
   cloud_.waiting.pop_front();
   if (!camera) return frame;
   if (auto color = take_nearest(stamp, color_, kCloudReach)) {
-    check_size(color->data, calibration_, "colour image");
+    check_size(color->data, calibration_, "color image");
     frame.color = std::move(color->data);
   } else {
     ++unmatched_;
@@ -157,14 +157,14 @@ std::string FrameAssembler::report(double seconds) {
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   const bool both_arrive = color_.arrived > 0 && depth_.arrived > 0;
   if (sensor_ != Sensor::kCloud) {
-    add(counted("colour images", color_.arrived, seconds));
-    if (!calibration_.camera) add("camera_info: none arrived");
+    add(counted("color images", color_.arrived, seconds));
+    if (!calibration_.camera) add("camera_info: none received");
   }
   if (sensor_ == Sensor::kDepth) {
     add(counted("depth images", depth_.arrived, seconds));
     if (made_ == 0 && both_arrive && calibration_.camera) {
       char apart[64];
-      std::snprintf(apart, sizeof apart, "no two within 0.02 s, the last ones were %.3f s apart",
+      std::snprintf(apart, sizeof apart, "no two within 0.02 s, the last ones are %.3f s apart",
                     to_seconds(nearest_miss_));
       add(apart);
     }

@@ -10,11 +10,10 @@
 
 namespace mms {
 
-/// Puts frames together from images and clouds that arrive one by one: a colour image with the
-/// depth image nearest to it in time, or a cloud with the nearest colour image, by the same rules
-/// as recordings (within 0.02 s, with clouds 0.05 s). Clouds with images wait for the extrinsics:
-/// without them masks would fall on the wrong points. Knows what is missing when no frame comes
-/// about.
+/// Assembles frames from images and clouds that arrive one by one: a color image with the depth
+/// image nearest in time, or a cloud with the nearest color image, by the same rules as for
+/// recordings (within 0.02 s, with clouds 0.05 s). Clouds with images wait for the extrinsics,
+/// without which masks would be misplaced. Reports what is missing.
 class FrameAssembler {
  public:
   enum class Sensor { kDepth, kCloud, kCloudWithCamera };
@@ -25,19 +24,19 @@ class FrameAssembler {
   void set_extrinsics(const Transform<Camera, Lidar>& T_camera_lidar);
   bool extrinsics_known() const { return extrinsics_known_; }
 
-  /// Images are to come in the order of their stamps; those that do not are left out.
+  /// Images must arrive in order of stamps; others are dropped.
   void add_color(Timestamp stamp, Image<Rgb> color);
   void add_depth(Timestamp stamp, Image<float> depth);
   void add_cloud(Timestamp stamp, LidarScan scan);
 
-  /// The next complete frame, or nothing before more has arrived.
+  /// The next complete frame; nullopt if none is complete.
   std::optional<Frame> next();
 
-  /// What arrived since the last call, and what keeps frames from coming about: "depth images: none
-  /// arrive". @param seconds  since that call
+  /// Statistics since the last call, and what is missing for frames: "depth images: none received".
+  /// @param seconds  since the last call
   std::string report(double seconds);
 
-  /// Colour images or clouds that went without their counterpart.
+  /// Number of color images or clouds without counterpart.
   std::size_t unmatched() const { return unmatched_; }
 
  private:

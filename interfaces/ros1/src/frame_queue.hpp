@@ -10,8 +10,8 @@
 
 namespace mms {
 
-/// Frames on their way from the subscribers to the pipeline. When it falls behind, the oldest frame
-/// goes: what a robot needs is where it is now.
+/// Queue of frames from the subscribers to the pipeline. When it is full, the oldest frame is
+/// dropped: a robot needs its present pose.
 class FrameQueue {
  public:
   explicit FrameQueue(std::size_t capacity) : capacity_(capacity) {}
@@ -26,7 +26,7 @@ class FrameQueue {
     filled_.notify_one();
   }
 
-  /// Waits for a frame; nothing once after `interrupt`, and always after `close`.
+  /// Waits for a frame; nullopt once after `interrupt`, and always after `close`.
   std::optional<Frame> pop() {
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [this] { return closed_ || interrupted_ || !frames_.empty(); });
@@ -39,7 +39,7 @@ class FrameQueue {
     return frame;
   }
 
-  /// Throws away what waits, and lets one `pop` end with nothing.
+  /// Clears the queue and makes one `pop` return nullopt.
   void interrupt() {
     const std::scoped_lock lock(mutex_);
     frames_.clear();

@@ -5,11 +5,11 @@
 namespace mms {
 namespace {
 
-constexpr std::size_t kRemembered = 1000;  // images without an answer
+constexpr std::size_t kRemembered = 1000;  // unanswered images
 constexpr double kSmoothing = 0.1;
-constexpr double kLargestWindow = 30.0;
-constexpr double kShrink = 0.7;  // of the window by masks that came too late
-constexpr int kProbes = 6;       // on a silent link, in the longest time that a frame waits
+constexpr double kMaxWindow = 30.0;
+constexpr double kShrink = 0.7;  // factor of the window after late masks
+constexpr int kProbes = 6;       // on a silent link, per maximum waiting time of a frame
 
 }  // namespace
 
@@ -23,8 +23,8 @@ bool MaskExchange::may_send() const {
   return static_cast<double>(under_way) < window_;
 }
 
-/// What was under way when a link was cut fills the window. One answer tells that all before it
-/// is lost, so that a silent link is asked for one now and then.
+/// Images lost by an interrupted link fill the window. One answer shows that all earlier ones are
+/// lost, so a silent link is probed now and then.
 bool MaskExchange::may_probe(Clock::time_point now) const {
   const Clock::duration period = max_wait_ / kProbes;
   return waits_since_ && now - *waits_since_ > 2 * period && now - last_sent_ > period;
@@ -43,7 +43,7 @@ void MaskExchange::sent(Timestamp stamp) {
 void MaskExchange::received(Timestamp stamp, Segmentation masks) {
   const std::scoped_lock lock(mutex_);
   const auto sent = sent_.find(stamp);
-  if (sent == sent_.end()) return;  // of an earlier run of this node
+  if (sent == sent_.end()) return;  // from an earlier run of this node
   using Milliseconds = std::chrono::duration<double, std::milli>;
   const double delay = Milliseconds(Clock::now() - sent->second).count();
   counts_.delay_ms += (counts_.delay_ms == 0.0 ? 1.0 : kSmoothing) * (delay - counts_.delay_ms);
@@ -59,11 +59,11 @@ void MaskExchange::received(Timestamp stamp, Segmentation masks) {
   arrived_.notify_all();
 }
 
-/// Grows by one for as many answers as fit in, and shrinks once for all that were late together.
+/// Additive increase per window of answers, one multiplicative decrease per group of late ones.
 void MaskExchange::adapt_window(Clock::duration delay) {
   const Clock::time_point now = Clock::now();
   if (delay <= max_wait_) {
-    window_ = std::min(kLargestWindow, window_ + 1.0 / window_);
+    window_ = std::min(kMaxWindow, window_ + 1.0 / window_);
   } else if (now - last_shrunk_ > delay) {
     window_ = std::max(1.0, kShrink * window_);
     last_shrunk_ = now;

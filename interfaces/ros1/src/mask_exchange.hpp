@@ -13,40 +13,39 @@
 
 namespace mms {
 
-/// Masks on their way back from another host. Images are sent as they arrive; each frame then waits
-/// for its own masks, not longer than `max_wait` after its image was sent, and not at all once
-/// masks of a later frame have come (its own were lost) or the link is lost. As the waits of
-/// successive frames overlap, a delayed link costs latency, but no frames.
+/// Masks from another host. Images are sent as they arrive; each frame then waits for its masks, at
+/// most `max_wait` after its image was sent, and not at all once masks of a later frame have
+/// arrived (its own were lost) or the link is lost. The waiting times of consecutive frames
+/// overlap, so a slow link adds latency, but drops no frames.
 class MaskExchange {
  public:
   using Clock = std::chrono::steady_clock;
 
   struct Counts {
     std::size_t sent = 0;
-    std::size_t used = 0;     ///< fused with the frame they belong to
-    std::size_t late = 0;     ///< came after their frame was done
-    std::size_t missing = 0;  ///< frames that were done without
-    double window = 0.0;      ///< images that may be under way
-    double delay_ms = 0.0;    ///< from sending to receiving, of the last ones
+    std::size_t used = 0;     ///< fused with their frame
+    std::size_t late = 0;     ///< received after their frame was processed
+    std::size_t missing = 0;  ///< frames processed without masks
+    double window = 0.0;      ///< allowed unanswered images
+    double delay_ms = 0.0;    ///< between sending and receiving, recent average
     bool link_lost = false;
   };
 
-  /// @param max_wait      of a frame for its masks
-  /// @param link_timeout  without any masks after which the link counts as lost
+  /// @param max_wait      waiting time of a frame for its masks
+  /// @param link_timeout  time without masks until the link counts as lost
   MaskExchange(Clock::duration max_wait, Clock::duration link_timeout)
       : max_wait_(max_wait), link_timeout_(link_timeout) {}
 
-  /// Whether there is room on the link for one more image, or whether to try a link that has been
-  /// silent for long.
+  /// Whether the window allows another image, or a silent link should be probed.
   bool may_send() const;
 
   void sent(Timestamp stamp);
   void received(Timestamp stamp, Segmentation masks);
 
-  /// The masks of a frame; nothing where they did not come in time.
+  /// The masks of a frame; nullopt if they did not arrive in time.
   std::optional<Segmentation> wait_for(Timestamp stamp);
 
-  /// Lets every waiting thread go on without masks.
+  /// Makes all waiting threads continue without masks.
   void close();
 
   Counts counts() const;
@@ -62,16 +61,18 @@ class MaskExchange {
   std::condition_variable arrived_;
   std::map<Timestamp, Clock::time_point> sent_;
   std::map<Timestamp, Segmentation> masks_;
-  std::optional<Timestamp> done_;                 ///< the last frame asked for
-  std::optional<Clock::time_point> waits_since_;  ///< when the oldest unanswered image was sent
+  std::optional<Timestamp> done_;  ///< last processed frame
+  std::optional<Clock::time_point>
+      waits_since_;  ///< time of sending of the oldest unanswered image
   Clock::time_point last_sent_;
-  double window_ = 16.0;  ///< images that may be under way
+  double window_ = 16.0;  ///< allowed unanswered images
   Clock::time_point last_shrunk_;
   Counts counts_;
   bool closed_ = false;
 };
 
-/// Gives the pipeline the masks of another host; none (of size 0x0) where they did not come.
+/// Passes the masks of another host to the pipeline; an empty segmentation (0x0) if they did not
+/// arrive.
 class RemoteSegmenter final : public Segmenter {
  public:
   explicit RemoteSegmenter(MaskExchange& exchange) : exchange_(exchange) {}

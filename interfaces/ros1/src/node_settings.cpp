@@ -23,11 +23,11 @@ std::string text_of(XmlRpc::XmlRpcValue& value) {
     case XmlRpc::XmlRpcValue::TypeInt:
       return std::to_string(static_cast<int>(value));
     default:
-      throw ConfigError("~settings", "holds a list, single values are wanted");
+      throw ConfigError("~settings", "is a list, expected a single value");
   }
 }
 
-/// "fusion.mode=vision" of the tree of a parameter.
+/// "fusion.mode=vision" from the tree of a parameter.
 void flatten(XmlRpc::XmlRpcValue& value, const std::string& key,
              std::vector<std::string>& assignments) {
   if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
@@ -42,20 +42,21 @@ void flatten(XmlRpc::XmlRpcValue& value, const std::string& key,
 template <class T>
 void read(const ros::NodeHandle& node, const char* name, T& value) {
   if (!node.hasParam(name) || node.getParam(name, value)) return;
-  throw ConfigError(node.resolveName(name), "is of another type than its default");
+  throw ConfigError(node.resolveName(name), "has another type than its default");
 }
 
-/// @throws ConfigError unless the value lies in the range.
+/// @throws ConfigError if the value is out of range.
 template <class T>
 void read(const ros::NodeHandle& node, const char* name, T& value, T least, T most) {
   read(node, name, value);
   if (value >= least && value <= most) return;
   std::ostringstream text;
-  text << "is " << value << ", allowed is " << least << " to " << most;
+  text << "is " << value << ", allowed: " << least << " to " << most;
   throw ConfigError(node.resolveName(name), text.str());
 }
 
-/// @throws ConfigError unless it is one of the words. @returns which
+/// @throws ConfigError if it is not one of the choices.
+/// @returns its index
 std::size_t read_word(const ros::NodeHandle& node, const char* name, std::string value,
                       const std::vector<std::string>& words) {
   read(node, name, value);
@@ -64,7 +65,7 @@ std::size_t read_word(const ros::NodeHandle& node, const char* name, std::string
     if (words[i] == value) return i;
     all += (all.empty() ? "" : ", ") + words[i];
   }
-  throw ConfigError(node.resolveName(name), "is '" + value + "', allowed are " + all);
+  throw ConfigError(node.resolveName(name), "is '" + value + "', allowed: " + all);
 }
 
 }  // namespace

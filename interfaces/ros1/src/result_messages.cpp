@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint8_t kFloat32 = 7;
 
-/// A cloud of x, y, z and rgb as RViz reads it: b, g, r in a float's bytes.
+/// Writes a cloud of x, y, z and rgb for RViz: b, g, r in the bytes of a float.
 class CloudWriter {
  public:
   CloudWriter(const msg::Header& header, bool colored) {
@@ -73,7 +73,7 @@ msg::Marker box_marker(const msg::Header& header, const ObjectBox& box) {
 }
 
 msg::Marker text_marker(const msg::Header& header, const ObjectBox& box) {
-  constexpr double kHeight = 0.2;  // of letters [m]
+  constexpr double kHeight = 0.2;  // text height [m]
   msg::Marker marker;
   marker.header = header;
   marker.ns = "names";
@@ -95,7 +95,8 @@ msg::Odometry odometry_message(const msg::Header& header, const std::string& chi
   message.header = header;
   message.child_frame_id = child_frame;
   message.pose = pose_message(odometry.T_world_sensor.isometry());
-  constexpr double kFloor = 1e-6;  // of information, so that unknown directions have a covariance
+  constexpr double kFloor =
+      1e-6;  // added to the information, so that degenerate directions have a covariance
   const Eigen::Matrix<double, 6, 6> information =
       odometry.information + kFloor * Eigen::Matrix<double, 6, 6>::Identity();
   Eigen::Matrix<double, 6, 6> rotation = Eigen::Matrix<double, 6, 6>::Zero();

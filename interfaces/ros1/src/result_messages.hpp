@@ -10,23 +10,23 @@
 
 namespace mms {
 
-/// Pose with its covariance by the odometry's information; velocities are not given.
+/// Pose with its covariance from the odometry's information; without velocities.
 msg::Odometry odometry_message(const msg::Header& header, const std::string& child_frame,
                                const OdometryEstimate& odometry);
 
-/// Points of one label, in the sensor's frame, with colours where there are some.
+/// Points of one label, in the sensor frame, with colors if available.
 msg::PointCloud2 cloud_message(const msg::Header& header, const LabeledCloud& cloud,
                                PointLabel label);
 
-/// The static map, with colours.
+/// The static map with colors.
 msg::PointCloud2 cloud_message(const msg::Header& header, const MapCloud& map);
 
-/// 255 where P_D or a mask is, on the cloud's grid; empty for LiDARs.
+/// 255 on P_D and masks, on the cloud's grid; empty for LiDARs.
 msg::Image mask_message(const msg::Header& header, const LabeledCloud& cloud);
 
 msg::Objects objects_message(const msg::Header& header, const std::vector<TrackedObject>& objects);
 
-/// Boxes, red for people and green for vehicles, with id, class and speed over them.
+/// Boxes, red for people and green for vehicles, labeled with id, class and speed.
 msg::MarkerArray markers_message(const msg::Header& header,
                                  const std::vector<TrackedObject>& objects);
 

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kPathPeriod = 0.5;  // [s]
 
-/// Turns a camera's axes (x right, y down, z forward) into a robot's (x forward, y left, z up).
+/// Rotation from a camera's axes (x right, y down, z forward) to a robot's (x forward, y left, z
+/// up).
 Eigen::Isometry3d body_of_optical() {
   Eigen::Matrix3d rotation;
   rotation << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -32,7 +33,7 @@ bool has_passed(ros::WallTime& last, double period) {
 ResultPublisher::ResultPublisher(ros::NodeHandle& node, const NodeSettings& settings)
     : settings_(settings) {
   constexpr std::uint32_t kQueue = 100;
-  constexpr std::uint32_t kLarge = 3;  // of clouds and images
+  constexpr std::uint32_t kLarge = 3;  // queue size of clouds and images
   ros::NodeHandle everywhere;
   odometry_ = node.advertise<msg::Odometry>("odometry", kQueue);
   if (settings.publish_tf) {

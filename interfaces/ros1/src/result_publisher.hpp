@@ -10,7 +10,7 @@
 
 namespace mms {
 
-/// Publishes what comes out of the pipeline; of what nobody subscribes to nothing is made.
+/// Publishes the results of the pipeline; messages without subscribers are not created.
 class ResultPublisher {
  public:
   ResultPublisher(ros::NodeHandle& node, const NodeSettings& settings);
@@ -19,7 +19,7 @@ class ResultPublisher {
   void publish(const Processed& processed, const SlamSystem& system,
                const std::string& sensor_frame);
 
-  /// Forgets the path.
+  /// Clears the path.
   void reset();
 
  private:

@@ -8,8 +8,8 @@
 #include "mms/ros/message_types.hpp"
 #include "mms/ros/wire.hpp"
 
-// Makes our messages ROS's, by what roscpp asks of types that it did not generate. (The headers
-// that Debian generates for ROS 1's messages do not compile as C++20.)
+// Defines the traits that roscpp requires of message types. (Debian's generated headers of ROS 1
+// messages do not compile as C++20.)
 
 namespace mms {
 

@@ -13,16 +13,16 @@
 namespace mms {
 namespace {
 
-/// Finds people and vehicles in the images of a SLAM node, perhaps on another host, and sends their
-/// masks back under the image's stamp. A link that loses packets lets go of several images at once:
-/// a few wait for their turn, the oldest of more are left out.
+/// Segments people and vehicles in the images of a SLAM node, possibly on another host, and returns
+/// the masks with the image's stamp. A lossy link may deliver several images at the same time: a
+/// few are queued, older ones are dropped.
 class SegmentationNode {
-  static constexpr std::uint32_t kWaiting = 30;
+  static constexpr std::uint32_t kQueueSize = 30;
 
  public:
   SegmentationNode()
       : segmenter_(make_network_segmenter(load_system_config(ros::NodeHandle("~")).segmentation)) {
-    Frame usual;  // the network plans its work at its first image, which would keep one waiting
+    Frame usual;  // the network prepares its kernels with the first image, before real ones arrive
     usual.color = Image<Rgb>(640, 480);
     segmenter_->segment(usual);
     ros::NodeHandle node("~");
@@ -33,7 +33,7 @@ class SegmentationNode {
     if (transport == "udp") hints.unreliable();
     using Pointer = boost::shared_ptr<const msg::CompressedImage>;
     images_ = node.subscribe<msg::CompressedImage>(
-        "image", kWaiting,
+        "image", kQueueSize,
         boost::function<void(const Pointer&)>([this](const Pointer& image) { segment(*image); }),
         ros::VoidConstPtr(), hints.reliable().tcpNoDelay());
     ROS_INFO("segmenting images of %s", images_.getTopic().c_str());

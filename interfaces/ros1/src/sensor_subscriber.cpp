@@ -10,7 +10,7 @@ namespace mms {
 namespace {
 
 constexpr std::uint32_t kQueue = 30;
-constexpr double kRepeat = 5.0;  // of warnings [s]
+constexpr double kRepeat = 5.0;  // between warnings [s]
 
 template <class Message, class Callback>
 ros::Subscriber subscribe_to(ros::NodeHandle& node, const std::string& topic,
@@ -53,7 +53,7 @@ void SensorSubscriber::subscribe_color(ros::NodeHandle& node) {
     take([&] {
       color_frame_ = message.header.frame_id;
       if (settings_.sensor == FrameAssembler::Sensor::kDepth) frame_id_ = color_frame_;
-      assembler_.add_color(message.header.stamp, color_of(message, "colour image"));
+      assembler_.add_color(message.header.stamp, color_of(message, "color image"));
     });
   };
   if (settings_.color_compressed) {

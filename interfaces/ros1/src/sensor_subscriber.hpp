@@ -13,21 +13,21 @@
 
 namespace mms {
 
-/// Subscribes to the sensor's topics and hands out the frames that come of them, one at a time.
+/// Subscribes to the sensor's topics and passes on complete frames, one at a time.
 class SensorSubscriber {
  public:
   using Sink = std::function<void(Frame)>;
 
   SensorSubscriber(ros::NodeHandle& node, const NodeSettings& settings, Sink sink);
 
-  /// frame_id of the images or clouds that frames are localised by. For the sink.
+  /// frame_id of the images or clouds that are localized. To be called by the sink.
   const std::string& frame_id() const { return frame_id_; }
 
-  /// What arrived since the last call, and what is missing, with the topics' names.
+  /// Statistics since the last call, and what is missing, with topic names.
   std::string report(double seconds);
 
-  std::size_t unmatched();  ///< images that went without their counterpart
-  std::size_t damaged();    ///< messages that could not be read
+  std::size_t unmatched();  ///< images without counterpart
+  std::size_t damaged();    ///< unreadable messages
 
  private:
   void subscribe_color(ros::NodeHandle& node);
@@ -35,13 +35,13 @@ class SensorSubscriber {
   void subscribe_cloud(ros::NodeHandle& node);
   void find_extrinsics();
 
-  /// Runs `add`, which a damaged message may make fail, and hands out the frames it completed.
+  /// Runs `add`, which may throw for a damaged message, and passes on the completed frames.
   template <class Add>
   void take(const Add& add);
 
   NodeSettings settings_;
   Sink sink_;
-  std::mutex mutex_;  ///< of all below: callbacks of several topics run at once
+  std::mutex mutex_;  ///< guards all below: topics have concurrent callbacks
   FrameAssembler assembler_;
   TransformTree transforms_;
   std::string frame_id_;

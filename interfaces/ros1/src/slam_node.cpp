@@ -16,7 +16,7 @@ namespace mms {
 namespace {
 
 constexpr double kDiagnosisPeriod = 1.0;  // [s]
-constexpr double kRepeat = 5.0;           // of warnings [s]
+constexpr double kRepeat = 5.0;           // between warnings [s]
 
 MaskExchange::Clock::duration seconds(double value) {
   return std::chrono::duration_cast<MaskExchange::Clock::duration>(
@@ -25,7 +25,7 @@ MaskExchange::Clock::duration seconds(double value) {
 
 AsyncOptions threads_of(const NodeSettings& settings) {
   const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  // With one thread the pipeline would run its steps one after the other.
+  // With one thread the stages would run sequentially.
   return {.threads = std::max(2, settings.threads > 0 ? settings.threads : cores)};
 }
 
@@ -48,7 +48,7 @@ SlamNode::SlamNode(const NodeSettings& settings)
       results_(node_, settings),
       queue_(static_cast<std::size_t>(settings.queue_size)),
       exchange_(seconds(settings.mask_wait), seconds(settings.link_timeout)) {
-  make_segmenter();  // so that faults of the settings end the node before it begins
+  make_segmenter();  // reports faults in the settings at the start
   diagnostics_ = public_node_.advertise<msg::DiagnosticArray>("/diagnostics", 10);
   if (settings.masks == "remote") {
     remote_images_ = node_.advertise<msg::CompressedImage>("segmentation/image", 50);
@@ -128,7 +128,7 @@ void SlamNode::run_pipeline() {
           system, [this] { return next_frame(); },
           [&](const Processed& processed) { finish_frame(processed, system); });
     } catch (const std::exception& error) {
-      ROS_ERROR("the pipeline begins anew: %s", error.what());
+      ROS_ERROR("the pipeline restarts: %s", error.what());
     }
     const std::scoped_lock lock(mutex_);
     system_ = nullptr;
@@ -167,7 +167,8 @@ void SlamNode::finish_frame(const Processed& processed, const SlamSystem& system
   changed_.notify_all();
 }
 
-/// Runs `task` while no frame is being worked on. @returns false when there is no system.
+/// Runs `task` between two frames.
+/// @returns false if there is no system.
 bool SlamNode::between_frames(const Task& task) {
   std::unique_lock lock(mutex_);
   paused_ = true;
@@ -183,7 +184,7 @@ bool SlamNode::save_map(TriggerRequest&, TriggerResponse& response) {
   const std::filesystem::path folder = settings_.results;
   try {
     const bool done = between_frames([&](const SlamSystem& system) {
-      if (trajectory_.empty()) throw DataError("map", "there is none: no frame has come yet");
+      if (trajectory_.empty()) throw DataError("map", "no frame received yet");
       const MapCloud map = system.static_map().cloud();
       std::filesystem::create_directories(folder);
       write_result_files(folder, trajectory_, keyframes_, map);
@@ -214,7 +215,7 @@ bool SlamNode::reset(TriggerRequest&, TriggerResponse& response) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return !resetting_ || closing_; });
   response.success = !closing_;
-  response.message = "map, objects and trajectory begin anew with the next frame";
+  response.message = "map, objects and trajectory restart with the next frame";
   return true;
 }
 
@@ -235,24 +236,24 @@ void SlamNode::diagnose() {
     link_was_lost_ = masks.link_lost;
     if (masks.link_lost) {
       ROS_WARN(
-          "no masks for %.1f s: the link to the segmentation node counts as lost, frames go "
-          "without masks",
+          "no masks for %.1f s: the link to the segmentation node counts as lost, frames are "
+          "processed without masks",
           settings_.link_timeout);
     } else {
-      ROS_INFO("masks come again");
+      ROS_INFO("masks are received again");
     }
   }
   if (masks.link_lost) {
     status.level = msg::DiagnosticStatus::kError;
     status.message += "; the link to the segmentation node is lost";
   }
-  status.values = {value("frames a second", static_cast<double>(frames) / kDiagnosisPeriod),
+  status.values = {value("frames/s", static_cast<double>(frames) / kDiagnosisPeriod),
                    value("frames", processed_),
                    value("frames lost", lost_),
                    value("frames dropped", queue_.dropped()),
                    value("images unmatched", unmatched),
                    value("messages damaged", damaged),
-                   value("ms a frame", frame_ms_),
+                   value("ms/frame", frame_ms_),
                    value("inputs", inputs)};
   if (settings_.masks == "remote") {
     for (const auto& entry :

@@ -19,8 +19,8 @@
 
 namespace mms {
 
-/// The SLAM system as a node: frames of its subscribers go through an AsyncPipeline in a thread of
-/// its own, which publishes the results.
+/// The SLAM system as a node: frames of the subscribers pass through an AsyncPipeline in a thread,
+/// which publishes the results.
 class SlamNode {
  public:
   explicit SlamNode(const NodeSettings& settings);
@@ -55,15 +55,15 @@ class SlamNode {
   ros::ServiceServer save_map_, reset_;
   ros::WallTimer timer_;
 
-  std::mutex mutex_;  ///< of all below
+  std::mutex mutex_;  ///< guards all below
   std::condition_variable changed_;
-  int in_flight_ = 0;  ///< frames between the queue and their results
+  int in_flight_ = 0;  ///< frames between queue and result
   bool paused_ = false;
   bool resetting_ = false;
   const SlamSystem* system_ = nullptr;
   Trajectory trajectory_, keyframes_;
   std::size_t processed_ = 0;
-  std::size_t reported_ = 0;  ///< of them, at the last diagnosis
+  std::size_t reported_ = 0;  ///< of these, at the last diagnosis
   std::size_t lost_ = 0;
   double frame_ms_ = 0.0;
   bool link_was_lost_ = false;

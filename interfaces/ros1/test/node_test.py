@@ -104,7 +104,7 @@ def compare_topics(session, recorder):
     cloud = recorder.latest(NODE + '/static_cloud')
     check([f.name for f in cloud.fields] == ['x', 'y', 'z', 'rgb'] and
           len(cloud.data) == cloud.width * cloud.point_step and cloud.width > 1000,
-          'static_cloud has %d points with colours' % cloud.width)
+          'static_cloud has %d points with colors' % cloud.width)
     objects = [o for m in recorder.messages[NODE + '/objects'] for o in m.objects]
     check(len(objects) > 0 and all(0 <= o.object_class <= 1 and o.size.z > 0 for o in objects),
           '%d objects with class and size' % len(objects))
@@ -157,8 +157,8 @@ def main():
         session.wait('the node', lambda: player.connected() and recorder.connected())
         session.wait('a diagnosis', lambda: diagnosis(recorder) is not None)
         missing = diagnosis(recorder)
-        check(missing.level == 1 and 'depth images: none arrive' in missing.message and
-              'camera_info: none arrived' in missing.message, 'reports missing inputs: ' +
+        check(missing.level == 1 and 'depth images: none received' in missing.message and
+              'camera_info: none received' in missing.message, 'reports missing inputs: ' +
               missing.message)
 
         play(session, recorder, player, NODE)

@@ -108,7 +108,7 @@ def play_inside(bag, output, link_control, cut):
     frames = player.play(keep_pace)
     played = time.time() - start
     while diagnosis(recorder).get('frames') != str(recorder.count(NODE + '/odometry')) or \
-            diagnosis(recorder).get('frames a second') != '0':
+            diagnosis(recorder).get('frames/s') != '0':
         time.sleep(0.2)
     with open(output + '.tum', 'w') as poses:
         for m in recorder.messages[NODE + '/odometry']:

@@ -19,7 +19,7 @@ void read_camera(BagRecording& recording, const std::string& topic, Calibration&
     throw DataError(where,
                     "has no sensor_msgs/CameraInfo for " + recording.color.topic + "; it has " +
                         listed(recording.bag->topics()),
-                    "name its topic with --topic-camera-info, or put the camera into " +
+                    "name its topic with --topic-camera-info, or add the camera to " +
                         calibration_file(where).filename().string());
   }
   const bool rectified = recording.color.topic.find("rect") != std::string::npos;
@@ -36,10 +36,10 @@ void read_extrinsics(BagRecording& recording, const TransformTree& transforms,
   const std::string frames = recording.cloud.frame_id + " to " + recording.color.frame_id;
   if (T) {
     calibration.T_camera_lidar = Transform<Camera, Lidar>(*T);
-    recording.facts.push_back("extrinsics: " + frames + " by the bag's transforms");
+    recording.facts.push_back("extrinsics: " + frames + " from the bag's transforms");
   } else {
     recording.warnings.push_back("no transform from " + frames +
-                                 ", so the camera counts as where the LiDAR is");
+                                 ", assuming identical camera and LiDAR frames");
   }
 }
 

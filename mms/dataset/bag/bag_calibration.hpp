@@ -7,11 +7,11 @@
 
 namespace mms {
 
-/// The calibration of a bag whose frames are known: NAME.calibration.yaml beside NAME.bag, or else
-/// the camera of a camera_info topic, and T_camera_lidar by the bag's transforms. Says which in the
-/// recording's facts.
-/// @param camera_info  topic; empty where there is none
-/// @throws DataError when there are images, but no camera for them; ConfigError for a faulty file.
+/// Calibration of a bag: NAME.calibration.yaml next to NAME.bag, or else the camera of a
+/// camera_info topic and T_camera_lidar of the bag's transforms. Adds the origin to the recording's
+/// facts.
+/// @param camera_info  topic; empty for none
+/// @throws DataError if there are images without a camera; ConfigError for an invalid file.
 Calibration bag_calibration(BagRecording& recording, const std::string& camera_info,
                             const TransformTree& transforms, const std::filesystem::path& path);
 

@@ -20,7 +20,7 @@ constexpr const char* kDepthTopic = "/camera/aligned_depth_to_color/image_raw";
 constexpr const char* kMaskTopic = "/camera/mask/image_raw";
 constexpr const char* kCloudTopic = "/points";
 constexpr const char* kTruthTopic = "/ground_truth";
-constexpr double kMillimetres = 1000.0;  // units per metre
+constexpr double kMillimetres = 1000.0;  // units per meter
 constexpr int kJpegQuality = 95;
 
 class BagRecorder final : public FrameRecorder {

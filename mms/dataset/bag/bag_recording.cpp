@@ -16,7 +16,7 @@ namespace {
 constexpr Duration kMaxDifference = std::chrono::milliseconds(20);
 constexpr Duration kMaxCloudDifference = std::chrono::milliseconds(50);
 
-/// What all messages with a stamp begin with.
+/// Common prefix of all messages with a stamp.
 struct Stamped {
   msg::Header header;
 
@@ -26,9 +26,9 @@ struct Stamped {
   }
 };
 
-/// The stamp of a message's header; when it was recorded where the driver gave none.
+/// Stamp of a message's header; the time of recording if the driver left it empty.
 Timestamp stamp_of(const msg::Header& header, Timestamp received) {
-  constexpr Timestamp kFirst(1);  // what bags have in place of zero
+  constexpr Timestamp kFirst(1);  // bags must not contain time zero
   return header.stamp == Timestamp() && received > kFirst ? received : header.stamp;
 }
 
@@ -51,7 +51,7 @@ std::string counts_of(const BagStream& stream, const std::string& what) {
   return std::to_string(stream.stamps.size()) + " " + what + " of " + stream.topic;
 }
 
-/// Gives each frame the message of `stream` that is nearest to it.
+/// Assigns the nearest message of `stream` to each frame.
 std::size_t match(std::vector<BagFrame>& frames, const BagStream& stream, Duration reach,
                   std::size_t BagFrame::*member) {
   std::vector<Timestamp> stamps;
@@ -69,17 +69,17 @@ void make_rgbd_frames(BagRecording& recording, const std::string& where) {
   match(recording.frames, recording.depth, kMaxDifference, &BagFrame::depth);
   std::erase_if(recording.frames,
                 [](const BagFrame& frame) { return frame.depth == BagFrame::kNone; });
-  const std::string counts = counts_of(recording.color, "colour images") + " and " +
+  const std::string counts = counts_of(recording.color, "color images") + " and " +
                              counts_of(recording.depth, "depth images");
   if (recording.frames.empty()) {
-    throw DataError(where, "of " + counts + " no two have stamps within 0.02 s of each other",
+    throw DataError(where, "of " + counts + ", no two match within 0.02 s",
                     "they begin at " + recording.color.stamps[0].to_string() + " and " +
                         recording.depth.stamps[0].to_string());
   }
   recording.facts.push_back("images: " + counts + ", " + std::to_string(recording.frames.size()) +
                             " matched within 0.02 s, " +
                             std::to_string(colors - recording.frames.size()) +
-                            " colour images unmatched");
+                            " color images unmatched");
 }
 
 void make_cloud_frames(BagRecording& recording) {
@@ -90,11 +90,11 @@ void make_cloud_frames(BagRecording& recording) {
   if (recording.color.empty()) return;
   const std::size_t found =
       match(recording.frames, recording.color, kMaxCloudDifference, &BagFrame::color);
-  recording.facts.push_back("images: " + counts_of(recording.color, "colour images") + ", " +
+  recording.facts.push_back("images: " + counts_of(recording.color, "color images") + ", " +
                             std::to_string(found) + " clouds have one within 0.05 s");
 }
 
-/// Label images of a folder, named like the frames.
+/// Label images of a folder, named as the frames.
 void find_mask_files(BagRecording& recording, const fs::path& folder) {
   std::size_t found = 0;
   for (BagFrame& frame : recording.frames) {
@@ -104,8 +104,8 @@ void find_mask_files(BagRecording& recording, const fs::path& folder) {
     ++found;
   }
   if (found == 0) {
-    throw DataError(folder.string(), "has a mask for none of the frames",
-                    "masks are named by the stamps, the first one " +
+    throw DataError(folder.string(), "has no mask for any frame",
+                    "masks are named by stamp, the first one " +
                         recording.frames.front().stamp.to_string() + ".png");
   }
   recording.facts.push_back("masks: " + std::to_string(found) + " of " +
@@ -137,7 +137,7 @@ void add_choice_facts(BagRecording& recording, const BagTopicNames& topics) {
   const auto add = [&](const char* what, const std::string& topic) {
     if (!topic.empty()) recording.facts.push_back(std::string(what) + " topic: " + topic);
   };
-  add("colour", topics.color);
+  add("color", topics.color);
   add("depth", topics.depth);
   add("cloud", topics.cloud);
   add("camera_info", topics.camera_info);

@@ -12,7 +12,7 @@
 
 namespace mms {
 
-/// One topic of a bag, with the stamps of all its messages.
+/// One topic of a bag with the stamps of its messages.
 struct BagStream {
   std::string topic;
   bool compressed = false;
@@ -22,7 +22,7 @@ struct BagStream {
   bool empty() const { return stamps.empty(); }
 };
 
-/// A frame's message in each stream, by its index, kNone where it has none.
+/// Message index of a frame in each stream, kNone if missing.
 struct BagFrame {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
@@ -31,22 +31,22 @@ struct BagFrame {
   std::size_t depth = kNone;
   std::size_t cloud = kNone;
   std::size_t mask = kNone;
-  std::filesystem::path mask_file{};  ///< in place of `mask`; empty for none
+  std::filesystem::path mask_file{};  ///< replaces `mask`; empty for none
 };
 
-/// All that is known of a bag before its images and clouds are read.
+/// Content of a bag before images and clouds are read.
 struct BagRecording {
   std::unique_ptr<BagReader> bag;
-  BagStream color, depth, cloud, mask;  ///< without stamps where there are none
+  BagStream color, depth, cloud, mask;  ///< no stamps if absent
   std::vector<BagFrame> frames;
   std::shared_ptr<const Calibration> calibration;
   Trajectory ground_truth;
   std::vector<std::string> facts;     ///< lines for `describe`
-  std::vector<std::string> warnings;  ///< what was wrong but can be lived with
+  std::vector<std::string> warnings;  ///< non-fatal faults
 };
 
-/// Chooses the topics, reads all stamps and puts the frames together, as bag_source says.
-/// @throws FileError, DataError, ConfigError as `open_bag` does.
+/// Selects the topics, reads all stamps and associates the frames, see bag_source.
+/// @throws FileError, DataError, ConfigError as `open_bag`.
 BagRecording read_bag_recording(const std::filesystem::path& path, const SourceOptions& options);
 
 }  // namespace mms

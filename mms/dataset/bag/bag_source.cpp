@@ -83,7 +83,7 @@ class BagSource final : public RecordedSource {
     if (at.depth != BagFrame::kNone) {
       frame.depth = read_depth(bag, recording_.depth, at.depth);
       check_size(frame.depth, camera, bag.where(recording_.depth.topic, at.depth),
-                 "it has to be registered to the colour image");
+                 "it must be registered to the color image");
       frame.depth_offset = recording_.depth.stamps[at.depth] - at.stamp;
     }
     if (at.mask != BagFrame::kNone) {

@@ -28,19 +28,19 @@ bool is_type(const BagTopic& topic, Words types) {
                      [&](const char* type) { return topic.type == type; });
 }
 
-/// Letters that two names have in common from their beginning.
+/// Length of the common prefix.
 std::size_t common(const std::string& a, const std::string& b) {
   const auto ends = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   return static_cast<std::size_t>(ends.first - a.begin());
 }
 
-/// One choice: the topic given, or the best of those that fit.
+/// Selection of one topic: the given one, or the best match.
 class Choice {
  public:
   Choice(const std::vector<BagTopic>& topics, const std::string& where)
       : topics_(topics), where_(where) {}
 
-  /// @param rank  of a topic that fits, > 0; 0 for one that does not. The first of the best wins.
+  /// @param rank  positive for a matching topic, else 0. Of equal ranks the first topic wins.
   template <class Rank>
   std::string best(const Rank& rank) const {
     const BagTopic* chosen = nullptr;
@@ -54,13 +54,13 @@ class Choice {
     return chosen == nullptr ? "" : chosen->name;
   }
 
-  /// @throws DataError when there is no such topic, or it is of none of the types.
+  /// @throws DataError if the topic is missing or has none of the types.
   std::string given(const std::string& name, const char* option, Words types) const {
     const auto found = std::find_if(topics_.begin(), topics_.end(),
                                     [&](const BagTopic& topic) { return topic.name == name; });
-    if (found == topics_.end()) fail(std::string(option) + " is " + name + ", which is not there");
+    if (found == topics_.end()) fail(std::string(option) + " is " + name + ", which is missing");
     if (!is_type(*found, types)) {
-      fail(std::string(option) + " is " + name + ", which is " + found->type + ", expected " +
+      fail(std::string(option) + " is " + name + ", which has type " + found->type + ", expected " +
            listed_types(types));
     }
     if (found->count == 0) fail(std::string(option) + " is " + name + ", which has no messages");
@@ -86,7 +86,7 @@ bool is_mask_name(const std::string& name) {
   return has_word(name, {"mask", "label", "segmentation"});
 }
 
-/// "16UC1" is an encoding of depth, but so could be "mono16" of an infrared image.
+/// "16UC1" is always depth, "mono16" may also be an infrared image.
 bool is_depth(const BagTopic& topic, const EncodingOf& encoding_of) {
   if (topic.type == kCompressed) return has_word(topic.name, {"depth"});
   if (topic.type != kImage || has_word(topic.name, {"infra", "confidence"})) return false;
@@ -118,7 +118,7 @@ int color_rank(const BagTopic& topic, const EncodingOf& encoding_of) {
   return rank;
 }
 
-/// The name without its last part, and without that of a compressed or rectified image.
+/// The name without its last part and the parts of compressed or rectified images.
 std::string camera_of(std::string topic) {
   if (topic.ends_with("/compressed")) topic.resize(topic.rfind('/'));
   return topic.substr(0, topic.rfind('/') + 1);
@@ -168,9 +168,9 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
   });
   if (chosen.cloud.empty() && (chosen.depth.empty() || chosen.color.empty())) {
     choice.fail(
-        "has neither colour images with depth nor point clouds",
-        "expected sensor_msgs/Image or CompressedImage of colour and of depth, or "
-        "sensor_msgs/PointCloud2; --topic-color, --topic-depth and --topic-cloud name them");
+        "has neither color images with depth nor point clouds",
+        "expected sensor_msgs/Image or CompressedImage of color and of depth, or "
+        "sensor_msgs/PointCloud2; select them with --topic-color, --topic-depth and --topic-cloud");
   }
   if (!chosen.color.empty()) {
     chosen.camera_info = pick(given.camera_info, "--topic-camera-info", {"sensor_msgs/CameraInfo"},

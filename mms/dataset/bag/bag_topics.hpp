@@ -9,18 +9,17 @@
 
 namespace mms {
 
-/// Tells the encoding of an image topic, "rgb8" or "16UC1": that of its first message.
+/// Returns the encoding of an image topic, such as "rgb8" or "16UC1", from its first message.
 using EncodingOf = std::function<std::string(const BagTopic&)>;
 
-/// Chooses what to read of a bag: the topics given, and for the others the likeliest. There is
-/// depth or a cloud: a depth image is preferred where there is a colour image for it. Colour images
-/// are told from depth images by their encoding, and preferred by their names ("color", "rgb");
-/// depth images that are said to be aligned or registered come first. camera_info is the one beside
-/// the colour image. Truth is only what calls itself so: ground_truth, mocap, vicon and the like.
+/// Selects the topics to read: the given ones, and the best match for the others. Depth with a
+/// color image is preferred to a cloud. Color and depth images are distinguished by encoding; names
+/// with "color" or "rgb", and depth called aligned or registered, are preferred. camera_info is
+/// that of the color image. Ground truth must be named so: ground_truth, mocap, vicon etc.
 /// @param given  topics named by the user
 /// @param where  the bag, for messages
-/// @throws DataError listing the topics there are, when there is neither colour with depth nor a
-///         cloud, or a topic given is not there or of a type that does not fit.
+/// @throws DataError with the available topics if there is neither color with depth nor a cloud, or
+/// a given topic is missing or has a wrong type.
 BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicNames& given,
                             const EncodingOf& encoding_of, const std::string& where);
 

@@ -25,7 +25,7 @@ void add(Trajectory& poses, Timestamp stamp, const Eigen::Isometry3d& pose) {
   }
 }
 
-/// @param pose_of  the msg::Pose of a message
+/// @param pose_of  returns the msg::Pose of a message
 template <class Message, class PoseOf>
 Trajectory read_poses(const BagReader& bag, const std::string& topic, const PoseOf& pose_of) {
   Trajectory poses;
@@ -44,8 +44,7 @@ Trajectory poses_in_tree(const TransformTree& transforms, const std::string& sen
     if (const auto pose = transforms.lookup(root, sensor_frame, stamp)) add(poses, stamp, *pose);
   }
   if (!poses.empty()) return poses;
-  throw DataError(where,
-                  "says nothing of how the frame '" + sensor_frame + "' of the images moves");
+  throw DataError(where, "has no transform for the frame '" + sensor_frame + "' of the images");
 }
 
 }  // namespace

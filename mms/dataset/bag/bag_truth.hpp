@@ -8,14 +8,13 @@
 
 namespace mms {
 
-/// All of /tf and /tf_static, or of the other topics of transforms.
+/// All transforms of /tf and /tf_static, or of the other transform topics.
 TransformTree read_transforms(const BagReader& bag);
 
-/// Poses of a topic of PoseStamped, TransformStamped, Odometry, or of transforms, in which they are
-/// those of the sensor's frame in the root of the tree. Those with stamps that do not increase are
-/// left out.
+/// Poses of a topic of PoseStamped, TransformStamped, Odometry, or transforms; the latter as poses
+/// of the sensor's frame in the root of the tree. Skips poses whose stamps do not increase.
 /// @param sensor_frame  frame_id of the images or clouds
-/// @throws DataError when a message is damaged, or the transforms say nothing of the sensor.
+/// @throws DataError if a message is damaged or the transforms do not contain the sensor.
 Trajectory read_truth(const BagReader& bag, const std::string& topic,
                       const TransformTree& transforms, const std::string& sensor_frame);
 

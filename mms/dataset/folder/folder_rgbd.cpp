@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kRate = 30;
 constexpr std::string_view kColorEndings[] = {".color.png", ".color.jpg", ".color.jpeg"};
 
-/// What of a colour image's name comes before its ending; empty for other files.
+/// Prefix of a color image's name; empty for other files.
 std::string frame_name(const std::string& file) {
   for (const std::string_view ending : kColorEndings) {
     if (file.ends_with(ending)) return file.substr(0, file.size() - ending.size());
@@ -39,7 +39,7 @@ void read_calibration_of(RgbdRecording& recording) {
     throw DataError(file.string(), "has no camera", "add fx fy cx cy width height depth_scale");
   }
   recording.facts.emplace_back(there ? "calibration: calibration.yaml"
-                                     : "calibration: 7-Scenes' default");
+                                     : "calibration: default of 7-Scenes");
   recording.calibration = std::make_shared<const Calibration>(calibration);
 }
 
@@ -53,14 +53,14 @@ StampedPose read_pose(const fs::path& path, Timestamp stamp) {
   return {stamp, Transform<World, Sensor>(isometry_from_rows(parse_finite(fields, where), where))};
 }
 
-/// 7-Scenes writes NaN where tracking was lost: a frame without truth, not a damaged recording.
+/// 7-Scenes writes NaN where tracking was lost: a frame without ground truth.
 void add_pose(RgbdRecording& recording, const std::string& name, Timestamp stamp) {
   const fs::path path = recording.folder / (name + ".pose.txt");
   if (!fs::exists(path)) return;
   try {
     recording.ground_truth.push_back(read_pose(path, stamp));
   } catch (const Error& error) {
-    recording.warnings.push_back(std::string("pose left out: ") + error.what());
+    recording.warnings.push_back(std::string("pose skipped: ") + error.what());
   }
 }
 
@@ -76,7 +76,7 @@ std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
   RgbdRecording recording;
   recording.folder = folder;
   recording.invalid_depth = 65535;
-  recording.facts.emplace_back("layout: folder of colour, depth and pose files (7-Scenes)");
+  recording.facts.emplace_back("layout: folder of color, depth and pose files (7-Scenes)");
   for (const std::string& file : list_folder(folder)) {
     const std::string name = frame_name(file);
     if (name.empty()) continue;

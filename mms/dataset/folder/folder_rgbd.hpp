@@ -10,13 +10,13 @@
 
 namespace mms {
 
-/// Whether a folder with these names in it holds 7-Scenes' kind of files.
+/// Whether a folder with these file names has the layout of 7-Scenes.
 bool is_folder_rgbd_layout(const std::vector<std::string>& names);
 
-/// Opens a folder in the manner of 7-Scenes: X.color.png or .jpg, X.depth.png and optional
-/// X.pose.txt (4x4 camera-to-world) for every frame X, in the order of the names at 30 Hz. Depth
-/// 65535 means no return. Optional masks/ and calibration.yaml; 7-Scenes' default otherwise.
-/// @throws FileError, DataError; ConfigError for a faulty calibration.yaml.
+/// Opens a folder in the layout of 7-Scenes: X.color.png or .jpg, X.depth.png and optional
+/// X.pose.txt (4x4 camera-to-world) for every frame X, sorted by name, at 30 Hz. Depth 65535 means
+/// no return. Optional masks/ and calibration.yaml (default: that of 7-Scenes).
+/// @throws FileError, DataError; ConfigError for an invalid calibration.yaml.
 std::unique_ptr<FrameSource> open_folder_rgbd(const std::filesystem::path& folder,
                                               const SourceOptions& options);
 

@@ -63,7 +63,7 @@ void read_times(LidarRecording& recording, const fs::path& folder) {
   const TextTable table(file);
   for (const TextLine& line : table.lines()) {
     const auto stamp = parse_stamp(line.fields[0]);
-    if (!stamp) throw DataError(table.where(line), "is no stamp in seconds");
+    if (!stamp) throw DataError(table.where(line), "is not a stamp in seconds");
     recording.stamps.push_back(*stamp);
   }
   if (recording.stamps.size() != count) {
@@ -84,7 +84,7 @@ void read_poses(LidarRecording& recording, const fs::path& folder) {
     }
     const bool identity = to_camera.matrix().isIdentity(0.0);
     recording.facts.push_back("poses: " + name +
-                              (identity ? ", of camera 0 as no T_camera_lidar is given" : ""));
+                              (identity ? ", of camera 0 because T_camera_lidar is missing" : ""));
     return;
   }
 }

@@ -10,15 +10,14 @@
 
 namespace mms {
 
-/// Whether a folder with these names in it holds KITTI scans.
+/// Whether a folder with these file names contains KITTI scans.
 bool is_kitti_lidar_layout(const std::vector<std::string>& names);
 
-/// Opens a folder of KITTI scans (*.bin, or in velodyne/), in the order of their names. Optional in
-/// the folder: times.txt ([s], else 10 Hz), poses*.txt (truth of camera 0, taken
-/// to the scanner by calibration.yaml's T_camera_lidar), point_times/ (float32 a point, seconds
-/// since the scan's stamp), and with a camera in calibration.yaml image_2/ and masks/, all files
-/// named like the scans.
-/// @throws FileError, DataError; ConfigError for a faulty calibration.yaml.
+/// Opens a folder of KITTI scans (*.bin, or in velodyne/), sorted by name. Optional files:
+/// times.txt ([s], default 10 Hz), poses*.txt (ground truth of camera 0, transformed to the LiDAR
+/// with T_camera_lidar of calibration.yaml), point_times/ (float32 per point, seconds since the
+/// scan's stamp), and with a camera in calibration.yaml image_2/ and masks/, named as the scans.
+/// @throws FileError, DataError; ConfigError for an invalid calibration.yaml.
 std::unique_ptr<FrameSource> open_kitti_lidar(const std::filesystem::path& folder,
                                               const SourceOptions& options);
 

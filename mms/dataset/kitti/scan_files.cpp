@@ -14,7 +14,8 @@ namespace {
 
 using Member = fs::path ScanFiles::*;
 
-/// Sets a member of each scan for which the folder has a file of its name. @returns how many
+/// Sets a member of each scan with a file of its name in the folder.
+/// @returns the number of files found
 std::size_t find_files(std::vector<ScanFiles>& scans, const fs::path& folder,
                        std::initializer_list<const char*> extensions, Member member) {
   if (!fs::is_directory(folder)) return 0;
@@ -43,7 +44,7 @@ void find_masks(std::vector<ScanFiles>& scans, const fs::path& folder, const Sou
   const fs::path masks = options.masks.empty() ? folder / "masks" : options.masks;
   const std::size_t found = find_files(scans, masks, {".png"}, &ScanFiles::mask);
   if (found == 0 && !options.masks.empty()) {
-    throw DataError(masks.string(), "has a mask for none of the scans",
+    throw DataError(masks.string(), "has no mask for any scan",
                     "masks are named as the scans, the first one " +
                         scans.front().scan.stem().string() + ".png");
   }
@@ -55,7 +56,7 @@ void check_size(const Image<T>& image, const CameraIntrinsics& camera, const fs:
   if (image.width() == camera.width && image.height() == camera.height) return;
   throw DataError(path.string(),
                   "is " + std::to_string(image.width()) + "x" + std::to_string(image.height()) +
-                      " pixels, the calibration says " + std::to_string(camera.width) + "x" +
+                      " pixels, the calibration has " + std::to_string(camera.width) + "x" +
                       std::to_string(camera.height));
 }
 
@@ -69,19 +70,20 @@ std::vector<ScanFiles> find_scans(const fs::path& folder) {
       if (name.ends_with(".bin")) scans.push_back({candidate / name, {}, {}, {}});
     }
   }
-  if (scans.empty()) throw DataError(folder.string(), "has no *.bin scans, nor has velodyne/");
+  if (scans.empty())
+    throw DataError(folder.string(), "has no *.bin scans, and neither has velodyne/");
   return scans;
 }
 
 void find_companions(std::vector<ScanFiles>& scans, const fs::path& folder,
                      const Calibration& calibration, const SourceOptions& options,
                      std::vector<std::string>& facts) {
-  add_fact(facts, "times of the points",
+  add_fact(facts, "point times",
            find_files(scans, folder / "point_times", {".bin"}, &ScanFiles::times), scans.size());
   const fs::path images = folder / "image_2";
   if (!calibration.camera) {
     if (fs::is_directory(images)) {
-      facts.emplace_back("images: not used, as calibration.yaml has no camera");
+      facts.emplace_back("images: not used, calibration.yaml has no camera");
     }
     return;
   }

@@ -10,7 +10,7 @@
 
 namespace mms {
 
-/// Files of one LiDAR scan; those beside the scan are empty where there are none.
+/// Files of one LiDAR scan; optional ones are empty if missing.
 struct ScanFiles {
   std::filesystem::path scan;
   std::filesystem::path times;  ///< of the points
@@ -18,20 +18,20 @@ struct ScanFiles {
   std::filesystem::path mask;
 };
 
-/// Finds the scans *.bin of a folder, or of its velodyne/, in the order of their names.
-/// @throws DataError when there are none.
+/// Finds the scans *.bin of a folder or of its velodyne/, sorted by name.
+/// @throws DataError if there are none.
 std::vector<ScanFiles> find_scans(const std::filesystem::path& folder);
 
-/// Finds what else there is of each scan, by its name: point_times/, and with a calibrated camera
-/// image_2/ (.jpg, .jpeg or .png) and masks/ or the options' folder. Says in `facts` how many.
-/// @throws DataError when the options' folder has a mask for none of the scans.
+/// Finds the optional files of each scan by name: point_times/, and with a calibrated camera
+/// image_2/ (.jpg, .jpeg or .png) and masks/ or the options' folder. Adds their numbers to `facts`.
+/// @throws DataError if the options' folder has no mask for any scan.
 void find_companions(std::vector<ScanFiles>& scans, const std::filesystem::path& folder,
                      const Calibration& calibration, const SourceOptions& options,
                      std::vector<std::string>& facts);
 
-/// The frame but for its index, stamp and name.
-/// @throws FileError, DataError when a file is damaged, there are more or fewer times than points,
-///         or an image is of another size than the calibration says.
+/// The frame without index, stamp and name.
+/// @throws FileError, DataError if a file is damaged, the number of times is not that of the
+/// points, or an image has a size other than the calibration's.
 Frame read_scan_frame(const ScanFiles& files,
                       const std::shared_ptr<const Calibration>& calibration);
 

@@ -16,10 +16,10 @@ namespace mms {
 namespace fs = std::filesystem;
 namespace {
 
-/// Units per metre of the depth images there are, the usual ones first.
+/// Common scales of depth images, units per meter.
 constexpr double kDepthScales[] = {1000.0, 5000.0, 4000.0, 10000.0};
 
-/// Whether depth images in that unit keep the depth to the bit.
+/// Whether depth images of that scale represent the depth exactly.
 bool keeps(const Image<float>& depth, double scale) {
   const Image<std::uint16_t> raw = recorded_depth(depth, scale);
   const auto units = static_cast<float>(scale);
@@ -29,8 +29,8 @@ bool keeps(const Image<float>& depth, double scale) {
   return true;
 }
 
-/// Bags have depth in metres, and do not say what units they were made of. Where no unit keeps it,
-/// 16 bits reach 13 m in steps of 0.2 mm.
+/// Bags have depth in meters without the original scale. If no common scale is exact, 16 bits cover
+/// 13 m in steps of 0.2 mm.
 double depth_scale_of(const Frame& frame) {
   const double said = frame.calibration->depth_scale;
   if (keeps(frame.depth, said)) return said;
@@ -111,7 +111,7 @@ class FolderRecorder final : public FrameRecorder {
     stamps_.push_back(frame.stamp);
   }
 
-  /// KITTI's poses are those of the camera, one a scan: only where every scan has one.
+  /// KITTI poses are those of the camera, one per scan: written only if every scan has one.
   void write_poses(const Trajectory& truth) {
     const Eigen::Isometry3d T_lidar_camera = calibration_.T_camera_lidar.isometry().inverse();
     Trajectory camera;

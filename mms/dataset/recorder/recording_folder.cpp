@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::string_view kSceneFile = "scene.yaml";
 
-/// First words of scene.yaml, by which a simulation is told from a folder of someone's own.
+/// First line of scene.yaml, which identifies a simulated recording.
 constexpr std::string_view kMark = "# A recording by mms simulate";
 
-/// All that a recording may consist of.
+/// All entries of a recording.
 constexpr std::string_view kEntries[] = {"rgb",
                                          "depth",
                                          "masks",
@@ -52,7 +52,7 @@ void remove_simulation(const fs::path& folder) {
 
 std::string scene_yaml(const SceneConfig& config) {
   return std::string(kMark) + " of '" + config.name +
-         "'; mms simulate scene.yaml -o DIR makes it again.\n" + dump_config(config);
+         "'; recreate it with mms simulate scene.yaml -o DIR.\n" + dump_config(config);
 }
 
 void prepare_recording_folder(const fs::path& folder, const SceneConfig& config) {
@@ -62,7 +62,7 @@ void prepare_recording_folder(const fs::path& folder, const SceneConfig& config)
     remove_simulation(folder);
   } else if (!names.empty()) {
     throw FileError(folder.string(),
-                    "is not empty (it has " + names.front() + ") and no earlier simulation",
+                    "is not empty (it has " + names.front() + ") and not an earlier simulation",
                     "choose a new folder with -o, or empty this one");
   }
   write_file(folder / kSceneFile, scene_yaml(config));

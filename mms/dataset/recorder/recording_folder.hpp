@@ -7,14 +7,13 @@
 
 namespace mms {
 
-/// Makes the folder ready for the recording of a simulated scene and writes its scene.yaml, from
-/// which the same recording can be made again. The files of a simulation that was there before are
-/// removed.
-/// @throws FileError when the folder cannot be made, written to, or holds anything other than such
-///         a simulation.
+/// Prepares the folder for the recording of a simulated scene and writes its scene.yaml, from which
+/// the recording can be recreated. Removes the files of an earlier simulation.
+/// @throws FileError if the folder cannot be created or written, or contains anything other than a
+/// simulation.
 void prepare_recording_folder(const std::filesystem::path& folder, const SceneConfig& config);
 
-/// The documented YAML of a scene, as scene.yaml holds it.
+/// YAML of a scene with descriptions, as in scene.yaml.
 std::string scene_yaml(const SceneConfig& config);
 
 }  // namespace mms

@@ -9,8 +9,8 @@
 
 namespace mms {
 
-/// The files a recorder would leave, in one of the layouts that `open_dataset` reads: images, scans
-/// and lists, and the exact instances/ beside them. The truth of the scene is not its matter.
+/// Writes images, scans, lists and the exact instances/ in one of the layouts of `open_dataset`;
+/// the scene's ground truth is written elsewhere.
 class RecordingLayout {
  public:
   virtual ~RecordingLayout() = default;
@@ -18,10 +18,12 @@ class RecordingLayout {
   /// Writes the files of one frame. @throws FileError
   virtual void add(const SimulatedFrame& frame) = 0;
 
-  /// Writes what lists the frames added. @param truth  their poses @throws FileError
+  /// Writes the lists of the added frames.
+  /// @param truth  their poses
+  /// @throws FileError
   virtual void finish(const Trajectory& truth) = 0;
 
-  /// Path of a frame's colour image below the recording's folder.
+  /// Path of a frame's color image in the recording's folder.
   virtual std::string color_file(const Frame& frame) const = 0;
 };
 
@@ -29,13 +31,13 @@ class RecordingLayout {
 std::unique_ptr<RecordingLayout> tum_layout(const std::filesystem::path& folder,
                                             const SceneConfig& config, const SensorPreset& sensor);
 
-/// KITTI's layout: velodyne/, point_times/, image_2/, masks/, instances/ named by number,
-/// times.txt, poses.txt (of the camera).
+/// KITTI layout: velodyne/, point_times/, image_2/, masks/, instances/ named by number, times.txt,
+/// poses.txt (of the camera).
 std::unique_ptr<RecordingLayout> kitti_layout(const std::filesystem::path& folder,
                                               const SceneConfig& config,
                                               const SensorPreset& sensor);
 
-/// The one for the sensor: KITTI's for a LiDAR, TUM's for a depth camera.
+/// The layout for the sensor: KITTI for a LiDAR, TUM for a depth camera.
 std::unique_ptr<RecordingLayout> layout_for(const std::filesystem::path& folder,
                                             const SceneConfig& config, const SensorPreset& sensor);
 

@@ -12,22 +12,22 @@
 
 namespace mms {
 
-/// The true map of what a simulated sensor has looked at: the exact points, in the world frame, of
-/// all that it got a return from, each labelled as static or with the object it lies on; things
-/// that move are kept at every place they were seen at. One point a voxel and label.
+/// Ground-truth map of a simulated sensor: the exact points of all returns in the world frame,
+/// labeled static or with their object; moving objects appear at all their observed positions. One
+/// point per voxel and label.
 class MapTruth {
  public:
   /// @param voxel_size  [m], > 0
-  /// @param stride      of the pixels taken, >= 1
+  /// @param stride      of the pixels used, >= 1
   explicit MapTruth(double voxel_size = 0.04, int stride = 2);
 
-  /// Adds what a depth camera or LiDAR got a return from: the exact point, not the measured one.
+  /// Adds the returns of a depth camera or LiDAR: the exact points, without noise.
   void add(const SimulatedFrame& frame, const Transform<World, Sensor>& T_world_sensor);
 
   /// Adds a point in the world frame [m] with its label: 0 static, else 1 + id of the object.
   void add(const Eigen::Vector3f& point, std::int32_t label);
 
-  /// Static points first, then object by object; in the order they were first seen in.
+  /// Static points first, then by object, each in order of first observation.
   TruthCloud cloud() const;
 
  private:
@@ -37,7 +37,7 @@ class MapTruth {
   double voxel_size_;
   int stride_;
   std::map<std::int32_t, Points> points_;  ///< by label
-  CameraIntrinsics camera_;                ///< that `rays_` belong to
+  CameraIntrinsics camera_;                ///< camera of `rays_`
   std::vector<Eigen::Vector3f> rays_;
 };
 

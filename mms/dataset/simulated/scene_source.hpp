@@ -7,12 +7,11 @@
 
 namespace mms {
 
-/// Plays a warehouse scene, rendered as its frames are asked for: the very frames that a recording
-/// of it by `write_simulation` holds, with its truth poses and the true map of the frames so far.
+/// Plays a warehouse scene and renders frames on request: the same frames as in a recording by
+/// `write_simulation`, with ground-truth poses and the ground-truth map of the frames so far.
 /// @param load_masks  false: frames come without masks
-/// @param map_truth   false: there is no truth of map and objects, whose memory grows with the
-/// frames
-/// @throws ConfigError when the config asks for what cannot be.
+/// @param map_truth   false: no ground truth of map and objects, whose memory grows with the frames
+/// @throws ConfigError for an invalid config.
 std::unique_ptr<FrameSource> play_scene(const SceneConfig& config, bool load_masks,
                                         bool map_truth = true);
 

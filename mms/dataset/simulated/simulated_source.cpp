@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kScheme = "sim:";
 
-/// "sim:name?key=value&key=value" taken apart.
+/// Parts of "sim:name?key=value&key=value".
 struct Address {
   std::string text;
   std::string scene;
@@ -39,7 +39,7 @@ Address parse(std::string_view text) {
   for (const std::string_view name : scene_names()) {
     known.push_back(std::string(kScheme).append(name));
   }
-  throw DataError(address.text, "there is no such scene",
+  throw DataError(address.text, "no such scene",
                   suggestion(std::string(kScheme) + address.scene, known));
 }
 
@@ -50,7 +50,7 @@ bool is_simulated(std::string_view address) {
 }
 
 SceneConfig simulated_scene(std::string_view text) {
-  if (!is_simulated(text)) throw DataError(std::string(text), "is no simulation");
+  if (!is_simulated(text)) throw DataError(std::string(text), "is not a simulation");
   const Address address = parse(text);
   const auto names = scene_names();
   if (std::find(names.begin(), names.end(), address.scene) == names.end()) fail_unknown(address);

@@ -10,17 +10,17 @@ namespace mms {
 
 struct SceneConfig;
 
-/// Whether the address names a simulation ("sim:...") and not a recording on disk.
+/// Whether the address is a simulation ("sim:...") instead of a recording on disk.
 bool is_simulated(std::string_view address);
 
-/// The scene that an address names: "sim:warehouse_loop" or another of scene_names(), or with any
-/// fields of SceneConfig "sim:crowd?seed=3&sensor=d435&mask_errors.enabled=true".
-/// @throws DataError for another scene or an unknown key (naming the nearest known ones), or a
-///         value that is not of the key's type or out of its range.
+/// The scene of an address: "sim:warehouse_loop" or another of scene_names(), optionally with
+/// fields of SceneConfig, as in "sim:crowd?seed=3&sensor=d435&mask_errors.enabled=true".
+/// @throws DataError for an unknown scene or key (with the closest known ones), or a value of a
+/// wrong type or out of range.
 SceneConfig simulated_scene(std::string_view address);
 
-/// Opens a simulation, which renders its frames as they are asked for, with masks and truth poses.
-/// @throws DataError as `simulated_scene`, or for a folder of masks in the options.
+/// Opens a simulation, which renders frames on request, with masks and ground-truth poses.
+/// @throws DataError as `simulated_scene`, or for a mask folder in the options.
 std::unique_ptr<FrameSource> open_simulated(std::string_view address,
                                             const SourceOptions& options = {});
 

@@ -18,7 +18,7 @@ PointCloudFile file_of(TruthCloud cloud) {
           {}};
 }
 
-/// Poses from the first to the last frame, at least `rate` a second.
+/// Poses from the first to the last frame with at least `rate` [Hz].
 Trajectory dense_poses(const SimulatedScene& scene, int frames, double rate) {
   const Timestamp first = scene.stamp(0);
   const Timestamp last = scene.stamp(frames - 1);

@@ -12,20 +12,22 @@
 
 namespace mms {
 
-/// Writes a simulated recording with its truth, frame by frame. The folder then has, besides the
-/// recording itself (RecordingLayout), groundtruth.txt, objects_truth.json, instances.json (COCO),
-/// map_truth.ply (for depth cameras) and scene.yaml. Every file appears whole or not at all.
+/// Writes a simulated recording with its ground truth, frame by frame. Besides the recording
+/// (RecordingLayout) the folder contains groundtruth.txt, objects_truth.json, instances.json
+/// (COCO), map_truth.ply (for depth cameras) and scene.yaml. Files are written atomically.
 class SimulationWriter {
  public:
-  /// @throws FileError when the folder cannot be written to, or holds something else already
-  ///         (prepare_recording_folder).
+  /// @throws FileError if the folder cannot be written or contains other files
+  /// (prepare_recording_folder).
   SimulationWriter(const std::filesystem::path& folder, const SceneConfig& config,
                    const SensorPreset& sensor);
 
-  /// Writes a frame; stamps have to grow. @throws FileError
+  /// Writes a frame; stamps must increase.
+  /// @throws FileError
   void add(const SimulatedFrame& frame, const StampedPose& pose);
 
-  /// Writes what is made of all frames. @throws FileError, DataError when there was none.
+  /// Writes the files of the whole recording.
+  /// @throws FileError, DataError if there was no frame.
   void finish();
 
   std::size_t annotations() const { return annotations_.annotations.size(); }
@@ -41,15 +43,15 @@ class SimulationWriter {
   std::size_t map_points_ = 0;
 };
 
-/// How `write_simulation` goes about it.
+/// Options of `write_simulation`.
 struct WriteOptions {
   double pose_rate = 200.0;      ///< of the poses in groundtruth_dense.txt [Hz]
   double static_spacing = 0.04;  ///< of the points in static_truth.ply [m]
-  /// Called after every frame; the recording ends early when it returns false.
+  /// Called after every frame; returning false ends the recording.
   std::function<bool(int done, int total)> progress = {};
 };
 
-/// What was written.
+/// Summary of a written recording.
 struct WrittenRecording {
   int frames = 0;
   std::size_t annotations = 0;    ///< instances in all frames
@@ -57,9 +59,9 @@ struct WrittenRecording {
   std::size_t map_points = 0;     ///< of map_truth.ply
 };
 
-/// Renders a scene into a folder: what SimulationWriter writes, groundtruth_dense.txt with poses
+/// Renders a scene into a folder: the files of SimulationWriter, groundtruth_dense.txt with poses
 /// between the frames, and static_truth.ply with all static surfaces.
-/// @throws FileError, DataError as SimulationWriter does.
+/// @throws FileError, DataError as SimulationWriter.
 WrittenRecording write_simulation(SimulatedScene& scene, const std::filesystem::path& folder,
                                   const WriteOptions& options = {});
 

@@ -29,11 +29,11 @@ void check_seed(const fs::path& file, std::uint64_t seed) {
   if (known && set["seed"].get<std::uint64_t>() == seed) return;
   throw DataError(
       file.string(),
-      "is of seed " + (known ? set["seed"].dump() : "unknown") + ", not of " + std::to_string(seed),
-      "give the same --seed to go on with it, or another folder with -o");
+      "has seed " + (known ? set["seed"].dump() : "unknown") + ", not " + std::to_string(seed),
+      "use the same --seed to continue it, or another folder with -o");
 }
 
-/// Makes the folder, or checks that what is there can be continued.
+/// Creates the folder, or checks that the existing one can be continued.
 void prepare(const fs::path& folder, std::uint64_t seed) {
   make_folder(folder);
   const std::vector<std::string> names = list_folder(folder);
@@ -41,7 +41,7 @@ void prepare(const fs::path& folder, std::uint64_t seed) {
     check_seed(folder / kSetFile, seed);
   } else if (!names.empty()) {
     throw FileError(folder.string(),
-                    "is not empty (it has " + names.front() + ") and no training set",
+                    "is not empty (it has " + names.front() + ") and not a training set",
                     "choose a new folder with -o, or empty this one");
   } else {
     write_file(folder / kSetFile, nlohmann::json{{"seed", seed}}.dump() + "\n");
@@ -55,7 +55,7 @@ class TrainingSet {
   TrainingSet(fs::path folder, const TrainingSetOptions& options)
       : folder_(std::move(folder)), options_(options), views_(options.seed) {}
 
-  /// The part of an image is written after it, so that where it is the image is.
+  /// The annotations of an image are written after it, so they mark a finished image.
   bool has(int index) const {
     return fs::exists(part(index)) && fs::exists(folder_ / image(index));
   }
@@ -68,7 +68,7 @@ class TrainingSet {
     write_coco(part(index), dataset);
   }
 
-  /// The annotations of all images up to `end`, numbered anew.
+  /// The annotations of all images up to `end`, renumbered.
   CocoDataset collect(int end) const {
     CocoDataset whole = empty_annotations();
     for (int i = 0; i < end; ++i) {

@@ -4,12 +4,12 @@
 
 namespace mms {
 
-/// The topics of a bag to read; empty: to be found by their types and names, or not there.
+/// Topics of a bag; an empty name selects by type and name.
 struct BagTopicNames {
   std::string color{};  ///< sensor_msgs/Image or CompressedImage
-  std::string depth{};  ///< sensor_msgs/Image or CompressedImage, registered to the colour image
+  std::string depth{};  ///< sensor_msgs/Image or CompressedImage, registered to the color image
   std::string cloud{};  ///< sensor_msgs/PointCloud2
-  std::string camera_info{};  ///< sensor_msgs/CameraInfo of the colour image
+  std::string camera_info{};  ///< sensor_msgs/CameraInfo of the color image
   std::string mask{};         ///< sensor_msgs/Image of labels: 0 static, 1 person, 2 vehicle
   std::string truth{};        ///< PoseStamped, TransformStamped, Odometry or TFMessage
 

@@ -14,51 +14,51 @@
 
 namespace mms {
 
-/// A recording that gives its frames one by one. Damaged frames are skipped: `next` goes on to the
-/// next good one, reports what was wrong to the warning handler and counts it.
+/// A recording as a sequence of frames. `next` skips damaged frames, reports them to the warning
+/// handler and counts them.
 class FrameSource {
  public:
-  /// Receives one line naming the file and the fault.
+  /// Receives one line with file and fault.
   using WarningHandler = std::function<void(const std::string&)>;
 
   virtual ~FrameSource() = default;
 
-  /// The next readable frame, or nothing at the end of the recording.
+  /// The next readable frame; nullopt at the end of the recording.
   virtual std::optional<Frame> next() = 0;
 
-  /// Number of frames in the recording, the damaged ones included.
+  /// Number of frames in the recording, including damaged ones.
   virtual std::size_t size() const = 0;
 
   /// Frames skipped so far because they could not be read.
   virtual std::size_t skipped() const = 0;
 
-  /// Passes over the next `count` frames without reading them.
+  /// Skips the next `count` frames without reading them.
   virtual void skip(std::size_t count) = 0;
 
-  /// Whether any frame comes with a mask.
+  /// Whether any frame has a mask.
   virtual bool has_masks() const = 0;
 
-  /// What is known of the sensor before the first frame; null where nothing is.
+  /// Calibration known before the first frame; null if unknown.
   virtual std::shared_ptr<const Calibration> calibration() const { return nullptr; }
 
-  /// Truth poses, in the recording's own world frame; empty where there are none.
+  /// Ground-truth poses in the recording's world frame; empty if unknown.
   virtual const Trajectory& ground_truth() const = 0;
 
-  /// The true map of what the frames given so far show, static and dynamic, in the world frame of
-  /// the truth poses; nothing where it is not known. A recording knows only that of all its frames
-  /// together, so nothing comes once some were passed over or as long as some are to come.
-  /// @throws Error when it is there but cannot be read.
+  /// Ground-truth map of the frames returned so far, static and dynamic, in the world frame of the
+  /// ground-truth poses; nullopt if unknown. A recording only has the map of all its frames, so it
+  /// returns nullopt before the end and after skipped frames.
+  /// @throws Error if the file cannot be read.
   virtual std::optional<TruthCloud> map_truth() const { return std::nullopt; }
 
-  /// The objects in the frames given so far as they truly are, in the world frame of the truth
-  /// poses; empty where that is not known.
-  /// @throws Error when it is there but cannot be read.
+  /// Ground-truth objects of the frames returned so far, in the world frame of the ground-truth
+  /// poses; empty if unknown.
+  /// @throws Error if the file cannot be read.
   virtual ObjectHistory objects_truth() const { return {}; }
 
-  /// What was found, one line a fact, for `mms info`.
+  /// Facts about the recording, one per line, for `mms info`.
   virtual std::vector<std::string> describe() const = 0;
 
-  /// Sets what receives a line for every frame that is skipped; none by default.
+  /// Sets the handler for skipped frames; none by default.
   virtual void on_warning(WarningHandler handler) = 0;
 };
 

@@ -11,7 +11,7 @@ namespace mms {
 namespace fs = std::filesystem;
 namespace {
 
-/// What was wrong with the lines of one list: the first of a kind and how many there are.
+/// Faults in the lines of a list: the first of each kind and their number.
 class LineFaults {
  public:
   explicit LineFaults(std::string what) : what_(std::move(what)) {}
@@ -39,7 +39,7 @@ std::optional<ListedImage> parse_image(const fs::path& folder, const TextLine& l
   return ListedImage{*stamp, folder / line.fields[column + 1]};
 }
 
-/// "depth/1.png 2 rgb/2.png": some data sets list the depth image first.
+/// "depth/1.png 2 rgb/2.png": some datasets list the depth image first.
 bool depth_comes_first(const TextLine& line) {
   constexpr auto kNone = std::string_view::npos;
   return line.fields[1].find("depth") != kNone && line.fields[3].find("depth") == kNone;
@@ -60,14 +60,14 @@ Timestamp stamp_of(const ListedPair& pair) {
   return pair.color.stamp;
 }
 
-/// The lines of `columns` columns that `parse` can read, with no stamp twice.
+/// The lines of `columns` columns that `parse` accepts, without duplicate stamps.
 template <class Parse>
 auto read_list(const fs::path& list, std::size_t columns, const std::string& form, Parse parse,
                std::vector<std::string>& warnings) {
   const TextTable table(list);
   const fs::path folder = list.parent_path();
-  LineFaults damaged("line left out, expected '" + form + "'");
-  LineFaults duplicate("line left out, its stamp was there before");
+  LineFaults damaged("line skipped, expected '" + form + "'");
+  LineFaults duplicate("line skipped, duplicate stamp");
   std::vector<typename decltype(parse(folder, table.lines()[0]))::value_type> entries;
   std::set<Timestamp> seen;
   for (const TextLine& line : table.lines()) {

@@ -32,7 +32,7 @@ std::optional<Frame> RecordedSource::try_read(std::size_t index) {
   const std::string name = name_at(index);
   if (last_stamp_ && stamp <= *last_stamp_) {
     warn("frame " + name + " skipped: its stamp " + stamp.to_string() +
-         " is not later than the frame before's " + last_stamp_->to_string());
+         " is not later than the previous one" + last_stamp_->to_string());
     return std::nullopt;
   }
   try {
@@ -59,7 +59,7 @@ std::optional<TruthCloud> RecordedSource::map_truth() const {
   PointCloudFile file = read_ply(map_truth_);
   if (file.labels.empty() && !file.points.empty()) {
     throw DataError(map_truth_.string(), "has no property 'label'",
-                    "a truth map labels its points: 0 static, else 1 + id of the object");
+                    "expected a label per point: 0 static, else 1 + id of the object");
   }
   return TruthCloud{std::move(file.points), std::move(file.normals), std::move(file.colors),
                     std::move(file.labels)};

@@ -6,8 +6,8 @@
 
 namespace mms {
 
-/// What every recording on disk has in common: frames in order, damaged ones and those whose stamp
-/// is not later than that of the frame before are skipped with a warning.
+/// Common part of recordings on disk: frames in order of time; damaged frames and frames whose
+/// stamp does not increase are skipped with a warning.
 class RecordedSource : public FrameSource {
  public:
   std::optional<Frame> next() final;
@@ -19,30 +19,31 @@ class RecordedSource : public FrameSource {
   ObjectHistory objects_truth() const final;
   std::vector<std::string> describe() const final;
 
-  /// The handler also receives what was found wrong before it was set.
+  /// The handler also receives earlier warnings.
   void on_warning(WarningHandler handler) final;
 
  protected:
-  /// Stamp of a frame, known without reading it.
+  /// Stamp of a frame, available without reading it.
   virtual Timestamp stamp_at(std::size_t index) const = 0;
-  /// Name of a frame for messages, known without reading it.
+  /// Name of a frame for messages, available without reading it.
   virtual std::string name_at(std::size_t index) const = 0;
 
-  /// The frame but for its index, stamp and name, which `next` fills in.
-  /// @throws Error when it cannot be read.
+  /// The frame without index, stamp and name, which `next` sets.
+  /// @throws Error if it cannot be read.
   virtual Frame read(std::size_t index) const = 0;
 
-  /// Facts about the recording that `describe` puts before those it knows itself.
+  /// Facts that precede the common ones in `describe`.
   virtual std::vector<std::string> facts() const = 0;
 
-  /// Hands a line to the warning handler, or keeps it until there is one.
+  /// Passes a line to the warning handler, or stores it until there is one.
   void warn(const std::string& message);
   /// Sets the poses that `ground_truth` returns.
   void set_ground_truth(Trajectory trajectory) { ground_truth_ = std::move(trajectory); }
 
-  /// Sets the file of the true map of all frames. It is read when asked for, and may be missing.
+  /// Sets the file of the ground-truth map of all frames, which may be missing. It is read on
+  /// request.
   void set_map_truth(std::filesystem::path file) { map_truth_ = std::move(file); }
-  /// Sets the file of the true objects of all frames, which may be missing as well.
+  /// Sets the file of the ground-truth objects of all frames, which may be missing.
   void set_objects_truth(std::filesystem::path file) { objects_truth_ = std::move(file); }
 
  private:
@@ -50,7 +51,7 @@ class RecordedSource : public FrameSource {
 
   std::size_t position_ = 0;
   std::size_t skipped_ = 0;
-  bool passed_over_ = false;  ///< frames, by `skip`
+  bool passed_over_ = false;  ///< frames were skipped by `skip`
   std::optional<Timestamp> last_stamp_;
   Trajectory ground_truth_;
   std::filesystem::path map_truth_;

@@ -19,11 +19,11 @@ template <class T>
 void check_size(const Image<T>& image, const CameraIntrinsics& camera, const fs::path& path) {
   if (image.width() == camera.width && image.height() == camera.height) return;
   throw DataError(path.string(), "is " + size_text(image.width(), image.height()) +
-                                     " pixels, the calibration says " +
+                                     " pixels, the calibration has " +
                                      size_text(camera.width, camera.height));
 }
 
-/// Metres of a raw depth image, 0 where there is no return.
+/// Depth in meters of a raw depth image, 0 for no return.
 Image<float> to_metres(const Image<std::uint16_t>& raw, double scale, std::uint16_t invalid) {
   Image<float> depth(raw.width(), raw.height());
   const float units = static_cast<float>(scale);
@@ -58,8 +58,8 @@ void find_masks(RgbdRecording& recording, const SourceOptions& options) {
   recording.facts.push_back("masks: " + share + " in " + folder.string());
   if (missing.empty()) return;
   if (found == 0 && !options.masks.empty()) {
-    throw DataError(folder.string(), "has a mask for none of the frames",
-                    "masks are named as the colour images, the first one " + missing);
+    throw DataError(folder.string(), "has no mask for any frame",
+                    "masks are named as the color images, the first one " + missing);
   }
   recording.warnings.push_back(folder.string() + ": only " + share +
                                " frames have a mask, the first one missing is " + missing);
@@ -99,7 +99,7 @@ std::vector<std::string> RgbdSource::facts() const {
   const Calibration& calibration = *recording_.calibration;
   std::vector<std::string> lines = recording_.facts;
   lines.push_back("image: " + size_text(calibration.camera->width, calibration.camera->height) +
-                  " pixels, " + format_number(calibration.depth_scale) + " depth units per metre");
+                  " pixels, " + format_number(calibration.depth_scale) + " depth units per meter");
   return lines;
 }
 

@@ -9,37 +9,37 @@
 
 namespace mms {
 
-/// Files of one colour image with depth.
+/// Files of a color image with depth.
 struct RgbdFiles {
-  Timestamp stamp;              ///< of the colour image
+  Timestamp stamp;              ///< of the color image
   Duration depth_offset{0};     ///< of the depth image, relative to `stamp`
   std::filesystem::path color;  ///< 8-bit image
   std::filesystem::path depth;  ///< 16-bit image, registered to `color`
-  std::filesystem::path mask;   ///< empty where there is none
-  std::string name;             ///< what the mask of the frame is called, without ".png"
+  std::filesystem::path mask;   ///< empty for none
+  std::string name;             ///< file name of the frame's mask without ".png"
 };
 
-/// All that a folder layout says about an RGB-D recording; the images are not read yet.
+/// An RGB-D recording before its images are read.
 struct RgbdRecording {
   std::filesystem::path folder;                    ///< of the recording
-  std::vector<RgbdFiles> frames;                   ///< in the order of their stamps
+  std::vector<RgbdFiles> frames;                   ///< in order of stamps
   std::shared_ptr<const Calibration> calibration;  ///< with a camera
-  std::uint16_t invalid_depth = 0;                 ///< raw value that means no return besides 0
-  Trajectory ground_truth;                         ///< empty where there is none
+  std::uint16_t invalid_depth = 0;                 ///< raw value for no return besides 0
+  Trajectory ground_truth;                         ///< empty for none
   std::vector<std::string> facts;                  ///< lines for `describe`
-  std::vector<std::string> warnings;               ///< what was wrong but can be lived with
+  std::vector<std::string> warnings;               ///< non-fatal faults
 };
 
-/// Finds the frames' masks, in `options.masks` or else the recording's own masks/; says in facts
-/// and warnings how many there are.
-/// @throws DataError when `options.masks` is given and has a mask for none of the frames.
+/// Finds the frames' masks in `options.masks`, or else in the recording's masks/; adds their number
+/// to facts and warnings.
+/// @throws DataError if `options.masks` is given and has no mask for any frame.
 void find_masks(RgbdRecording& recording, const SourceOptions& options);
 
-/// Reads the images of an RGB-D recording. Images of another size than the calibration's are
+/// Reads the images of an RGB-D recording. Images of a size other than the calibration's are
 /// damaged frames.
 class RgbdSource final : public RecordedSource {
  public:
-  /// Reads no image yet.
+  /// Does not read images.
   explicit RgbdSource(RgbdRecording recording);
 
   std::size_t size() const override { return recording_.frames.size(); }

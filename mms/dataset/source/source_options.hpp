@@ -6,9 +6,9 @@
 
 namespace mms {
 
-/// What to read of a recording besides its images and scans.
+/// Options for opening a recording.
 struct SourceOptions {
-  std::filesystem::path masks{};  ///< folder of label images in place of the recording's own masks/
+  std::filesystem::path masks{};  ///< folder of label images that replaces the recording's masks/
   bool load_masks = true;         ///< false: frames come without masks
   bool map_truth = true;          ///< false: a simulation does not keep FrameSource::map_truth and
                                   ///< objects_truth, which grow with its frames

@@ -6,7 +6,7 @@
 namespace mms {
 namespace {
 
-// https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats, ROS default for depth.
+// https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats, default of ROS for depth.
 constexpr double kTumDepthScale = 5000.0;
 constexpr CameraIntrinsics kTumCameras[] = {
     {517.3, 516.5, 318.6, 255.3, 640, 480, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}},
@@ -15,7 +15,7 @@ constexpr CameraIntrinsics kTumCameras[] = {
 
 std::string lower_name(const std::filesystem::path& folder) {
   std::filesystem::path whole = std::filesystem::weakly_canonical(folder);
-  if (!whole.has_filename()) whole = whole.parent_path();  // a slash at the end
+  if (!whole.has_filename()) whole = whole.parent_path();  // trailing slash
   std::string name = whole.filename().string();
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

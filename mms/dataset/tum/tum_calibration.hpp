@@ -7,8 +7,8 @@
 
 namespace mms {
 
-/// The TUM benchmark's published colour intrinsics for a folder with freiburg1 (or fr1), 2 or 3 in
-/// its name; nothing for other names.
+/// The TUM benchmark's published color intrinsics for a folder with freiburg1 (or fr1), 2 or 3 in
+/// its name; nullopt for other names.
 std::optional<Calibration> tum_default_calibration(const std::filesystem::path& folder);
 
 }  // namespace mms

@@ -38,18 +38,17 @@ void match_lists(RgbdRecording& recording) {
   for (const auto& [i, j] : associate(stamps_of(color), stamps_of(depth), kMaxDifference)) {
     add_frame(recording, color[i], depth[j]);
   }
-  const std::string counts = std::to_string(color.size()) + " colour and " +
-                             std::to_string(depth.size()) + " depth images";
+  const std::string counts =
+      std::to_string(color.size()) + " color and " + std::to_string(depth.size()) + " depth images";
   if (recording.frames.empty()) {
     throw DataError(
-        recording.folder.string(),
-        "of " + counts + " no two have stamps within 0.02 s of each other",
+        recording.folder.string(), "of " + counts + ", no two match within 0.02 s",
         "the lists begin at " + color[0].stamp.to_string() + " and " + depth[0].stamp.to_string());
   }
   recording.facts.push_back("images: " + counts + ", " + std::to_string(recording.frames.size()) +
                             " matched within 0.02 s, " +
                             std::to_string(color.size() - recording.frames.size()) +
-                            " colour images unmatched");
+                            " color images unmatched");
 }
 
 void read_lists(RgbdRecording& recording) {
@@ -70,7 +69,7 @@ void read_lists(RgbdRecording& recording) {
                                                  : "rgb.txt is";
     throw DataError(recording.folder.string(),
                     "is a TUM-layout sequence, but " + missing + " missing",
-                    "rgb.txt and depth.txt, or associations.txt, list the images");
+                    "expected rgb.txt and depth.txt, or associations.txt");
   }
 }
 
@@ -82,12 +81,12 @@ void read_calibration_of(RgbdRecording& recording) {
     recording.facts.emplace_back("calibration: calibration.yaml");
   } else {
     calibration = tum_default_calibration(recording.folder);
-    recording.facts.emplace_back("calibration: TUM's default by the folder's name");
+    recording.facts.emplace_back("calibration: TUM default of the folder name");
   }
   if (!calibration || !calibration->camera) {
     throw DataError(recording.folder.string(), "has no camera calibration",
                     "add calibration.yaml with fx, fy, cx, cy, width, height in pixels and "
-                    "depth_scale in depth units per metre");
+                    "depth_scale in depth units per meter");
   }
   recording.calibration = std::make_shared<const Calibration>(*calibration);
 }

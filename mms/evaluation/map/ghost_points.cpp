@@ -10,9 +10,9 @@ namespace mms {
 namespace {
 
 constexpr double kMaxGap = 0.05;    ///< share of the depth that separates two modes
-constexpr double kMinShare = 0.10;  ///< of a pixel's returns that make a mode
+constexpr double kMinShare = 0.10;  ///< smallest share of a pixel's returns in a mode
 
-/// Median of the farthest run of sorted depths that is long enough; 0 without any.
+/// Median of the farthest sufficiently long run of sorted depths; 0 if none.
 double far_mode_of(const std::vector<std::uint16_t>& sorted) {
   const auto least =
       static_cast<std::size_t>(std::max(2.0, kMinShare * static_cast<double>(sorted.size())));
@@ -32,7 +32,7 @@ void RoomDepth::add(const Image<float>& depth) {
   if (!millimetres_.empty() && !millimetres_.front().same_size(depth)) {
     throw DataError("depth image", "is " + std::to_string(depth.width()) + "x" +
                                        std::to_string(depth.height()) +
-                                       " pixels, those before were " +
+                                       " pixels, earlier images have " +
                                        std::to_string(millimetres_.front().width()) + "x" +
                                        std::to_string(millimetres_.front().height()));
   }
@@ -85,8 +85,8 @@ GhostPointCount evaluate_ghost_points(std::span<const Eigen::Vector3f> map,
 std::vector<MetricValue> metric_values(const GhostPointCount& ghost_points) {
   return {{"points", "map points", static_cast<double>(ghost_points.points), "", 0},
           {"seen", "seen by the camera", static_cast<double>(ghost_points.seen), "", 0},
-          {"ghost_points", "in front of the room", static_cast<double>(ghost_points.ghost_points),
-           "", 0},
+          {"ghost_points", "in front of the background",
+           static_cast<double>(ghost_points.ghost_points), "", 0},
           {"ghost_percent", "share of the map", ghost_points.percent, "%", 3}};
 }
 

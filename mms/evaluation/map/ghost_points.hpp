@@ -11,33 +11,32 @@
 
 namespace mms {
 
-/// The depth of a room behind everything that passes through it, from a camera that stands still:
-/// at every pixel the farthest depth that is measured again and again, its far mode.
+/// Background depth of a static camera: at every pixel the farthest depth that is measured
+/// repeatedly, its far mode.
 class RoomDepth {
  public:
-  /// Adds a depth image [m]; 0, NaN and infinite pixels are no return.
-  /// @throws DataError when it has another size than the ones before.
+  /// Adds a depth image [m]; 0, NaN and infinite pixels mean no return.
+  /// @throws DataError if its size differs from that of the earlier images.
   void add(const Image<float>& depth);
 
-  /// Far mode at every pixel [m], 0 where nothing was measured. Of a pixel's sorted depths, runs
-  /// without a gap above a twentieth of the depth are its modes; one counts from a tenth of the
-  /// pixel's returns on.
+  /// Far mode at every pixel [m], 0 without returns. A mode is a run of a pixel's sorted depths
+  /// without a gap above 5 % of the depth and with at least 10 % of the returns.
   Image<float> far_mode() const;
 
  private:
   std::vector<Image<std::uint16_t>> millimetres_;
 };
 
-/// What moving things left in a static map.
+/// Points of a static map left by moving objects.
 struct GhostPointCount {
-  std::size_t points = 0;        ///< of the map
-  std::size_t seen = 0;          ///< of these in front of the camera, on a pixel with a room depth
-  std::size_t ghost_points = 0;  ///< of these more than the margin in front of the room
-  double percent = 0.0;          ///< ghost_points over points
+  std::size_t points = 0;  ///< of the map
+  std::size_t seen = 0;    ///< points in front of the camera, on a pixel with a background depth
+  std::size_t ghost_points = 0;  ///< of these, more than the margin in front of the background
+  double percent = 0.0;          ///< ghost_points / points
 };
 
-/// Counts map points that stand more than `margin` [m] in front of the room's own depth at their
-/// pixel. The camera stands at the origin of the map's world.
+/// Counts map points more than `margin` [m] in front of the background depth at their pixel. The
+/// camera is at the origin of the map's world frame.
 GhostPointCount evaluate_ghost_points(std::span<const Eigen::Vector3f> map,
                                       const Image<float>& room_depth,
                                       const CameraIntrinsics& camera, double margin = 0.15);

@@ -12,15 +12,15 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-/// Coordinates beyond this [m] are damage and would overflow the voxel grid.
+/// Larger coordinates [m] are invalid and would overflow the voxel grid.
 constexpr float kMaxCoordinate = 1e6F;
 
 bool usable(const Eigen::Vector3f& point) {
   return (point.array().abs() <= kMaxCoordinate).all();
 }
 
-/// Answers whether a point of a fixed cloud is within the radius; voxels are as large as the
-/// radius, so the answer lies in the 27 around the query.
+/// Whether a point of a fixed cloud is within the radius. The voxel size is the radius, so only the
+/// 27 voxels around the query are searched.
 class ProximityIndex {
  public:
   ProximityIndex(const Points& points, double radius)
@@ -92,14 +92,14 @@ void evaluate_dynamic(const Points& truth, const ProximityIndex& map, const Prox
 MapError evaluate_map(const Points& truth_static, const Points& truth_dynamic, const Points& map,
                       double radius) {
   if (!(radius >= 0.001 && radius <= 100.0)) {
-    throw DataError("map accuracy", "radius " + to_fixed(radius, 6) + " m is not in 0.001..100");
+    throw DataError("map accuracy", "radius " + to_fixed(radius, 6) + " m is outside 0.001..100");
   }
   MapError error;
   const ProximityIndex map_index(map, radius);
   evaluate_static(truth_static, map_index, error);
   evaluate_dynamic(truth_dynamic, map_index, ProximityIndex(truth_static, radius), error);
   if (error.static_points + error.dynamic_points == 0) {
-    throw DataError("map accuracy", "the truth cloud has no usable points");
+    throw DataError("map accuracy", "the ground truth has no valid points");
   }
   const double sum = error.SA + error.DA;
   error.AA = std::sqrt(error.SA * error.DA);

@@ -7,8 +7,8 @@
 
 namespace mms {
 
-/// The object behind `to_json`, for building larger ones. For .cpp files only: the JSON library is
-/// no part of this module's interface.
+/// The object of `to_json`, as part of larger ones. For .cpp files only: the JSON library is not
+/// part of this module's interface.
 nlohmann::ordered_json json_object(std::span<const MetricValue> values);
 
 }  // namespace mms

@@ -6,22 +6,22 @@
 
 namespace mms {
 
-/// One result for scripts, tables and the report alike.
+/// One result for JSON, tables and report.
 struct MetricValue {
   std::string key;      ///< name in the JSON
-  std::string meaning;  ///< what a table calls it
-  double value = 0.0;   ///< in `unit`; NaN where it is not defined
+  std::string meaning;  ///< name in tables
+  double value = 0.0;   ///< in `unit`; NaN if undefined
   std::string unit;     ///< "m", "deg", "%", ...; empty for counts and ratios
-  int decimals = 3;     ///< shown in tables; 0 marks a count, an integer in the JSON
+  int decimals = 3;     ///< decimals in tables; 0 marks a count, an integer in the JSON
 };
 
 /// `value` with `decimals` places; "n/a" for NaN and infinities.
 std::string to_fixed(double value, int decimals);
 
-/// The value with its unit, as in "0.012 m"; "n/a" alone where it is not defined.
+/// The value with its unit, as in "0.012 m"; "n/a" if undefined.
 std::string with_unit(const MetricValue& item);
 
-/// One JSON object, keys in the order given; numbers in full precision, null for NaN.
+/// One JSON object; keys in the given order, numbers in full precision, null for NaN.
 std::string to_json(std::span<const MetricValue> values);
 
 /// Lines "meaning  value unit", columns aligned, each ended by a newline.

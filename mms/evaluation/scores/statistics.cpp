@@ -24,7 +24,7 @@ std::vector<double> sorted_finite(std::span<const double> values) {
 double percentile(std::span<const double> values, double percent) {
   const std::vector<double> sorted = sorted_finite(values);
   if (sorted.empty()) return kNaN;
-  // Divided last: 7 % of 100 is exactly 7, 0.07 * 100 is not.
+  // Division last: 7 % of 100 is exactly 7, 0.07 * 100 is not.
   const double product = std::clamp(percent, 0.0, 100.0) * static_cast<double>(sorted.size());
   const double rank = std::ceil(product / 100.0);
   return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];

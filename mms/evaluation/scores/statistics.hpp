@@ -4,14 +4,13 @@
 
 namespace mms {
 
-/// The statistics below ignore NaN and infinite values and are NaN where nothing is left.
+/// These statistics ignore NaN and infinite values; they are NaN if no value is left.
 
 /// Percentile by nearest rank: the smallest value that at least `percent` % of the values do not
-/// exceed; always one of the values, never between two. `percent` is clamped to [0, 100]; 0 gives
-/// the minimum.
+/// exceed, without interpolation. `percent` is clamped to [0, 100]; 0 gives the minimum.
 double percentile(std::span<const double> values, double percent);
 
-/// Middle value, the mean of the two center ones for an even number.
+/// Median; the mean of the two central values for an even number.
 double median(std::span<const double> values);
 
 double mean(std::span<const double> values);

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::array kRecalls = linspace<101>(0.0, 1.0);
 
-/// For the i-th hit the highest precision there or later. Precision only falls between hits, so the
-/// other places of the curve do not matter.
+/// Highest precision at or after the i-th hit. Between hits the precision only decreases, so the
+/// other points of the curve are not needed.
 std::vector<double> precision_from_hit(const std::vector<Verdict>& verdicts) {
   std::vector<double> precision;
   double hits = 0.0;
@@ -36,7 +36,7 @@ PrecisionRecall average_precision(const std::vector<Verdict>& verdicts, std::siz
     return static_cast<double>(hits) / static_cast<double>(objects);
   };
   double sum = 0.0;
-  std::size_t hit = 0;  // the first with which the recall is reached
+  std::size_t hit = 0;  // the first that reaches the recall
   for (const double recall : kRecalls) {
     while (hit < precision.size() && recall_with(hit + 1) < recall) ++hit;
     if (hit == precision.size()) break;

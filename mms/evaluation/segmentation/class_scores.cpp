@@ -10,7 +10,7 @@
 namespace mms {
 namespace {
 
-constexpr std::size_t kMaxResults = 100;  // of one class in one image
+constexpr std::size_t kMaxResults = 100;  // per class and image
 
 /// Sizes of objects [px], both ends inclusive.
 struct AreaRange {
@@ -23,16 +23,16 @@ struct AreaRange {
 constexpr std::array kAreaRanges = {AreaRange{0.0, 1e10}, AreaRange{0.0, 32.0 * 32.0},
                                     AreaRange{32.0 * 32.0, 96.0 * 96.0},
                                     AreaRange{96.0 * 96.0, 1e10}};
-enum : std::size_t { kAll, kSmall, kMedium, kLarge };  // in kAreaRanges
+enum : std::size_t { kAll, kSmall, kMedium, kLarge };  // indices of kAreaRanges
 
-/// A result after the matching.
+/// A matched result.
 struct Judged {
   double score;
-  std::size_t rank;  ///< in its image, the highest score first
+  std::size_t rank;  ///< in its image, highest score first
   Verdicts verdicts;
 };
 
-/// All of one class with only objects of one range of sizes counting.
+/// Results of one class for objects of one size range.
 struct RangeResult {
   std::size_t objects = 0;      ///< that count
   std::vector<Judged> results;  ///< of all images
@@ -67,12 +67,12 @@ std::vector<MatchObject> match_objects(const ClassInImage& image, const AreaRang
   return objects;
 }
 
-/// A result that hit nothing is no false alarm where only objects of another size are asked for.
+/// A false positive does not count if only objects of another size are evaluated.
 void ignore_false_alarms(Verdicts& verdicts) {
   std::replace(verdicts.begin(), verdicts.end(), Verdict::kFalseAlarm, Verdict::kIgnored);
 }
 
-/// Adds one image, whose results are sorted, to what is known of the range.
+/// Adds an image with sorted results.
 void add_image(const ClassInImage& image, const Overlaps& overlaps, const AreaRange& range,
                RangeResult& sum) {
   const std::vector<MatchObject> objects = match_objects(image, range);
@@ -87,7 +87,7 @@ void add_image(const ClassInImage& image, const Overlaps& overlaps, const AreaRa
       objects.begin(), objects.end(), [](const MatchObject& object) { return !object.ignored; }));
 }
 
-/// One number a threshold of overlap.
+/// One number per IoU threshold.
 using Numbers = std::array<double, kIouThresholds.size()>;
 
 double mean(const Numbers& numbers) {
@@ -101,8 +101,8 @@ struct Curves {
   Numbers recall;
 };
 
-/// @param range  with its results sorted by score
-/// @param max_results  how many of each image are looked at
+/// @param range  with results sorted by score
+/// @param max_results  results used per image
 Curves curves_of(const RangeResult& range, std::size_t max_results) {
   Curves curves{};
   for (std::size_t i = 0; i < kIouThresholds.size(); ++i) {

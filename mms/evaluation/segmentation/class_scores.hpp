@@ -9,17 +9,17 @@
 
 namespace mms {
 
-/// What is there of one class in one image: in truth, and as found. Views what it points to.
+/// Ground truth and results of one class in one image. References its arguments.
 struct ClassInImage {
   std::vector<const CocoAnnotation*> truth;
   std::vector<const CocoResult*> results;
 };
 
-/// One class in all images that have any of it, by the images' ids.
+/// One class in all images that contain it, by image id.
 using ClassInImages = std::map<std::int64_t, ClassInImage>;
 
-/// The twelve numbers of one class; all NaN where the truth has none of it. Masks of one image have
-/// to be of one size, scores numbers.
+/// The twelve COCO numbers of one class; all NaN if the ground truth has none of it. Masks of one
+/// image must have equal size; scores must be numbers.
 SegmentationScores class_scores(const ClassInImages& images);
 
 }  // namespace mms

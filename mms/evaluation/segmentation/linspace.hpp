@@ -5,8 +5,8 @@
 
 namespace mms {
 
-/// `kCount` numbers from `first` to `last`, to the last bit those of numpy.linspace: the compiler
-/// works them out, so no product is fused into the sum.
+/// `kCount` numbers from `first` to `last`, bitwise equal to numpy.linspace: evaluated at compile
+/// time, without fused multiply-add.
 template <std::size_t kCount>
 consteval std::array<double, kCount> linspace(double first, double last) {
   std::array<double, kCount> values{};

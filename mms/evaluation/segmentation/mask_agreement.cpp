@@ -15,7 +15,7 @@ double share(std::int64_t part, std::int64_t rest) {
 
 void MaskAgreement::add(const Image<std::uint8_t>& mask, const LabeledCloud& cloud) {
   if (mask.empty() || cloud.width == 0) return;
-  const int stride = mask.width() / cloud.width;  // mask pixels a side of a point's block
+  const int stride = mask.width() / cloud.width;  // mask pixels per side of a point's block
   if (stride < 1 || mask.height() / stride != cloud.height) return;
   for (int y = 0; y < cloud.height; ++y) {
     for (int x = 0; x < cloud.width; ++x) {
@@ -39,8 +39,8 @@ double MaskAgreement::precision() const {
 }
 
 std::vector<MetricValue> metric_values(const MaskAgreement& agreement) {
-  return {{"recall", "given masks found dynamic", 100.0 * agreement.recall(), "%", 1},
-          {"precision", "dynamic points in given masks", 100.0 * agreement.precision(), "%", 1}};
+  return {{"recall", "recall of points in masks", 100.0 * agreement.recall(), "%", 1},
+          {"precision", "precision of dynamic points", 100.0 * agreement.precision(), "%", 1}};
 }
 
 }  // namespace mms

@@ -11,7 +11,7 @@ bool apart(const Box& a, const Box& b) {
   return a[0] + a[2] <= b[0] || b[0] + b[2] <= a[0] || a[1] + a[3] <= b[1] || b[1] + b[3] <= a[1];
 }
 
-/// The runs of a mask, one after the other.
+/// Iterates over the runs of a mask.
 class RunWalk {
  public:
   explicit RunWalk(const Rle& mask) : counts_(mask.counts), end_(done() ? 0 : counts_[0]) {}
@@ -26,7 +26,7 @@ class RunWalk {
  private:
   const std::vector<std::uint32_t>& counts_;
   std::size_t index_ = 0;
-  std::uint64_t end_;  ///< the first pixel behind the run, counted down the columns
+  std::uint64_t end_;  ///< first pixel after the run, column-major
 };
 
 }  // namespace

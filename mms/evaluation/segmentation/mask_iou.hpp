@@ -7,11 +7,10 @@
 
 namespace mms {
 
-/// Number of pixels that both masks have, counted on their runs in time linear in the runs. The
-/// masks have to be of one size.
+/// Number of pixels in both masks, in time linear in the runs. The masks must have equal size.
 std::uint64_t mask_intersection(const Rle& a, const Rle& b);
 
-/// A mask with what every comparison needs of it. Views the runs: they have to outlive it.
+/// A mask with precomputed area and box. References the runs, which have to outlive it.
 struct MeasuredMask {
   explicit MeasuredMask(const Rle& mask);
 
@@ -20,9 +19,8 @@ struct MeasuredMask {
   std::array<double, 4> box;  ///< x, y, width, height [px]
 };
 
-/// Overlap of a detection and an object of the truth in [0, 1]: pixels of both by pixels of either;
-/// for a crowd by pixels of the detection, since it has many objects in one mask. 0 for empty
-/// masks.
+/// Intersection over union of a detection and a ground-truth object, in [0, 1]; for a crowd,
+/// intersection over the detection's area, since its mask contains many objects. 0 for empty masks.
 double mask_iou(const MeasuredMask& detection, const MeasuredMask& truth, bool crowd);
 
 }  // namespace mms

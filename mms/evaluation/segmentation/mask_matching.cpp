@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-/// Matches the detections of one image at one threshold, in the order they are given.
+/// Matches the detections of one image at one threshold, in the given order.
 class Matching {
  public:
   Matching(const std::vector<MatchObject>& objects, double threshold)
@@ -43,7 +43,7 @@ class Matching {
 
   const std::vector<MatchObject>& objects_;
   double threshold_;
-  std::vector<std::size_t> order_;  ///< those that count first
+  std::vector<std::size_t> order_;  ///< objects that count first
   std::vector<bool> taken_;
 };
 

@@ -8,32 +8,31 @@
 
 namespace mms {
 
-/// The overlaps (IoU) a detection has to have to be a hit: 0.50, 0.55, ..., 0.95.
+/// IoU thresholds of a hit: 0.50, 0.55, ..., 0.95.
 constexpr std::array kIouThresholds = linspace<10>(0.5, 0.95);
 
-/// What a detection is found to be.
+/// Result of the matching for one detection.
 enum class Verdict : std::uint8_t {
   kHit,
   kFalseAlarm,
-  kIgnored,  ///< on an object that does not count: neither for nor against
+  kIgnored,  ///< on an object that does not count: neither hit nor miss
 };
 
-/// The verdicts on one detection, one for each of kIouThresholds.
+/// Verdicts on one detection, one per threshold of kIouThresholds.
 using Verdicts = std::array<Verdict, kIouThresholds.size()>;
 
-/// What the matching has to know of an object of the truth.
+/// Properties of a ground-truth object for the matching.
 struct MatchObject {
-  bool crowd = false;    ///< any number of detections may lie on it
-  bool ignored = false;  ///< a crowd, or of a size that is not asked for
+  bool crowd = false;    ///< matches any number of detections
+  bool ignored = false;  ///< a crowd, or outside the size range
 };
 
-/// Overlaps of one image: a row a detection, the highest score first; a column an object.
+/// IoU in one image: rows are detections, highest score first; columns are objects.
 using Overlaps = std::vector<std::vector<double>>;
 
-/// COCO's greedy matching, as in COCOeval.evaluateImg: each detection takes, of the objects still
-/// free, the one of the highest overlap at or above the threshold (of equals the last); an ignored
-/// object only where no other is left.
-/// @return one entry a detection, in the order of the rows
+/// Greedy matching as in COCOeval.evaluateImg: each detection takes the free object with the
+/// highest IoU at or above the threshold (the last of equals); an ignored object only if no other
+/// is left. @return one entry per detection, in the order of the rows
 std::vector<Verdicts> match_masks(const Overlaps& overlaps,
                                   const std::vector<MatchObject>& objects);
 

@@ -20,7 +20,7 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " px";
 }
 
-/// Checks results against the images they are to be of.
+/// Checks that results match their images.
 class ResultCheck {
  public:
   ResultCheck(const CocoDataset& truth, const SegmentationErrorOptions& options)
@@ -28,21 +28,21 @@ class ResultCheck {
     for (const CocoImage& image : truth.images) images_[image.id] = &image;
   }
 
-  /// @param index  where the result stands in its list
+  /// @param index  of the result in its list
   void operator()(const CocoResult& result, std::size_t index) const {
     const auto found = images_.find(result.image_id);
     if (found == images_.end()) {
-      fail(index, "image_id", "is " + std::to_string(result.image_id) + ", there is no such image",
+      fail(index, "image_id", "is " + std::to_string(result.image_id) + ", no such image",
            "the images are those of " + options_.truth_name);
     }
-    if (!std::isfinite(result.score)) fail(index, "score", "is no number", "expected 0 to 1");
+    if (!std::isfinite(result.score)) fail(index, "score", "is not a number", "expected 0 to 1");
     const CocoImage& image = *found->second;
     const Rle& mask = result.segmentation;
     if (mask.width == image.width && mask.height == image.height) return;
     fail(index, "segmentation",
-         "is of " + size_text(mask.width, mask.height) + ", its image " + std::to_string(image.id) +
-             " of " + size_text(image.width, image.height),
-         "masks have to be of the size of the image in " + options_.truth_name);
+         "has " + size_text(mask.width, mask.height) + ", its image " + std::to_string(image.id) +
+             " has " + size_text(image.width, image.height),
+         "masks must have the size of the image in " + options_.truth_name);
   }
 
  private:
@@ -55,7 +55,7 @@ class ResultCheck {
   std::map<std::int64_t, const CocoImage*> images_;
 };
 
-/// Sorts truth and results by class and image, and takes of them what the options ask for.
+/// Groups ground truth and results by class and image, filtered by the options.
 class SortedByClass {
  public:
   SortedByClass(const CocoDataset& truth, const SegmentationErrorOptions& options) {
@@ -100,7 +100,7 @@ class SortedByClass {
     }
     if (options.category.empty() || !classes_.empty()) return;
     throw DataError(options.truth_name, "has no class '" + options.category + "'",
-                    "its classes are: " + joined(names));
+                    "its classes: " + joined(names));
   }
 
   void take_images(const CocoDataset& truth, const SegmentationErrorOptions& options) {
@@ -111,11 +111,11 @@ class SortedByClass {
     }
     counted_.images = images_.size();
     if (options.split.empty() || !images_.empty()) return;
-    throw DataError(options.truth_name, "has no images of the split '" + options.split + "'",
-                    "its splits are: " + joined(splits));
+    throw DataError(options.truth_name, "has no images in the split '" + options.split + "'",
+                    "its splits: " + joined(splits));
   }
 
-  /// Where to put what is of this class and image; null where one of them is not evaluated.
+  /// Entry of a class and image; null if one of them is not evaluated.
   ClassInImage* find(int category, std::int64_t image) {
     const auto found = classes_.find(category);
     if (found == classes_.end() || !images_.contains(image)) return nullptr;

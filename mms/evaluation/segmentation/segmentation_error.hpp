@@ -9,20 +9,20 @@
 namespace mms {
 
 struct SegmentationErrorOptions {
-  std::string category{};                ///< the one class to evaluate; empty: all of the truth
-  std::string split{};                   ///< the images to evaluate; empty: all of the truth
-  std::string truth_name = "truth";      ///< what errors call the truth, as the file's name
-  std::string results_name = "results";  ///< what errors call the results
+  std::string category{};  ///< class to evaluate; empty: all of the ground truth
+  std::string split{};     ///< split to evaluate; empty: all of the ground truth
+  std::string truth_name =
+      "truth";  ///< name of the ground truth in messages, such as the file name
+  std::string results_name = "results";  ///< name of the results in messages
 };
 
-/// COCO's mask evaluation, the numbers of pycocotools' COCOeval (iouType "segm"): overlaps of
-/// full-size masks, at most 100 results an image and class, objects that are crowds or of another
-/// size ignored. Results of classes that are not evaluated are passed over, and of images of
-/// another split. Results of equal score count in the order of their images' ids, then of the list.
-/// (One difference: pycocotools takes a hit on the annotation of id 0 for a miss; here ids have no
-/// meaning.)
-/// @throws DataError for a category or split that the truth does not have, a result of an unknown
-///         image, with a mask of another size than its image, or with a score that is no number.
+/// COCO mask evaluation, equal to pycocotools' COCOeval (iouType "segm"): IoU of full-size masks,
+/// at most 100 results per image and class; crowds and objects of other sizes are ignored. Skips
+/// results of classes and splits that are not evaluated. Results of equal score are ordered by
+/// image id, then by position in the list. (One difference: pycocotools counts a hit on annotation
+/// id 0 as a miss; here ids have no meaning.)
+/// @throws DataError for a category or split missing in the ground truth, or a result with an
+/// unknown image, a mask of a wrong size, or a score that is not a number.
 SegmentationErrors segmentation_error(const CocoDataset& truth,
                                       const std::vector<CocoResult>& results,
                                       const SegmentationErrorOptions& options = {});

@@ -22,14 +22,14 @@ constexpr std::array kFields = {
     Field{"APs", "AP of small objects", &SegmentationScores::ap_small},
     Field{"APm", "AP of medium objects", &SegmentationScores::ap_medium},
     Field{"APl", "AP of large objects", &SegmentationScores::ap_large},
-    Field{"AR1", "recall, 1 detection an image", &SegmentationScores::ar1},
-    Field{"AR10", "recall, 10 detections an image", &SegmentationScores::ar10},
-    Field{"AR100", "recall, 100 detections an image", &SegmentationScores::ar100},
+    Field{"AR1", "recall, 1 detection per image", &SegmentationScores::ar1},
+    Field{"AR10", "recall, 10 detections per image", &SegmentationScores::ar10},
+    Field{"AR100", "recall, 100 detections per image", &SegmentationScores::ar100},
     Field{"ARs", "recall of small objects", &SegmentationScores::ar_small},
     Field{"ARm", "recall of medium objects", &SegmentationScores::ar_medium},
     Field{"ARl", "recall of large objects", &SegmentationScores::ar_large}};
 
-constexpr std::size_t kColumn = 7;  // of a table [letters]
+constexpr std::size_t kColumn = 7;  // table column [characters]
 
 std::string blanks(std::size_t width, const std::string& text) {
   return std::string(width - std::min(width, text.size()), ' ');

@@ -3,7 +3,7 @@
 namespace mms {
 namespace {
 
-/// Turns that pass unrecognised count when they could be seen for so long [s].
+/// Unrecognized changes count if they were visible for this time [s].
 constexpr double kLongEnough = 1.0;
 
 }  // namespace
@@ -12,7 +12,7 @@ void MotionStateLatency::see(int id, Timestamp stamp, bool moving, bool recognis
   const auto [place, is_new] = objects_.try_emplace(id, Object{moving, false, stamp, stamp});
   Object& object = place->second;
   if (!is_new && moving != object.moving) {
-    if (object.pending) give_up(object);
+    if (object.pending) count_missed(object);
     object = {moving, true, stamp, stamp};
   }
   object.seen = stamp;
@@ -24,7 +24,7 @@ void MotionStateLatency::see(int id, Timestamp stamp, bool moving, bool recognis
 void MotionStateLatency::lose(int id) {
   const auto place = objects_.find(id);
   if (place == objects_.end()) return;
-  if (place->second.pending) give_up(place->second);
+  if (place->second.pending) count_missed(place->second);
   objects_.erase(place);
 }
 
@@ -33,7 +33,7 @@ void MotionStateLatency::settle(double delay) {
   if (!(delay <= longest_)) longest_ = delay;
 }
 
-void MotionStateLatency::give_up(const Object& object) {
+void MotionStateLatency::count_missed(const Object& object) {
   const double waited = to_seconds(object.seen - object.since);
   if (waited >= kLongEnough) settle(waited);
 }

@@ -8,19 +8,19 @@
 
 namespace mms {
 
-/// Measures how long it takes until an object's start or stop is recognised.
+/// Measures the delay until a start or stop of an object is recognized.
 class MotionStateLatency {
  public:
-  /// Takes in an object that is in view at `stamp`.
-  /// @param moving      whether it truly moves
-  /// @param recognised  whether its track says the same; false where it has none
+  /// Adds an object in view at `stamp`.
+  /// @param moving      ground truth
+  /// @param recognised  whether its track agrees; false without a track
   void see(int id, Timestamp stamp, bool moving, bool recognised);
 
-  /// Takes in that an object is out of view.
+  /// Adds that an object is out of view.
   void lose(int id);
 
-  std::int64_t count() const { return count_; }  ///< starts and stops seen long enough
-  double longest() const { return longest_; }    ///< [s]; NaN for none
+  std::int64_t count() const { return count_; }  ///< number of starts and stops visible long enough
+  double longest() const { return longest_; }    ///< [s]; NaN if none
 
  private:
   struct Object {
@@ -30,7 +30,7 @@ class MotionStateLatency {
     Timestamp seen;
   };
   void settle(double delay);
-  void give_up(const Object& object);
+  void count_missed(const Object& object);
 
   std::map<int, Object> objects_;
   std::int64_t count_ = 0;

@@ -24,8 +24,8 @@ std::map<Timestamp, const Stamped*> by_stamp(const std::vector<Stamped>& items) 
   return found;
 }
 
-/// Whose track it is: of an object that counts, of another, or of none.
-enum class Owner { kNobody, kWanted, kOther };
+/// Object of a track: one that counts, another one, or none.
+enum class Owner { kNobody, kCounted, kOther };
 
 class Comparison {
  public:
@@ -34,9 +34,10 @@ class Comparison {
 
   void add(Timestamp stamp, const std::vector<ObjectBox>& truth,
            const std::vector<ObjectBox>& tracks, const Eigen::Vector3d& sensor) {
-    // All of them, or the track of one that does not count would be taken for a neighbour's.
+    // Pairs all objects; else the track of one that does not count could be paired with its
+    // neighbor.
     const std::vector<int> pairs = pairing_.pair(truth, tracks);
-    std::vector<ObjectBox> wanted;
+    std::vector<ObjectBox> counted;
     std::vector<ObjectBox> others;
     std::vector<Owner> owners(tracks.size(), Owner::kNobody);
     for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -45,17 +46,17 @@ class Comparison {
       if (pairs[i] >= 0) {
         const auto paired = static_cast<std::size_t>(pairs[i]);
         track = &tracks[paired];
-        owners[paired] = counts ? Owner::kWanted : Owner::kOther;
+        owners[paired] = counts ? Owner::kCounted : Owner::kOther;
       }
-      (counts ? wanted : others).push_back(truth[i]);
+      (counts ? counted : others).push_back(truth[i]);
       if (counts) {
         see(stamp, truth[i], track);
       } else {
         turns_.lose(truth[i].id);
       }
     }
-    objects_ += static_cast<std::int64_t>(wanted.size());
-    count_tracks(wanted, others, tracks, owners, sensor);
+    objects_ += static_cast<std::int64_t>(counted.size());
+    count_tracks(counted, others, tracks, owners, sensor);
   }
 
   TrackingError result() const {
@@ -97,7 +98,7 @@ class Comparison {
     last->second = track.id;
   }
 
-  void count_tracks(const std::vector<ObjectBox>& wanted, const std::vector<ObjectBox>& others,
+  void count_tracks(const std::vector<ObjectBox>& counted, const std::vector<ObjectBox>& others,
                     const std::vector<ObjectBox>& tracks, const std::vector<Owner>& owners,
                     const Eigen::Vector3d& sensor) {
     const auto is_excused = [&](const ObjectBox& track) {
@@ -109,7 +110,7 @@ class Comparison {
       if (owners[j] == Owner::kOther) continue;
       if (owners[j] == Owner::kNobody && is_excused(tracks[j])) continue;
       ++tracks_;
-      for (const ObjectBox& object : wanted) {
+      for (const ObjectBox& object : counted) {
         if (is_near(object, tracks[j])) ++met_[{object.id, tracks[j].id}];
       }
     }
@@ -119,7 +120,7 @@ class Comparison {
   ObjectPairing pairing_;
   MotionStateLatency turns_;
   PairCounts met_;
-  std::map<int, int> last_track_;  // by id of the true object
+  std::map<int, int> last_track_;  // by id of the ground-truth object
   std::vector<double> offsets_;
   std::vector<double> squared_velocity_errors_;
   std::int64_t objects_ = 0;
@@ -150,15 +151,15 @@ std::vector<MetricValue> metric_values(const TrackingError& error) {
       {"objects", "ground-truth objects", static_cast<double>(error.objects), "", 0},
       {"IDF1", "IDF1", 100.0 * error.idf1, "%", 1},
       {"recall", "recall of objects", 100.0 * error.recall, "%", 1},
-      {"false_discovery_rate", "false positives of all tracked", 100.0 * error.false_discovery_rate,
-       "%", 1},
+      {"false_discovery_rate", "false discovery rate", 100.0 * error.false_discovery_rate, "%", 1},
       {"id_switches", "ID switches", static_cast<double>(error.id_switches), "", 0},
-      {"center_mean_m", "box centre error, mean", error.center_mean, "m", 3},
-      {"center_median_m", "box centre error, median", error.center_median, "m", 3},
+      {"center_mean_m", "box center error, mean", error.center_mean, "m", 3},
+      {"center_median_m", "box center error, median", error.center_median, "m", 3},
       {"velocity_rmse_mps", "velocity error, rmse", error.velocity_rmse, "m/s", 3},
       {"motion_state_changes", "motion-state changes",
        static_cast<double>(error.motion_state_changes), "", 0},
-      {"motion_state_delay_max_s", "largest delay of one", error.motion_state_delay_max, "s", 2}};
+      {"motion_state_delay_max_s", "longest motion-state delay", error.motion_state_delay_max, "s",
+       2}};
 }
 
 ObjectHistory transformed(ObjectHistory history, const Eigen::Isometry3d& T_to_from) {

@@ -14,7 +14,7 @@ Eigen::Vector3d centroid(const std::vector<Eigen::Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// The rotation nearest to a matrix, det = +1 also for mirrored or flat points.
+/// Closest rotation to a matrix, det = +1 also for mirrored or planar points.
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d signs = Eigen::Vector3d::Ones();
@@ -29,7 +29,7 @@ Eigen::Isometry3d align_points(const std::vector<Eigen::Vector3d>& source,
   if (source.size() != target.size() || source.size() < 3) {
     throw DataError("alignment", std::to_string(source.size()) + " and " +
                                      std::to_string(target.size()) +
-                                     " positions, at least 3 matched pairs are needed");
+                                     " positions, expected at least 3 matched pairs");
   }
   const Eigen::Vector3d source_centre = centroid(source);
   const Eigen::Vector3d target_centre = centroid(target);
@@ -48,7 +48,7 @@ Eigen::Isometry3d align_poses(const std::vector<Eigen::Isometry3d>& source,
   if (source.size() != target.size() || source.empty()) {
     throw DataError("alignment", std::to_string(source.size()) + " and " +
                                      std::to_string(target.size()) +
-                                     " poses, at least one matched pair is needed");
+                                     " poses, expected at least one matched pair");
   }
   Eigen::Matrix3d rotations = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < source.size(); ++i) {

@@ -15,7 +15,7 @@ Drift evaluate_drift(const Trajectory& estimate) {
   }
   if (finite.empty()) {
     throw DataError("drift", "none of " + std::to_string(estimate.size()) + " poses is finite",
-                    "at least 1 is needed");
+                    "expected at least 1");
   }
   const Eigen::Vector3d origin = finite.front().T_world_sensor.translation();
   std::vector<double> distances;

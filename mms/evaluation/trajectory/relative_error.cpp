@@ -13,10 +13,10 @@
 namespace mms {
 namespace {
 
-/// Of delta: how far the later pose of a pair may be from where it should be.
+/// Tolerance of the time difference of a pair, as a share of delta.
 constexpr double kTimeTolerance = 0.1;
 
-/// Places in the list of matches where a pair begins and ends.
+/// Indices of the first and second match of each pair.
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 Pairs pairs_by_time(const std::vector<Timestamp>& stamps, double seconds) {
@@ -40,7 +40,7 @@ Pairs consecutive(const std::vector<std::size_t>& places) {
   return pairs;
 }
 
-/// evo's rule: a pair ends, and the next begins, where the path since the last end reaches delta.
+/// As in evo: a pair ends, and the next begins, where the path since the last end reaches delta.
 Pairs pairs_by_path(const std::vector<Eigen::Vector3d>& positions, double delta) {
   std::vector<std::size_t> places;
   double path = 0.0;
@@ -75,15 +75,15 @@ Pairs choose_pairs(const Trajectory& estimate, const std::vector<PoseMatch>& mat
                                            : pairs_by_path(positions, delta.value);
 }
 
-/// Allowed deltas: from a nanosecond, or a frame, to numbers that every type used here can hold.
+/// Allowed deltas: from a nanosecond, or a frame, to numbers that all types used here represent.
 void check(const RelativeDelta& delta) {
   constexpr double kMax = 1e9;
   const double min = delta.unit == DeltaUnit::kFrames ? 1.0 : 1e-9;
   if (delta.value >= min && delta.value <= kMax) return;
   throw DataError("relative pose error",
                   "delta " + to_fixed(delta.value, 9) +
-                      (delta.unit == DeltaUnit::kFrames ? " frames is not in 1..1e9"
-                                                        : " is not in 1e-9..1e9 s or m"));
+                      (delta.unit == DeltaUnit::kFrames ? " frames is outside 1..1e9"
+                                                        : " is outside 1e-9..1e9 s or m"));
 }
 
 Eigen::Isometry3d motion(const Trajectory& trajectory, std::size_t from, std::size_t to) {

@@ -6,7 +6,7 @@
 namespace mms {
 namespace {
 
-/// Positions of the finite poses, ordered by stamp.
+/// Indices of the finite poses, ordered by stamp.
 std::vector<std::size_t> finite_by_stamp(const Trajectory& trajectory) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
@@ -22,8 +22,8 @@ Duration gap(Timestamp a, Timestamp b) {
   return a < b ? b - a : a - b;
 }
 
-/// Place in `order` (not empty, sorted by stamp) of the pose nearest to `stamp`; the earlier of two
-/// equally near.
+/// Index in `order` (not empty, sorted by stamp) of the pose nearest to `stamp`; the earlier one of
+/// equals.
 std::size_t nearest(const Trajectory& trajectory, const std::vector<std::size_t>& order,
                     Timestamp stamp) {
   const auto later =

@@ -32,10 +32,10 @@ std::string stamp_range(const Trajectory& trajectory) {
   if (options.matching == Matching::kByIndex) throw DataError("trajectory", what);
   what += "; matched within " + to_fixed(to_seconds(options.max_difference), 3) + " s, stamps " +
           stamp_range(estimate) + " against " + stamp_range(reference);
-  throw DataError("trajectory", what, "are both of the same recording and clock?");
+  throw DataError("trajectory", what, "are both from the same recording and clock?");
 }
 
-/// Distances of matched positions after the alignment [m].
+/// Distances of matched positions after alignment [m].
 std::vector<double> absolute_errors(const Trajectory& reference, const Trajectory& estimate,
                                     const std::vector<PoseMatch>& matches) {
   std::vector<Eigen::Vector3d> source;

@@ -22,15 +22,15 @@ struct TrajectoryErrorOptions {
   std::optional<RelativeDelta> rpe_delta{};
 };
 
-/// The delta that is used with `options`.
+/// The delta used with `options`.
 RelativeDelta rpe_delta(const TrajectoryErrorOptions& options);
 
 /// Error of an estimated trajectory against its reference.
 struct TrajectoryError {
-  std::size_t matched = 0;  ///< poses of the estimate that have a partner
+  std::size_t matched = 0;  ///< matched poses of the estimate
   std::size_t poses = 0;    ///< poses of the estimate
-  /// Absolute trajectory error (ATE): distances of matched positions after aligning the estimate to
-  /// the reference by a rigid transform without scale [m].
+  /// Absolute trajectory error (ATE): distances of matched positions after rigid alignment of the
+  /// estimate to the reference, without scale [m].
   double ate_rmse_m = 0.0;
   double ate_mean_m = 0.0;
   double ate_median_m = 0.0;
@@ -38,11 +38,11 @@ struct TrajectoryError {
   RelativeError rpe{};
 };
 
-/// @throws DataError when fewer than three poses match
+/// @throws DataError if fewer than three poses match
 TrajectoryError evaluate_trajectory(const Trajectory& reference, const Trajectory& estimate,
                                     const TrajectoryErrorOptions& options = {});
 
-/// The contract's keys: matched, poses, ate_*_m, rpe_trans_rmse_m, rpe_rot_rmse_deg.
+/// JSON keys: matched, poses, ate_*_m, rpe_trans_rmse_m, rpe_rot_rmse_deg.
 std::vector<MetricValue> metric_values(const TrajectoryError& error);
 
 }  // namespace mms

@@ -7,9 +7,9 @@
 
 namespace mms {
 
-/// The transform that takes the world of true poses to that of estimated ones, from all frames that
-/// have both (`align_poses`; stamps matched as for the trajectory error). Nothing where no frame
-/// has.
+/// Transform from the world frame of the ground-truth poses to that of the estimated ones, from all
+/// matched frames (`align_poses`; stamps matched as for the trajectory error). nullopt if no frame
+/// matches.
 std::optional<Eigen::Isometry3d> align_truth(const Trajectory& truth, const Trajectory& estimate);
 
 }  // namespace mms

@@ -10,22 +10,22 @@
 
 namespace mms {
 
-/// Indices of points by cell of a cubic grid, each cell's in a chain: the neighbours of a point up
-/// to the cell size are in the 27 cells at and around its own.
+/// Point indices in linked lists per cell of a cubic grid. All neighbors of a point within the cell
+/// size are in the 27 cells around it.
 class CellChains {
  public:
   /// @param count      number of indices that can be inserted
   /// @param cell_size  [m]
   CellChains(std::size_t count, float cell_size) : inverse_size_(1.0F / cell_size), next_(count) {}
 
-  /// Adds index `i`, which must be below `count` and not yet added, at `point` (finite).
+  /// Adds index `i`, below `count` and not yet added, at `point` (finite).
   void insert(const Eigen::Vector3f& point, std::size_t i) {
     const auto [cell, is_new] = first_.try_emplace(voxel_key(point, inverse_size_), i);
     next_[i] = is_new ? i : cell->second;
     cell.value() = i;
   }
 
-  /// Calls `visit(i)` for all indices in the 27 cells at and around `point` (finite).
+  /// Calls `visit(i)` for all indices in the 27 cells around `point` (finite).
   template <class Visit>
   void for_each_near(const Eigen::Vector3f& point, const Visit& visit) const {
     const VoxelKey key = voxel_key(point, inverse_size_);
@@ -49,7 +49,7 @@ class CellChains {
 
   float inverse_size_;
   tsl::robin_map<VoxelKey, std::size_t, VoxelKeyHash> first_;
-  std::vector<std::size_t> next_;  ///< of the same cell; the last points at itself
+  std::vector<std::size_t> next_;  ///< next index in the same cell; the last one refers to itself
 };
 
 }  // namespace mms

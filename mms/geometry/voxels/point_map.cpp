@@ -56,7 +56,7 @@ void PointMap::within(const Eigen::Vector3f& query, float radius,
 
 void PointMap::nearest(const Eigen::Vector3f& query, std::size_t k, float max_distance,
                        std::vector<Neighbor>& result) const {
-  // Most queries end in the first, small search; only sparse places need the whole radius.
+  // Most queries succeed within the smaller radius; only sparse regions need the full one.
   const float first = std::min(max_distance, 0.5F * voxels_.voxel_size());
   within(query, first, result);
   if (result.size() < k && first < max_distance) within(query, max_distance, result);

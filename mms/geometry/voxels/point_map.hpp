@@ -13,9 +13,8 @@ struct Neighbor {
   float squared_distance = 0.0F;
 };
 
-/// Incremental point cloud with k-nearest and radius search. Every voxel keeps at most
-/// `max_points_per_voxel` points that are at least `min_spacing` apart, so density and memory are
-/// bounded however often a place is seen.
+/// Incremental point cloud with k-nearest-neighbor and radius search. A voxel keeps at most
+/// `max_points_per_voxel` points at least `min_spacing` apart, so density and memory are bounded.
 class PointMap {
  public:
   struct Limits {
@@ -26,10 +25,10 @@ class PointMap {
 
   PointMap(double voxel_size, const Limits& limits);
 
-  /// Adds finite points; the others are ignored.
+  /// Adds the finite points; ignores the others.
   void insert(const std::vector<Eigen::Vector3f>& points);
 
-  /// The up to `k` nearest points within `max_distance` [m], nearest first; ties by coordinates.
+  /// Up to `k` nearest points within `max_distance` [m], nearest first; ties by coordinates.
   void nearest(const Eigen::Vector3f& query, std::size_t k, float max_distance,
                std::vector<Neighbor>& result) const;
 

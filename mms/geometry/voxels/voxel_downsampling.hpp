@@ -6,15 +6,16 @@
 
 namespace mms {
 
-/// A cloud thinned to one point a voxel.
+/// A cloud downsampled to one point per voxel.
 struct VoxelDownsampled {
   static constexpr int kNone = -1;
 
-  std::vector<Eigen::Vector3f> points;  ///< means, in the order of their voxels' first points [m]
-  std::vector<int> voxel;  ///< of every input point, kNone for those that are not finite
+  std::vector<Eigen::Vector3f>
+      points;              ///< means, in the order of the first points of the voxels [m]
+  std::vector<int> voxel;  ///< voxel of every input point, kNone for non-finite points
 };
 
-/// Mean of the finite points of every cubic voxel of side `size` [m].
+/// Means of the finite points per cubic voxel of side `size` [m].
 VoxelDownsampled voxel_downsample(std::span<const Eigen::Vector3f> points, float size);
 
 }  // namespace mms

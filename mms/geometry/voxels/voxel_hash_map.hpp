@@ -11,9 +11,9 @@
 
 namespace mms {
 
-/// Sparse grid of cells of one type, the storage under the local maps: constant-time access by
-/// voxel, memory bounded by dropping the cells that were written to least recently, the same
-/// order of cells for the same history (no dependence on addresses or threads).
+/// Sparse voxel grid, the storage of the local maps: constant-time access, memory bounded by
+/// removing the least recently written cells. The order of cells depends only on the history, not
+/// on addresses or threads.
 template <class Cell>
 class VoxelHashMap {
  public:
@@ -23,8 +23,8 @@ class VoxelHashMap {
     Cell cell{};
   };
 
-  /// @param voxel_size  edge of a voxel [m], > 0
-  /// @param max_cells   bound on the number of cells, >= 1
+  /// @param voxel_size edge of a voxel [m], > 0
+  /// @param max_cells largest number of cells, >= 1
   VoxelHashMap(double voxel_size, std::size_t max_cells)
       : voxel_size_(static_cast<float>(voxel_size)),
         inverse_size_(1.0F / voxel_size_),
@@ -35,7 +35,7 @@ class VoxelHashMap {
   bool empty() const { return entries_.empty(); }
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// Bytes held by the cells and the index; what a cell itself allocates is not counted.
+  /// Bytes of the cells and the index, without memory that a cell allocates itself.
   std::size_t memory_bytes() const {
     return entries_.capacity() * sizeof(Entry) +
            index_.bucket_count() * (sizeof(VoxelKey) + 2 * sizeof(std::uint32_t));
@@ -48,8 +48,8 @@ class VoxelHashMap {
     return found == index_.end() ? nullptr : &entries_[found->second].cell;
   }
 
-  /// The cell at `key`, made if absent; marks it as written to. The reference is valid until the
-  /// next call that adds or removes cells.
+  /// The cell at `key`, inserted if absent and marked as written. The reference is valid until the
+  /// next insertion or removal.
   Cell& touch(const VoxelKey& key) {
     const auto [found, added] = index_.try_emplace(key, static_cast<std::uint32_t>(size()));
     if (added) entries_.push_back({key, 0, Cell{}});
@@ -58,8 +58,8 @@ class VoxelHashMap {
     return entry.cell;
   }
 
-  /// Drops the least recently written cells if there are more than the bound, a tenth more than
-  /// needed so that this happens rarely.
+  /// Removes the least recently written cells above the bound, and a tenth more, so that this
+  /// happens rarely.
   void enforce_bound() {
     if (size() <= max_cells_) return;
     std::vector<std::uint64_t> ticks;
@@ -71,7 +71,7 @@ class VoxelHashMap {
     remove_if([limit = *oldest_kept](const Entry& entry) { return entry.touched < limit; });
   }
 
-  /// Drops cells whose centre is farther than `distance` [m] from `centre`.
+  /// Removes cells whose center is farther than `distance` [m] from `centre`.
   void remove_farther_than(const Eigen::Vector3f& centre, float distance) {
     remove_if([&](const Entry& entry) {
       return (voxel_centre(entry.key) - centre).squaredNorm() > distance * distance;

@@ -17,15 +17,15 @@ struct VoxelKey {
   auto operator<=>(const VoxelKey&) const = default;
 };
 
-/// Voxel that holds `point` [m] in a grid of 1 / `inverse_size` [m]; the point must be finite and
-/// within 2^31 voxels of the origin.
+/// Voxel of `point` [m] in a grid of 1 / `inverse_size` [m]; the point must be finite and within
+/// 2^31 voxels of the origin.
 inline VoxelKey voxel_key(const Eigen::Vector3f& point, float inverse_size) {
   return {static_cast<std::int32_t>(std::floor(point.x() * inverse_size)),
           static_cast<std::int32_t>(std::floor(point.y() * inverse_size)),
           static_cast<std::int32_t>(std::floor(point.z() * inverse_size))};
 }
 
-/// Spatial hash of Teschner et al. (2003), mixed so that the low bits are usable as they are.
+/// Spatial hash of Teschner et al. (2003), mixed so that the low bits are usable.
 struct VoxelKeyHash {
   std::size_t operator()(const VoxelKey& key) const {
     std::uint64_t h = static_cast<std::uint32_t>(key.x) * 73856093ULL;

@@ -12,7 +12,7 @@
 namespace mms {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "records are written as they are");
+static_assert(std::endian::native == std::endian::little, "records are written bytewise");
 
 std::string_view bytes_of(const std::vector<float>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
@@ -23,7 +23,7 @@ std::string_view bytes_of(const std::vector<float>& values) {
 LidarScan read_kitti_scan(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   float record[4];
-  if (bytes.empty()) throw DataError(path.string(), "is an empty scan of 0 bytes");
+  if (bytes.empty()) throw DataError(path.string(), "is empty");
   if (bytes.size() % sizeof record != 0) {
     throw DataError(path.string(),
                     "has " + std::to_string(bytes.size()) + " bytes, not a multiple of 16",
@@ -43,8 +43,7 @@ LidarScan read_kitti_scan(const std::filesystem::path& path) {
 
 void write_kitti_scan(const std::filesystem::path& path, const LidarScan& scan) {
   if (!scan.intensity.empty() && scan.intensity.size() != scan.points.size()) {
-    throw DataError(path.string(), "is to hold " + std::to_string(scan.points.size()) +
-                                       " points, but there are " +
+    throw DataError(path.string(), "has " + std::to_string(scan.points.size()) + " points and " +
                                        std::to_string(scan.intensity.size()) + " intensities");
   }
   std::vector<float> records;

@@ -26,7 +26,7 @@ const std::map<std::string, Channel> kPcdChannels = {{"x", Channel::kX},
                                                      {"label", Channel::kLabel},
                                                      {"observations", Channel::kObservations}};
 
-/// Header lines by their first word, up to and with DATA.
+/// Header lines by keyword, up to and including DATA.
 using PcdHeader = std::map<std::string, std::vector<std::string>>;
 
 PcdHeader read_pcd_header(HeaderText& header) {
@@ -35,10 +35,10 @@ PcdHeader read_pcd_header(HeaderText& header) {
     std::vector<std::string> words = header.next_line();
     const std::string key = words.front();
     words.erase(words.begin());
-    if (!lines.emplace(key, std::move(words)).second) header.fail(key + " is there twice");
+    if (!lines.emplace(key, std::move(words)).second) header.fail(key + " appears twice");
   }
   for (const char* key : {"FIELDS", "SIZE", "TYPE", "POINTS"}) {
-    if (!lines.contains(key)) header.fail(std::string("is no PCD header: it has no ") + key);
+    if (!lines.contains(key)) header.fail(std::string("is not a PCD header: missing ") + key);
   }
   return lines;
 }
@@ -52,7 +52,7 @@ PointRecord read_record(const HeaderText& header, PcdHeader& lines) {
   if (counts.empty()) counts.assign(fields.size(), "1");
   if (sizes.size() != fields.size() || types.size() != fields.size() ||
       counts.size() != fields.size()) {
-    header.fail("FIELDS, SIZE, TYPE and COUNT are of different lengths");
+    header.fail("FIELDS, SIZE, TYPE and COUNT differ in length");
   }
   PointRecord record;
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -60,7 +60,7 @@ PointRecord read_record(const HeaderText& header, PcdHeader& lines) {
     if (type == kPcdTypes.end()) header.fail("unknown TYPE and SIZE '" + types[i] + sizes[i] + "'");
     const auto known = kPcdChannels.find(fields[i]);
     const std::uint64_t count = header.count(counts[i]);
-    if (count > kMaxColumns) header.fail("COUNT is " + counts[i] + ", allowed is up to 4096");
+    if (count > kMaxColumns) header.fail("COUNT is " + counts[i] + ", allowed: up to 4096");
     const bool single = known != kPcdChannels.end() && count == 1;
     record.insert(record.end(), count, {single ? known->second : Channel::kOther, type->second});
   }
@@ -85,7 +85,7 @@ PointCloudFile read_pcd(const std::filesystem::path& path) {
   const auto word = [&](const std::string& key) { return lines[key].empty() ? "" : lines[key][0]; };
   const std::string data = word("DATA");
   if (data != "ascii" && data != "binary") {
-    text.fail("unsupported DATA '" + data + "'", "ascii and binary can be read");
+    text.fail("unsupported DATA '" + data + "'", "supported: ascii, binary");
   }
   const auto decode = data == "ascii" ? decode_ascii : decode_binary;
   return decode(text.rest(), text.count(word("POINTS")), record, path.string());

@@ -47,13 +47,14 @@ bool read_format(HeaderText& header) {
   const std::string format = words.size() == 3 && words[0] == "format" ? words[1] : "";
   if (format != "ascii" && format != "binary_little_endian") {
     header.fail("unsupported PLY format '" + format + "'",
-                "ascii and binary_little_endian can be read");
+                "supported: ascii, binary_little_endian");
   }
   return format == "ascii";
 }
 
 PointColumn read_property(const HeaderText& header, const std::vector<std::string>& words) {
-  if (words.size() > 1 && words[1] == "list") header.fail("vertices with lists are unsupported");
+  if (words.size() > 1 && words[1] == "list")
+    header.fail("list properties of vertices are not supported");
   if (words.size() != 3) header.fail("expected 'property TYPE NAME'");
   const auto type = kPlyTypes.find(words[1]);
   if (type == kPlyTypes.end()) header.fail("unknown property type '" + words[1] + "'");
@@ -61,8 +62,8 @@ PointColumn read_property(const HeaderText& header, const std::vector<std::strin
   return {channel == kPlyChannels.end() ? Channel::kOther : channel->second, type->second};
 }
 
-/// Elements after the vertices (faces) are of no interest, elements before them would have to be
-/// passed over point by point and no known program writes any.
+/// Ignores elements after the vertices (faces). Elements before the vertices are not supported; no
+/// known program writes them.
 PlyHeader read_ply_header(HeaderText& header) {
   PlyHeader result;
   result.ascii = read_format(header);
@@ -70,8 +71,8 @@ PlyHeader read_ply_header(HeaderText& header) {
   for (auto words = header.next_line(); words[0] != "end_header"; words = header.next_line()) {
     if (words[0] == "element") {
       if (words.size() != 3) header.fail("expected 'element NAME COUNT'");
-      if (element.empty() && words[1] != "vertex") header.fail("the first element is no vertex");
-      if (!element.empty() && words[1] == "vertex") header.fail("the vertices come twice");
+      if (element.empty() && words[1] != "vertex") header.fail("the first element is not 'vertex'");
+      if (!element.empty() && words[1] == "vertex") header.fail("element vertex appears twice");
       element = words[1];
       if (element == "vertex") result.vertices = header.count(words[2]);
     } else if (words[0] != "property" || element.empty()) {

@@ -6,15 +6,15 @@
 
 namespace mms {
 
-/// Reads the vertices of a PLY file, ascii or binary_little_endian; other properties and elements
-/// after the vertices are passed over.
-/// @throws FileError when the file cannot be read; DataError naming the header line for a damaged
-///         or unsupported header, when the file is shorter than its header promises, or when a
-///         value does not fit.
+/// Reads the vertices of a PLY file, ascii or binary_little_endian; ignores other properties and
+/// elements after the vertices.
+/// @throws FileError if the file cannot be read; DataError with the header line for a damaged or
+/// unsupported header, a truncated file, or a value out of range.
 PointCloudFile read_ply(const std::filesystem::path& path);
 
-/// Writes binary_little_endian PLY. @throws FileError when the file cannot be written, DataError
-/// when the cloud's vectors are not parallel.
+/// Writes binary_little_endian PLY.
+/// @throws FileError if the file cannot be written; DataError if the cloud's vectors differ in
+/// size.
 void write_ply(const std::filesystem::path& path, const PointCloudFile& cloud);
 
 }  // namespace mms

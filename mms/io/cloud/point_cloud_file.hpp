@@ -8,13 +8,15 @@
 
 namespace mms {
 
-/// What a PLY or PCD file holds. The vectors are parallel to `points`, or empty when absent.
+/// Content of a PLY or PCD file. The vectors are parallel to `points`, or empty if absent.
 struct PointCloudFile {
-  std::vector<Eigen::Vector3f> points;     ///< [m]; NaN and infinite ones are kept
-  std::vector<Eigen::Vector3f> normals;    ///< property nx ny nz
-  std::vector<Rgb> colors;                 ///< property red green blue
-  std::vector<std::int32_t> labels;        ///< property label; truth maps: 0 static, else object id
-  std::vector<std::int32_t> observations;  ///< property observations: frames that saw the point
+  std::vector<Eigen::Vector3f> points;   ///< [m]; may be NaN or infinite
+  std::vector<Eigen::Vector3f> normals;  ///< properties nx ny nz
+  std::vector<Rgb> colors;               ///< properties red green blue
+  std::vector<std::int32_t>
+      labels;  ///< property label; ground-truth maps: 0 static, else object id
+  std::vector<std::int32_t>
+      observations;  ///< property observations: frames that observed the point
 };
 
 }  // namespace mms

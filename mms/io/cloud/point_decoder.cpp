@@ -10,7 +10,7 @@
 namespace mms {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "records are copied as they are");
+static_assert(std::endian::native == std::endian::little, "records are copied bytewise");
 
 template <class T>
 double load(const char* bytes) {
@@ -46,11 +46,11 @@ Integer whole(double value, const std::string& where) {
   constexpr double kMin = std::numeric_limits<Integer>::min();
   constexpr double kMax = std::numeric_limits<Integer>::max();
   if (value >= kMin && value <= kMax) return static_cast<Integer>(value);
-  throw DataError(where, "a point has the value " + format_number(value) + ", allowed is " +
-                             format_number(kMin) + " to " + format_number(kMax));
+  throw DataError(where, "a point has the value " + format_number(value) +
+                             ", allowed: " + format_number(kMin) + " to " + format_number(kMax));
 }
 
-/// Coordinates beyond float's range become infinite, which counts as no return.
+/// Coordinates beyond the range of float become infinite, which means no return.
 float coordinate(double value) {
   if (std::abs(value) <= std::numeric_limits<float>::max()) return static_cast<float>(value);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ Rgb unpack(std::uint32_t packed) {
           static_cast<std::uint8_t>(packed)};
 }
 
-/// Writes values into the cloud's vectors, which it sizes first.
+/// Sizes the cloud's vectors and sets their values.
 class CloudBuilder {
  public:
   CloudBuilder(std::uint64_t count, const PointRecord& record, std::string where)
@@ -128,7 +128,7 @@ class CloudBuilder {
   std::string where_;
 };
 
-/// Takes the next blank-separated word off `text`; empty at its end.
+/// Removes the next word from the front of `text`; empty at its end.
 std::string_view take_word(std::string_view& text) {
   constexpr std::string_view kBlanks = " \t\r\n";
   text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
@@ -151,7 +151,7 @@ PointCloudFile decode_binary(std::string_view data, std::uint64_t count, const P
   const std::size_t stride = stride_of(record);
   if (count > data.size() / stride) {
     throw DataError(where,
-                    "promises " + std::to_string(count) + " points, but has the bytes of " +
+                    "promises " + std::to_string(count) + " points, but has only the bytes of " +
                         std::to_string(data.size() / stride),
                     "the file may be truncated");
   }
@@ -174,12 +174,12 @@ PointCloudFile decode_binary(std::string_view data, std::uint64_t count, const P
 
 PointCloudFile decode_ascii(std::string_view data, std::uint64_t count, const PointRecord& record,
                             const std::string& where) {
-  // A value takes a character and a blank at the least.
+  // A value needs at least one character and one blank.
   const std::uint64_t most = (data.size() + 1) / (2 * record.size());
   if (count > most) {
     throw DataError(where,
-                    "promises " + std::to_string(count) + " points, but has room for " +
-                        std::to_string(most) + " at most",
+                    "promises " + std::to_string(count) + " points, but has space for at most " +
+                        std::to_string(most),
                     "the file may be truncated");
   }
   CloudBuilder builder(count, record, where);

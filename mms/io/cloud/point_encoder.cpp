@@ -6,7 +6,7 @@
 namespace mms {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "values are copied as they are");
+static_assert(std::endian::native == std::endian::little, "values are copied bytewise");
 
 std::uint32_t pack(Rgb color) {
   return static_cast<std::uint32_t>(color.r << 16 | color.g << 8 | color.b);

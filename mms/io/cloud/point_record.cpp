@@ -21,7 +21,7 @@ auto count_of(const PointRecord& record, Channel channel) {
                        [&](const PointColumn& column) { return column.channel == channel; });
 }
 
-/// All of a group's channels or none.
+/// Checks that all or none of a group's channels are present.
 void check_group(const PointRecord& record, std::span<const Channel> group,
                  const std::string& where, const std::string& names) {
   const auto there = std::count_if(group.begin(), group.end(),
@@ -46,7 +46,7 @@ PointRecord record_of(const PointCloudFile& cloud, bool packed_rgb) {
   const auto has = [&](const auto& values, const std::string& name) {
     if (values.empty()) return false;
     if (values.size() == cloud.points.size()) return true;
-    throw DataError("point cloud", std::to_string(cloud.points.size()) + " points, but " +
+    throw DataError("point cloud", std::to_string(cloud.points.size()) + " points and " +
                                        std::to_string(values.size()) + " " + name);
   };
   PointRecord record;
@@ -69,19 +69,19 @@ PointRecord record_of(const PointCloudFile& cloud, bool packed_rgb) {
 void check_record(const PointRecord& record, const std::string& where) {
   for (const PointColumn& column : record) {
     if (column.channel != Channel::kOther && count_of(record, column.channel) > 1) {
-      throw DataError(where, "names the same property twice");
+      throw DataError(where, "has a duplicate property");
     }
     const bool color =
         std::find(std::begin(kColor), std::end(kColor), column.channel) != std::end(kColor);
     if (color && column.type != ScalarType::kUint8) {
-      throw DataError(where, "has colours of another type than uchar");
+      throw DataError(where, "has color properties of a type other than uchar");
     }
     if (column.channel == Channel::kPackedRgb && size_of(column.type) != 4) {
-      throw DataError(where, "has packed rgb of another size than 4 bytes");
+      throw DataError(where, "has packed rgb of a size other than 4 bytes");
     }
   }
   for (const Channel channel : kPosition) {
-    if (count_of(record, channel) == 0) throw DataError(where, "has points without x y z");
+    if (count_of(record, channel) == 0) throw DataError(where, "misses x, y or z");
   }
   check_group(record, kNormal, where, "the normal's three components");
   check_group(record, kColor, where, "red green blue");

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: what PLY and PCD have in common, which is all but their headers.
+// Internal to io: the common part of PLY and PCD, without headers.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ enum class ScalarType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat3
 /// [B]
 std::size_t size_of(ScalarType type);
 
-/// What a column of a point file means; kPackedRgb is 0x00RRGGBB in four bytes.
+/// Meaning of a column of a point file; kPackedRgb is 0x00RRGGBB in four bytes.
 enum class Channel {
   kX,
   kY,
@@ -36,34 +36,35 @@ enum class Channel {
   kOther
 };
 
-/// One scalar of every point.
+/// One scalar per point.
 struct PointColumn {
   Channel channel = Channel::kOther;       ///< what it means
   ScalarType type = ScalarType::kFloat32;  ///< how it is stored
 };
 
-/// The columns of one point, in the file's order without gaps.
+/// The columns of a point in file order, without padding.
 using PointRecord = std::vector<PointColumn>;
 
 /// Bytes of one point in a binary file [B].
 std::size_t stride_of(const PointRecord& record);
 
-/// The columns that a cloud needs, with packed or separate colours.
-/// @throws DataError when the cloud's vectors are not parallel.
+/// The columns for a cloud, with packed or separate colors.
+/// @throws DataError if the cloud's vectors differ in size.
 PointRecord record_of(const PointCloudFile& cloud, bool packed_rgb);
 
-/// Checks a record before its points are read: x y z there, no channel twice, colours in bytes.
+/// Checks that x y z are present, that no channel appears twice and that colors are bytes.
 /// @throws DataError at `where`.
 void check_record(const PointRecord& record, const std::string& where);
 
-/// Reads `count` points. @throws DataError at `where` when `data` is too short for them, which is
-/// found before anything is allocated, or when a value does not fit its channel.
+/// Decodes `count` points.
+/// @throws DataError at `where` if `data` is too short, which is checked before allocation, or if a
+/// value does not fit its channel.
 PointCloudFile decode_binary(std::string_view data, std::uint64_t count, const PointRecord& record,
                              const std::string& where);
 PointCloudFile decode_ascii(std::string_view data, std::uint64_t count, const PointRecord& record,
                             const std::string& where);
 
-/// The points' bytes, little-endian.
+/// Encodes the points, little-endian.
 std::string encode_binary(const PointCloudFile& cloud, const PointRecord& record);
 
 }  // namespace mms

@@ -28,7 +28,7 @@ YAML::Node required(YamlMap& map, const std::string& file, std::string_view key)
                     "a camera needs fx fy cx cy width height depth_scale");
 }
 
-/// The numbers of a list, or of a list of rows.
+/// Flattens a list, or a list of rows.
 std::vector<double> matrix_numbers(const YamlMap& map, const YAML::Node& node,
                                    std::string_view key) {
   if (!node.IsSequence()) map.fail(node, key, "is " + shown(node) + ", expected a matrix");
@@ -46,7 +46,7 @@ std::vector<double> matrix_numbers(const YamlMap& map, const YAML::Node& node,
 std::array<double, 5> read_distortion(const YamlMap& map, const YAML::Node& node) {
   constexpr std::string_view kKey = "distortion";
   const bool list = node.IsSequence() && (node.size() == 4 || node.size() == 5);
-  if (!list) map.fail(node, kKey, "is no list of 4 or 5 numbers", "k1 k2 p1 p2 and perhaps k3");
+  if (!list) map.fail(node, kKey, "is not a list of 4 or 5 numbers", "k1 k2 p1 p2 [k3]");
   std::array<double, 5> distortion{};
   for (std::size_t i = 0; i < node.size(); ++i) {
     distortion[i] = map.number(node[i], kKey, kLens);
@@ -77,7 +77,7 @@ Eigen::Isometry3d read_transform(const YamlMap& map, const YAML::Node& node) {
   try {
     return isometry_from_rows(matrix_numbers(map, node, kKey), std::string(kKey));
   } catch (const DataError& error) {
-    map.fail(node, kKey, std::string("makes no rigid transform: ") + error.what());
+    map.fail(node, kKey, std::string("is not a rigid transform: ") + error.what());
   }
 }
 
@@ -120,7 +120,7 @@ void write_calibration(const std::filesystem::path& path, const Calibration& cal
     text += "width: " + std::to_string(camera.width) + "\n";
     text += "height: " + std::to_string(camera.height) + "\n";
     text += "distortion: " + list(camera.distortion) + "  # k1 k2 p1 p2 k3\n";
-    text += "depth_scale: " + format_number(calibration.depth_scale) + "  # units per metre\n";
+    text += "depth_scale: " + format_number(calibration.depth_scale) + "  # units per meter\n";
     if (calibration.max_depth) {
       text += "max_depth: " + format_number(*calibration.max_depth) + "  # [m]\n";
     }

@@ -47,7 +47,7 @@ class AssigningVisitor final : public ConfigVisitor {
     if (!text) return;
     value = *text == "true" || *text == "1";
     if (!value && *text != "false" && *text != "0") {
-      fail(path(info) + " is '" + *text + "', allowed are true and false");
+      fail(path(info) + " is '" + *text + "', allowed: true, false");
     }
   }
 
@@ -67,7 +67,7 @@ class AssigningVisitor final : public ConfigVisitor {
     if (const std::optional<std::string> given = take(info)) value = *given;
   }
 
-  /// To be called after the visit: nothing may be left that no field took.
+  /// To be called after the visit; fails on unknown keys.
   /// @returns warnings, one line each
   std::vector<std::string> finish() {
     if (values_.empty()) return std::move(warnings_);
@@ -89,7 +89,7 @@ class AssigningVisitor final : public ConfigVisitor {
     return text + std::string(info.key);
   }
 
-  /// Gives the field's present name to a value that is given under its former one.
+  /// Renames a value given under its former name.
   void adopt(const std::string& former, const std::string& present) {
     const auto found = values_.find(former);
     if (found == values_.end()) return;
@@ -125,7 +125,7 @@ class AssigningVisitor final : public ConfigVisitor {
         static_cast<double>(*value) <= range.max) {
       return;
     }
-    fail(path(info) + " is '" + text + "', allowed is " + to_string(range));
+    fail(path(info) + " is '" + text + "', allowed: " + to_string(range));
   }
 
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {

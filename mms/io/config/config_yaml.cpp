@@ -11,14 +11,15 @@
 namespace mms {
 namespace {
 
-/// Sets fields from a file. The stack holds the group being visited and those around it.
+/// Sets fields from a file. The stack holds the current group and its parents.
 class ConfigLoader final : public ConfigVisitor {
  public:
   explicit ConfigLoader(const std::filesystem::path& path) {
     groups_.push_back(YamlMap::load(path));
   }
 
-  /// To be called after the visit. @returns warnings, one line each
+  /// To be called after the visit; fails on unknown keys.
+  /// @returns warnings, one line each
   std::vector<std::string> finish() {
     groups_.back().reject_unknown();
     return std::move(warnings_);
@@ -41,7 +42,7 @@ class ConfigLoader final : public ConfigVisitor {
     if (!node) return;
     const std::string text = plain_scalar(*node);
     if (text != "true" && text != "false") {
-      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", allowed is true or false");
+      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", allowed: true, false");
     }
     value = text == "true";
   }
@@ -57,7 +58,7 @@ class ConfigLoader final : public ConfigVisitor {
       std::string allowed;
       for (const std::string& known : words) allowed += (allowed.empty() ? "" : ", ") + known;
       const std::string hint = suggestion(word, words);
-      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", allowed is one of " + allowed,
+      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", allowed: one of " + allowed,
                           hint.starts_with("did") ? hint : "");
     }
     index = static_cast<int>(found - choices.begin());
@@ -67,7 +68,7 @@ class ConfigLoader final : public ConfigVisitor {
     const auto node = find(info);
     if (!node) return;
     if (!node->IsScalar()) {
-      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", expected a text");
+      groups_.back().fail(*node, info.key, "is " + shown(*node) + ", expected a string");
     }
     value = node->Scalar();
   }
@@ -104,10 +105,10 @@ class ConfigLoader final : public ConfigVisitor {
 
   std::vector<YamlMap> groups_;
   std::vector<std::string> warnings_;
-  std::vector<std::vector<YamlMap>> lists_;  ///< items still to come, the next one last
+  std::vector<std::vector<YamlMap>> lists_;  ///< remaining list items, the next one last
 };
 
-/// Writes a line a field: "key: value  # doc [unit], allowed values".
+/// Writes one line per field: "key: value # doc [unit], allowed values".
 class ConfigWriter final : public ConfigVisitor {
  public:
   const std::string& text() const { return text_; }
@@ -131,7 +132,7 @@ class ConfigWriter final : public ConfigVisitor {
     field(info, std::string(choices[static_cast<std::size_t>(index)]), words);
   }
   void text(const FieldInfo& info, std::string& value) override {
-    field(info, YAML::Dump(YAML::Node(value)), "a text");
+    field(info, YAML::Dump(YAML::Node(value)), "a string");
   }
 
  private:
@@ -162,7 +163,7 @@ class ConfigWriter final : public ConfigVisitor {
 
   std::string text_;
   std::string indent_;
-  bool dash_ = false;  ///< the next field is the first of a list's item
+  bool dash_ = false;  ///< the next field is the first of a list item
 };
 
 }  // namespace

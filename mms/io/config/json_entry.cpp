@@ -15,14 +15,14 @@ nlohmann::json parse_json(const std::filesystem::path& path) {
     const std::string what = error.what();  // "[json.exception...] parse error at line 1, ..."
     const std::size_t end = what.find("] ");
     throw DataError(path.string(),
-                    "is no JSON: " + (end == std::string::npos ? what : what.substr(end + 2)));
+                    "is not JSON: " + (end == std::string::npos ? what : what.substr(end + 2)));
   }
 }
 
 JsonEntry JsonEntry::at(const std::string& key) const {
   if (!value_->is_object()) fail("is " + type_name() + ", expected an object");
   const auto found = value_->find(key);
-  if (found == value_->end()) fail("has no key '" + key + "'");
+  if (found == value_->end()) fail("missing key '" + key + "'");
   return {*found, file_, path_.empty() ? key : path_ + "." + key};
 }
 
@@ -44,19 +44,19 @@ double JsonEntry::number(Range range) const {
   if (!value_->is_number()) fail("is " + type_name() + ", expected a number");
   const auto number = value_->get<double>();
   if (number >= range.min && number <= range.max) return number;
-  fail("is " + format_number(number) + ", allowed is " + to_string(range));
+  fail("is " + format_number(number) + ", allowed: " + to_string(range));
 }
 
 std::int64_t JsonEntry::integer(Range range) const {
-  constexpr double kMax = 9.0e18;  // where doubles still fit an int64
+  constexpr double kMax = 9.0e18;  // range in which doubles fit an int64
   const double value = number({std::max(range.min, -kMax), std::min(range.max, kMax)});
   if (value_->is_number_integer()) return value_->get<std::int64_t>();
-  if (value != std::floor(value)) fail("is " + format_number(value) + ", no whole number");
+  if (value != std::floor(value)) fail("is " + format_number(value) + ", expected an integer");
   return static_cast<std::int64_t>(value);
 }
 
 std::string JsonEntry::text() const {
-  if (!value_->is_string()) fail("is " + type_name() + ", expected a text");
+  if (!value_->is_string()) fail("is " + type_name() + ", expected a string");
   return value_->get<std::string>();
 }
 

@@ -16,7 +16,7 @@ std::string at_line(const std::string& file, const YAML::Mark& mark) {
   return mark.is_null() ? file : file + ":" + std::to_string(mark.line + 1);
 }
 
-/// Infinity is spelled ".inf" in YAML; NaN is never a setting.
+/// YAML spells infinity ".inf"; NaN is not accepted.
 std::optional<double> yaml_number(const std::string& text) {
   if (text == ".inf") return std::numeric_limits<double>::infinity();
   if (text == "-.inf") return -std::numeric_limits<double>::infinity();
@@ -72,9 +72,9 @@ void YamlMap::check_keys(const YAML::Node& map) const {
   std::vector<std::string> seen;
   for (const auto& entry : map) {
     const YAML::Node& key = entry.first;
-    if (!key.IsScalar()) fail(key, shown(key), "is no word, so it cannot be a key");
+    if (!key.IsScalar()) fail(key, shown(key), "is not a scalar, expected a key");
     if (std::find(seen.begin(), seen.end(), key.Scalar()) != seen.end()) {
-      fail(key, key.Scalar(), "is there twice", "keep one of them");
+      fail(key, key.Scalar(), "appears twice", "keep one of them");
     }
     seen.push_back(key.Scalar());
   }
@@ -132,7 +132,7 @@ double YamlMap::number(const YAML::Node& node, std::string_view key, Range range
   const auto value = yaml_number(plain_scalar(node));
   if (!value) fail(node, key, "is " + shown(node) + ", expected a number: " + to_string(range));
   if (*value < range.min || *value > range.max) {
-    fail(node, key, "is " + node.Scalar() + ", allowed is " + to_string(range));
+    fail(node, key, "is " + node.Scalar() + ", allowed: " + to_string(range));
   }
   return *value;
 }
@@ -143,7 +143,7 @@ int YamlMap::integer(const YAML::Node& node, std::string_view key, Range range) 
   range = {std::max(range.min, kLow), std::min(range.max, kHigh)};
   const auto value = parse_integer(plain_scalar(node));
   if (!value) {
-    fail(node, key, "is " + shown(node) + ", expected a whole number: " + to_string(range));
+    fail(node, key, "is " + shown(node) + ", expected an integer: " + to_string(range));
   }
   return static_cast<int>(number(node, key, range));
 }

@@ -32,7 +32,7 @@ std::vector<double> numbers(const JsonEntry& list) {
 
 std::pair<int, int> size_of(const JsonEntry& rle) {
   const std::vector<JsonEntry> size = rle.at("size").elements();
-  if (size.size() != 2) rle.at("size").fail("is no list of height and width");
+  if (size.size() != 2) rle.at("size").fail("is not a list of height and width");
   return {static_cast<int>(size[1].integer(kSize)), static_cast<int>(size[0].integer(kSize))};
 }
 
@@ -59,14 +59,14 @@ Rle read_segmentation(const JsonEntry& entry, const CocoImage& image) {
   }
   Rle rle = read_runs(entry);
   if (rle.width != image.width || rle.height != image.height) {
-    entry.fail("is of " + std::to_string(rle.width) + " x " + std::to_string(rle.height) +
-               " px, its image " + std::to_string(image.id) + " of " + std::to_string(image.width) +
-               " x " + std::to_string(image.height));
+    entry.fail("has " + std::to_string(rle.width) + " x " + std::to_string(rle.height) +
+               " px, its image " + std::to_string(image.id) + " has " +
+               std::to_string(image.width) + " x " + std::to_string(image.height));
   }
   return rle;
 }
 
-/// Reads the three lists and keeps what is already known of them, for what refers to it.
+/// Reads the three lists and indexes the ids for references between them.
 class CocoReader {
  public:
   explicit CocoReader(const JsonEntry& root) : root_(root) {}
@@ -103,13 +103,12 @@ class CocoReader {
     annotation.image_id = entry.at("image_id").integer();
     const auto image = images_.find(annotation.image_id);
     if (image == images_.end()) {
-      entry.at("image_id")
-          .fail("is " + std::to_string(annotation.image_id) + ", there is no such image");
+      entry.at("image_id").fail("is " + std::to_string(annotation.image_id) + ", no such image");
     }
     annotation.category_id = static_cast<int>(entry.at("category_id").integer(kCategory));
     if (!categories_.contains(annotation.category_id)) {
       entry.at("category_id")
-          .fail("is " + std::to_string(annotation.category_id) + ", there is no such category");
+          .fail("is " + std::to_string(annotation.category_id) + ", no such category");
     }
     annotation.segmentation =
         read_segmentation(entry.at("segmentation"), dataset_.images[image->second]);
@@ -122,13 +121,13 @@ class CocoReader {
   static void read_box(const JsonEntry& entry, CocoAnnotation& annotation) {
     const std::vector<double> box = numbers(entry);
     if (box.size() != 4 || box[2] < 0.0 || box[3] < 0.0) {
-      entry.fail("is no box", "expected x, y, width and height in pixels");
+      entry.fail("is not a box", "expected x, y, width and height in pixels");
     }
     std::copy(box.begin(), box.end(), annotation.bbox.begin());
   }
 
   [[noreturn]] static void fail_twice(const JsonEntry& entry, std::int64_t id) {
-    entry.at("id").fail("is " + std::to_string(id) + ", which was there before");
+    entry.at("id").fail("is " + std::to_string(id) + ", a duplicate");
   }
 
   const JsonEntry& root_;
@@ -144,8 +143,8 @@ CocoDataset read_coco(const std::filesystem::path& path) {
   const nlohmann::json json = parse_json(path);
   const JsonEntry root(json, path.string());
   if (root.is_list()) {
-    root.fail("is a list, as results are",
-              "annotations are an object with images, annotations and categories");
+    root.fail("is a list, as of results",
+              "expected an object with images, annotations and categories");
   }
   return CocoReader(root).read();
 }
@@ -154,7 +153,7 @@ std::vector<CocoResult> read_coco_results(const std::filesystem::path& path) {
   const nlohmann::json json = parse_json(path);
   const JsonEntry root(json, path.string());
   if (!root.is_list()) {
-    root.fail("is no list of results", "an object with images and annotations is no result");
+    root.fail("is not a list of results", "an object with images and annotations is not a result");
   }
   std::vector<CocoResult> results;
   for (const JsonEntry& entry : root.elements()) {

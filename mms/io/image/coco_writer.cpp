@@ -40,7 +40,7 @@ Json json_of(const CocoResult& result) {
           {"segmentation", json_of(result.segmentation)}};
 }
 
-/// A list with one entry a line, which keeps large files readable and small.
+/// A list with one entry per line, for readable and compact files.
 template <class Entry>
 std::string list_text(const std::vector<Entry>& entries) {
   std::string text = "[";

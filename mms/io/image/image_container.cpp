@@ -17,7 +17,7 @@ std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// Walks the chunks (length, type, data, CRC) up to the end chunk.
+/// Iterates over the chunks (length, type, data, CRC) up to the end chunk.
 bool png_is_whole(std::string_view bytes) {
   constexpr std::size_t kChunkFrame = 12;
   std::size_t at = kPngSignature.size();
@@ -30,7 +30,7 @@ bool png_is_whole(std::string_view bytes) {
   return false;
 }
 
-/// A damaged header must not make the decoder allocate gigabytes.
+/// Prevents huge allocations after a damaged header.
 void check_png_size(std::string_view bytes, const std::string& where) {
   constexpr std::size_t kWidthAt = 16;
   const std::uint32_t width = big_endian(bytes, kWidthAt);
@@ -38,11 +38,11 @@ void check_png_size(std::string_view bytes, const std::string& where) {
   if (width <= kMaxImageSide && height <= kMaxImageSide) return;
   throw DataError(where,
                   "is " + std::to_string(width) + "x" + std::to_string(height) +
-                      " pixels, allowed is up to 16384x16384",
+                      " pixels, allowed: up to 16384x16384",
                   "the header may be damaged");
 }
 
-/// The scan's data holds no FF D9 and no FF DA, so the last of the two markers tells.
+/// Scan data contain neither FF D9 nor FF DA, so the file is complete if the end marker is last.
 bool jpeg_is_whole(std::string_view bytes) {
   const std::size_t end = bytes.rfind("\xFF\xD9");
   const std::size_t scan = bytes.rfind("\xFF\xDA");

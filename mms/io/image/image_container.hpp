@@ -5,9 +5,9 @@
 
 namespace mms {
 
-/// Checks that bytes are one whole PNG or JPEG file. Decoders fill what is missing of a truncated
-/// one with grey and only print a warning.
-/// @throws DataError at `where` for truncated files and for any other format.
+/// Checks that the bytes are a complete PNG or JPEG file. Decoders fill missing parts of a
+/// truncated file with gray and only print a warning.
+/// @throws DataError at `where` for truncated files and other formats.
 void check_whole_image(std::string_view bytes, const std::string& where);
 
 }  // namespace mms

@@ -6,13 +6,14 @@
 
 namespace mms {
 
-/// Whether a file's name says that it is a PNG or JPEG picture.
+/// Whether the file name is that of a PNG or JPEG image.
 bool is_picture(const std::filesystem::path& path);
 
-/// The pictures of a folder, in the order of their names. @throws FileError as `list_folder` does.
+/// Image files of a folder, sorted by name.
+/// @throws FileError as `list_folder`.
 std::vector<std::filesystem::path> list_pictures(const std::filesystem::path& folder);
 
-/// Where the picture of a COCO file is: in `folder`, or else in images/ below it.
+/// Path of an image of a COCO file: in `folder`, or else in its subfolder images/.
 std::filesystem::path picture_path(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace mms

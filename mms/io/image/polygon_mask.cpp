@@ -9,7 +9,7 @@
 namespace mms {
 namespace {
 
-// The outline is walked on a grid this much finer than the pixels.
+// Outlines are traced on a grid finer than the pixels by this factor.
 constexpr double kScale = 5.0;
 constexpr double kMaxCoordinate = 1e6;
 constexpr std::size_t kMinNumbers = 6;
@@ -22,12 +22,12 @@ struct GridPoint {
 void check(const Polygon& polygon) {
   if (polygon.size() < kMinNumbers || polygon.size() % 2 != 0) {
     throw DataError("polygon", "has " + std::to_string(polygon.size()) + " numbers",
-                    "expected x and y of three corners or more");
+                    "expected x and y of at least three corners");
   }
   for (const double value : polygon) {
     if (!(std::abs(value) <= kMaxCoordinate)) {
       throw DataError("polygon", "has the coordinate " + std::to_string(value) +
-                                     ", allowed are finite ones within 1e6 px");
+                                     ", allowed: finite, within 1e6 px");
     }
   }
 }
@@ -68,7 +68,7 @@ std::vector<GridPoint> outline_of(const Polygon& polygon) {
   return outline;
 }
 
-/// Where, counted down the columns, the polygon begins or ends; ascending.
+/// Positions (column-major) at which the polygon begins or ends; ascending.
 std::vector<std::uint32_t> crossings(const std::vector<GridPoint>& outline, int width, int height) {
   std::vector<std::uint32_t> positions;
   for (std::size_t i = 1; i < outline.size(); ++i) {
@@ -86,14 +86,14 @@ std::vector<std::uint32_t> crossings(const std::vector<GridPoint>& outline, int 
   return positions;
 }
 
-/// The runs between the places where one polygon begins and ends.
+/// Runs between the positions at which a polygon begins or ends.
 Rle runs_between(std::vector<std::uint32_t> positions, int width, int height) {
   positions.push_back(static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height));
   Rle rle{width, height, {positions.front()}};
   for (std::size_t i = 1; i < positions.size(); ++i) {
     if (positions[i] > positions[i - 1]) {
       rle.counts.push_back(positions[i] - positions[i - 1]);
-    } else if (++i < positions.size()) {  // ends where it begins: the run before goes on
+    } else if (++i < positions.size()) {  // ends where it begins: the previous run continues
       rle.counts.back() += positions[i] - positions[i - 1];
     }
   }
@@ -116,7 +116,7 @@ void fill(const Polygon& polygon, Image<std::uint8_t>& mask) {
 
 Rle rasterise(std::span<const Polygon> polygons, int width, int height) {
   for (const Polygon& polygon : polygons) check(polygon);
-  if (polygons.size() == 1) {  // nearly always, and much faster
+  if (polygons.size() == 1) {  // the frequent case, and much faster
     return runs_between(crossings(outline_of(polygons[0]), width, height), width, height);
   }
   Image<std::uint8_t> mask(width, height);

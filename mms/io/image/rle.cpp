@@ -8,14 +8,14 @@
 namespace mms {
 namespace {
 
-// The compressed form: five bits a letter, the sixth says that more follow.
+// Compressed form: five bits per character, the sixth marks a continuation.
 constexpr int kBits = 5;
 constexpr std::int64_t kValueBits = 0x1f;
 constexpr std::int64_t kSignBit = 0x10;
 constexpr std::int64_t kMoreBit = 0x20;
 constexpr char kFirstLetter = '0';
 constexpr char kLastLetter = 'o';
-constexpr int kMaxShift = 35;  // of a count of 32 bits with its sign
+constexpr int kMaxShift = 35;  // of a 32-bit count with sign
 
 std::uint64_t pixels_of(const Rle& rle) {
   return static_cast<std::uint64_t>(rle.width) * static_cast<std::uint64_t>(rle.height);
@@ -40,7 +40,7 @@ Rle encode(const Image<std::uint8_t>& image, const Inside& inside) {
   return rle;
 }
 
-/// Calls `body(first, last)` with the pixels (column by column) of every run on the mask.
+/// Calls `body(first, last)` with the pixel range (column-major) of every run of the mask.
 template <class Body>
 void for_each_run(const Rle& rle, const Body& body) {
   std::uint64_t position = 0;
@@ -62,7 +62,7 @@ void append_letters(std::string& text, std::int64_t value) {
   }
 }
 
-/// Takes one number off the front of `text`.
+/// Removes one number from the front of `text`.
 std::int64_t take_number(std::string_view& text) {
   std::int64_t value = 0;
   for (int shift = 0;; shift += kBits) {
@@ -70,7 +70,7 @@ std::int64_t take_number(std::string_view& text) {
     const char c = text.front();
     if (c < kFirstLetter || c > kLastLetter) {
       throw DataError("compressed mask",
-                      "has the letter '" + std::string(1, c) + "', allowed are '0' to 'o'");
+                      "has the character '" + std::string(1, c) + "', allowed: '0' to 'o'");
     }
     if (shift > kMaxShift) throw DataError("compressed mask", "has a number of more than 32 bits");
     text.remove_prefix(1);
@@ -95,7 +95,7 @@ Rle encode_rle(const Image<std::uint8_t>& labels, std::uint8_t value) {
 void check_rle(const Rle& rle) {
   const std::uint64_t sum = std::accumulate(rle.counts.begin(), rle.counts.end(), std::uint64_t{0});
   if (rle.width >= 0 && rle.height >= 0 && sum == pixels_of(rle)) return;
-  throw DataError("mask", "its runs are of " + std::to_string(sum) + " pixels, the image has " +
+  throw DataError("mask", "its runs have " + std::to_string(sum) + " pixels, the image has " +
                               std::to_string(rle.width) + " x " + std::to_string(rle.height));
 }
 
@@ -103,11 +103,11 @@ Rle encode_rle(const Image<std::uint8_t>& cut, int x, int y, int width, int heig
   if (x < 0 || y < 0 || x + cut.width() > width || y + cut.height() > height) {
     throw DataError("mask", std::to_string(cut.width()) + "x" + std::to_string(cut.height()) +
                                 " px at (" + std::to_string(x) + ", " + std::to_string(y) +
-                                ") reaches out of its image of " + std::to_string(width) + "x" +
+                                ") exceeds its image of " + std::to_string(width) + "x" +
                                 std::to_string(height));
   }
   Rle rle{width, height, {}};
-  std::uint64_t end = 0;  // of the last run on the mask
+  std::uint64_t end = 0;  // of the last run of the mask
   const auto add_run = [&](std::uint64_t first, std::uint64_t length) {
     if (first == end && !rle.counts.empty()) {
       rle.counts.back() += static_cast<std::uint32_t>(length);

@@ -10,7 +10,7 @@
 
 namespace mms {
 
-static_assert(std::endian::native == std::endian::little, "values are copied as they are");
+static_assert(std::endian::native == std::endian::little, "values are copied bytewise");
 
 /// Appends a number, little-endian.
 template <class T>
@@ -20,14 +20,14 @@ void append_bytes(std::string& bytes, T value) {
   bytes.append(raw, sizeof value);
 }
 
-/// Takes little-endian numbers off the front of bytes that nobody vouches for.
+/// Reads little-endian numbers from the front of untrusted bytes.
 class ByteReader {
  public:
   /// @param bytes  have to outlive the reader
   /// @param where  for messages
   ByteReader(std::string_view bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
 
-  /// @throws DataError when fewer bytes are left.
+  /// @throws DataError if fewer bytes are left.
   template <class T>
   T take() {
     T value{};
@@ -35,7 +35,8 @@ class ByteReader {
     return value;
   }
 
-  /// The next `size` bytes. @throws DataError when fewer are left.
+  /// The next `size` bytes.
+  /// @throws DataError if fewer are left.
   std::string_view take(std::size_t size) {
     if (size > bytes_.size()) {
       throw DataError(where_, "ends " + std::to_string(size - bytes_.size()) + " bytes too early");
@@ -45,13 +46,14 @@ class ByteReader {
     return taken;
   }
 
-  /// A 32-bit count of things of at least `bytes_each` bytes, so that it can be allocated.
-  /// @throws DataError when the bytes left cannot hold so many.
+  /// Reads a 32-bit count of items of at least `bytes_each` bytes.
+  /// @throws DataError if the remaining bytes cannot hold as many, so that the count is safe to
+  /// allocate.
   std::uint32_t take_count(std::size_t bytes_each) {
     const auto count = take<std::uint32_t>();
     const std::size_t most = bytes_.size() / bytes_each;
     if (count <= most) return count;
-    throw DataError(where_, "promises " + std::to_string(count) + " entries, but has room for " +
+    throw DataError(where_, "promises " + std::to_string(count) + " entries, but has space for " +
                                 std::to_string(most));
   }
 

@@ -28,7 +28,7 @@ Transform<World, Sensor> take_pose(ByteReader& bytes) {
 Status take_status(ByteReader& bytes) {
   const auto status = bytes.take<std::uint8_t>();
   if (status < kStatusCount) return static_cast<Status>(status);
-  throw DataError(bytes.where(), "the status is " + std::to_string(status) + ", allowed is 0 to " +
+  throw DataError(bytes.where(), "the status is " + std::to_string(status) + ", allowed: 0 to " +
                                      std::to_string(kStatusCount - 1));
 }
 
@@ -54,16 +54,16 @@ JournalHeader decode_header(std::string_view payload, const std::string& where) 
   const auto version = bytes.take<std::uint32_t>();
   if (version != kVersion) {
     throw DataError(where,
-                    "is of version " + std::to_string(version) + ", known is version " +
+                    "has version " + std::to_string(version) + ", supported: version " +
                         std::to_string(kVersion),
-                    "convert it with the mms that wrote it");
+                    "convert it with the version of mms that wrote it");
   }
   JournalHeader header;
   header.voxel_size = take_voxel_size(bytes);
   header.min_observations = bytes.take<std::int32_t>();
   if (header.min_observations < 1) {
     throw DataError(where, "min_observations is " + std::to_string(header.min_observations) +
-                               ", allowed is 1 and more");
+                               ", allowed: at least 1");
   }
   header.data = bytes.take(bytes.take_count(1));
   expect_end(bytes);

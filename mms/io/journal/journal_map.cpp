@@ -11,8 +11,9 @@ namespace {
 constexpr std::size_t kVoxelBytes = 13;
 constexpr std::size_t kBlockBytes = 18;
 constexpr std::size_t kKeyBytes = 12;
-constexpr int kCells = 512;                      // of a block
-constexpr std::int32_t kMaxKey = (1 << 28) - 1;  // of a block: its voxels' keys have 32 bits
+constexpr int kCells = 512;  // of a block
+constexpr std::int32_t kMaxKey =
+    (1 << 28) - 1;  // of a block, so that the keys of its voxels fit 32 bits
 
 void append_key(std::string& bytes, const VoxelKey& key) {
   append_bytes(bytes, key.x);
@@ -44,9 +45,8 @@ VoxelChange take_voxel(ByteReader& bytes) {
   voxel.normal = bytes.take<std::array<std::int8_t, 3>>();
   voxel.color = bytes.take<Rgb>();
   if (voxel.cell < kCells) return voxel;
-  throw DataError(bytes.where(), "a voxel is at place " + std::to_string(voxel.cell) +
-                                     " of its block, allowed is 0 to " +
-                                     std::to_string(kCells - 1));
+  throw DataError(bytes.where(), "a voxel has the index " + std::to_string(voxel.cell) +
+                                     " in its block, allowed: 0 to " + std::to_string(kCells - 1));
 }
 
 BlockChange take_block(ByteReader& bytes) {
@@ -54,8 +54,8 @@ BlockChange take_block(ByteReader& bytes) {
   block.key = take_key(bytes);
   for (const std::int32_t side : {block.key.x, block.key.y, block.key.z}) {
     if (side >= -kMaxKey && side <= kMaxKey) continue;
-    throw DataError(bytes.where(), "a block is at " + std::to_string(side) + ", allowed is up to " +
-                                       std::to_string(kMaxKey));
+    throw DataError(bytes.where(), "a block is at " + std::to_string(side) +
+                                       ", allowed: within +-" + std::to_string(kMaxKey));
   }
   block.views = bytes.take<std::uint16_t>();
   block.voxels.resize(bytes.take_count(kVoxelBytes));
@@ -93,11 +93,12 @@ MapChanges take_map(ByteReader& bytes) {
 }
 
 double take_voxel_size(ByteReader& bytes) {
-  constexpr double kLargest = 1e6;
+  constexpr double kMaxVoxelSize = 1e6;
   const auto size = bytes.take<double>();
-  if (size > 0.0 && size <= kLargest) return size;
+  if (size > 0.0 && size <= kMaxVoxelSize) return size;
   throw DataError(bytes.where(), "the voxel size is " + format_number(size) +
-                                     " m, allowed is above 0 up to " + format_number(kLargest));
+                                     " m, allowed: above 0, at most " +
+                                     format_number(kMaxVoxelSize));
 }
 
 }  // namespace mms

@@ -7,13 +7,15 @@
 
 namespace mms {
 
-/// Appends a map's changes as a journal keeps them: 13 bytes a voxel, 18 a block.
+/// Appends the changes of a map: 13 bytes per voxel, 18 per block.
 void append_map(std::string& bytes, const MapChanges& changes);
 
-/// Takes them off again. @throws DataError when bytes are missing or a value is out of range.
+/// Inverse of `append_map`.
+/// @throws DataError if bytes are missing or a value is out of range.
 MapChanges take_map(ByteReader& bytes);
 
-/// Side of a voxel [m]. @throws DataError when it is none.
+/// Side of a voxel [m].
+/// @throws DataError if it is out of range.
 double take_voxel_size(ByteReader& bytes);
 
 }  // namespace mms

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 JournalReader::JournalReader(const fs::path& path) : path_(path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw FileError(path.string(), "there is no such file");
+  if (!fs::exists(status)) throw FileError(path.string(), "no such file");
   if (!fs::is_regular_file(status)) throw FileError(path.string(), "is not a regular file");
   errno = 0;
   stream_.open(path, std::ios::binary);
@@ -22,10 +22,10 @@ JournalReader::JournalReader(const fs::path& path) : path_(path) {
     throw FileError(path.string(), std::string("cannot be read: ") + std::strerror(errno));
   }
   if (left_ == 0) {
-    throw DataError(path.string(), "is empty", "the run was ended before it began its journal");
+    throw DataError(path.string(), "is empty", "the run ended before the header was written");
   }
   if (left_ < kJournalMagic.size() || take_bytes(kJournalMagic.size()) != kJournalMagic) {
-    throw DataError(path.string(), "is no journal of mms run: it does not begin with 'mmsjrnl'");
+    throw DataError(path.string(), "is not a journal of mms run: does not begin with 'mmsjrnl'");
   }
   header_ = decode_header(take_record(RecordType::kHeader), path.string() + ": its header");
 }
@@ -44,7 +44,7 @@ std::optional<JournalFrame> JournalReader::next() {
 std::string JournalReader::take_record(RecordType expected) {
   at_ = size_ - left_;
   const std::string where = path_.string() + ": the record at byte " + std::to_string(at_);
-  const std::string torn = "is cut off, as of a run that was killed";
+  const std::string torn = "is truncated, probably by a killed run";
   if (left_ < kRecordStart + kRecordEnd) throw DataError(where, torn);
   std::string record = take_bytes(kRecordStart);
   ByteReader start(record, where);
@@ -54,11 +54,11 @@ std::string JournalReader::take_record(RecordType expected) {
   record += take_bytes(length);
   const std::string sum = take_bytes(kRecordEnd);
   if (ByteReader(sum, where).take<std::uint32_t>() != crc32(record)) {
-    throw DataError(where, "is damaged: its checksum is wrong");
+    throw DataError(where, "has a wrong checksum");
   }
   if (type != expected) {
-    throw DataError(where, "is of type " + std::to_string(static_cast<int>(type)) +
-                               ", expected is " + std::to_string(static_cast<int>(expected)));
+    throw DataError(where, "has type " + std::to_string(static_cast<int>(type)) + ", expected " +
+                               std::to_string(static_cast<int>(expected)));
   }
   return record.substr(kRecordStart);
 }
@@ -66,7 +66,7 @@ std::string JournalReader::take_record(RecordType expected) {
 std::string JournalReader::take_bytes(std::size_t size) {
   std::string bytes(size, '\0');
   stream_.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!stream_) throw DataError(path_.string(), "ends while it is read");
+  if (!stream_) throw DataError(path_.string(), "was shortened during reading");
   left_ -= size;
   return bytes;
 }

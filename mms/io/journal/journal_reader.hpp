@@ -12,22 +12,20 @@
 
 namespace mms {
 
-/// Reads a journal record by record, up to the first that is not whole: the end of one whose writer
-/// was killed.
+/// Reads a journal record by record, up to the first incomplete one, which a killed run may leave.
 class JournalReader {
  public:
-  /// @throws FileError when the file cannot be opened; DataError when it is not a journal, of
-  /// another
-  ///         version, or ends before its header does.
+  /// @throws FileError if the file cannot be opened; DataError if it is not a journal, has another
+  /// version, or ends before its header.
   explicit JournalReader(const std::filesystem::path& path);
 
   /// What the journal begins with.
   const JournalHeader& header() const { return header_; }
 
-  /// The next frame; nothing at the end or at the first damaged record.
+  /// The next frame; nullopt at the end or at the first damaged record.
   std::optional<JournalFrame> next();
 
-  /// What is wrong with the record at which `next` stopped; empty when the journal ends whole.
+  /// Fault of the record at which `next` stopped; empty if the journal is complete.
   const std::string& damage() const { return damage_; }
 
  private:
@@ -37,8 +35,8 @@ class JournalReader {
   std::filesystem::path path_;
   std::ifstream stream_;
   std::uint64_t size_ = 0;  // of the file when it was opened
-  std::uint64_t left_ = 0;  // bytes not yet read
-  std::uint64_t at_ = 0;    // where the record begins
+  std::uint64_t left_ = 0;  // unread bytes
+  std::uint64_t at_ = 0;    // offset of the record
   JournalHeader header_;
   std::string damage_;
 };

@@ -8,8 +8,8 @@ namespace mms {
 
 std::string make_record(RecordType type, std::string_view payload) {
   if (payload.size() > kMaxPayload) {
-    throw DataError("journal", "a record of " + std::to_string(payload.size()) +
-                                   " bytes, allowed is up to " + std::to_string(kMaxPayload));
+    throw DataError("journal", "a record has " + std::to_string(payload.size()) +
+                                   " bytes, allowed: up to " + std::to_string(kMaxPayload));
   }
   std::string record;
   record.reserve(kRecordStart + payload.size() + kRecordEnd);

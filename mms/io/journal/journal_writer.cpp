@@ -12,14 +12,14 @@ namespace mms {
 
 JournalWriter::JournalWriter(const std::filesystem::path& path, const JournalHeader& header)
     : path_(path) {
-  constexpr mode_t kMode = 0666;  // less the umask, as of any other output
+  constexpr mode_t kMode = 0666;  // minus the umask
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, kMode);
   if (descriptor_ < 0) fail(errno);
   try {
     write(encode_header(header));
   } catch (...) {
     ::close(descriptor_);
-    ::unlink(path.c_str());  // with no header it is of no use
+    ::unlink(path.c_str());  // useless without a header
     throw;
   }
 }

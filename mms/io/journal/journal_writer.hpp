@@ -7,19 +7,19 @@
 
 namespace mms {
 
-/// Writes a journal, which only ever grows. Every record is with the kernel when a call returns:
-/// the end of the process, however it comes, loses none; the end of the machine may.
+/// Appends to a journal. Every record is passed to the kernel before `append` returns: a crash of
+/// the process loses none, a crash of the machine may.
 class JournalWriter {
  public:
-  /// Begins a journal; an older one of that name is gone.
-  /// @throws FileError when the file cannot be written.
+  /// Creates a journal; replaces an existing file.
+  /// @throws FileError if the file cannot be written.
   JournalWriter(const std::filesystem::path& path, const JournalHeader& header);
   ~JournalWriter();
   JournalWriter(const JournalWriter&) = delete;
   JournalWriter& operator=(const JournalWriter&) = delete;
 
-  /// @throws FileError when the record could not be written whole. It is then torn, and the next
-  ///         ones would never be read.
+  /// @throws FileError if the record could not be written completely; the journal cannot be used
+  /// further.
   void append(const JournalFrame& frame);
 
  private:

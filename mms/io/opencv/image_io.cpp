@@ -15,11 +15,11 @@ namespace mms {
 namespace fs = std::filesystem;
 namespace {
 
-static_assert(sizeof(Rgb) == 3, "pixels are handed to OpenCV as they are");
+static_assert(sizeof(Rgb) == 3, "pixels are passed to OpenCV bytewise");
 
 constexpr const char* kDepthWanted = "a 16-bit depth PNG of 1 channel";
 
-/// What OpenCV has to say is said by our own errors.
+/// Faults are reported by our own errors instead.
 void silence_opencv() {
   static const auto previous =
       cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
@@ -30,7 +30,7 @@ cv::Mat decode(std::string_view bytes, int flags, const std::string& where) {
   silence_opencv();
   check_whole_image(bytes, where);
   cv::Mat decoded;
-  try {  // the matrix only views the bytes, and the decoder only reads them
+  try {  // the matrix refers to the bytes, which the decoder only reads
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
                           const_cast<char*>(bytes.data()));
     decoded = cv::imdecode(encoded, flags);
@@ -49,21 +49,21 @@ Image<Rgb> decode_rgb(std::string_view bytes, const std::string& where) {
   return image;
 }
 
-/// View of an image's own pixels; OpenCV has no const matrix, so callers only read through it.
+/// Matrix on an image's own pixels; OpenCV has no const matrix, so callers must only read.
 template <class T>
 cv::Mat view(const Image<T>& image, int type) {
   return {image.height(), image.width(), type, const_cast<T*>(image.pixels().data())};
 }
 
-/// Decodes an image that must be of one channel and `type`.
+/// Decodes an image with one channel of `type`.
 template <class T>
-Image<T> decode_plain(std::string_view bytes, int type, const std::string& wanted,
+Image<T> decode_plain(std::string_view bytes, int type, const std::string& expected,
                       const std::string& where) {
   const cv::Mat decoded = decode(bytes, cv::IMREAD_UNCHANGED, where);
   if (decoded.type() != type) {
     throw DataError(where, "has pixels of " + std::to_string(8 * decoded.elemSize1()) +
                                " bits and " + std::to_string(decoded.channels()) +
-                               " channel(s), expected " + wanted);
+                               " channel(s), expected " + expected);
   }
   Image<T> image(decoded.cols, decoded.rows);
   for (int y = 0; y < decoded.rows; ++y) {
@@ -79,7 +79,7 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
 std::vector<std::uint8_t> encode(const char* extension, const cv::Mat& pixels,
                                  const std::vector<int>& options = {}) {
   silence_opencv();
-  if (pixels.empty()) throw DataError("image", "is empty, so there is nothing to encode");
+  if (pixels.empty()) throw DataError("image", "is empty and cannot be encoded");
   std::vector<std::uint8_t> bytes;
   cv::imencode(extension, pixels, bytes, options);
   return bytes;

@@ -32,7 +32,7 @@ Json json_of(Timestamp stamp, const ObjectBox& object) {
 template <std::size_t n>
 std::array<double, n> read_numbers(const JsonEntry& list, Range range = {}) {
   const std::vector<JsonEntry> elements = list.elements();
-  if (elements.size() != n) list.fail("is no list of " + std::to_string(n) + " numbers");
+  if (elements.size() != n) list.fail("is not a list of " + std::to_string(n) + " numbers");
   std::array<double, n> values{};
   for (std::size_t i = 0; i < n; ++i) values[i] = elements[i].number(range);
   return values;
@@ -45,7 +45,7 @@ Eigen::Vector3d read_vector(const JsonEntry& list, Range range = {}) {
 
 Timestamp read_stamp(const JsonEntry& entry) {
   const auto stamp = Timestamp::parse(entry.text());
-  if (!stamp) entry.fail("is '" + entry.text() + "', expected seconds, as in \"12.500000000\"");
+  if (!stamp) entry.fail("is '" + entry.text() + "', expected seconds as in \"12.500000000\"");
   return *stamp;
 }
 
@@ -54,14 +54,14 @@ ObjectClass read_class(const JsonEntry& entry) {
   for (int i = 0; i < kTrackedClassCount; ++i) {
     if (name == to_string(static_cast<ObjectClass>(i))) return static_cast<ObjectClass>(i);
   }
-  entry.fail("is '" + name + "', allowed are person, agv and unknown");
+  entry.fail("is '" + name + "', allowed: person, agv, unknown");
 }
 
-/// What the two files have in common.
+/// Reads the keys that both files share.
 ObjectBox read_box(const JsonEntry& entry) {
   const auto [x, y, z, w] = read_numbers<4>(entry.at("quaternion"), kUnit);
   const Eigen::Quaterniond rotation(w, x, y, z);
-  if (rotation.norm() < 0.5) entry.at("quaternion").fail("is no rotation: its length is below 0.5");
+  if (rotation.norm() < 0.5) entry.at("quaternion").fail("is not a rotation: norm below 0.5");
   ObjectBox object;
   object.T_world_box = Eigen::Translation3d(read_vector(entry.at("position"))) *
                        rotation.normalized() * Eigen::Isometry3d::Identity();

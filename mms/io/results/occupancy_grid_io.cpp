@@ -32,8 +32,8 @@ std::string list_of(const Vector& values) {
   return text + "]";
 }
 
-/// 205 is 0.19608 occupied: above this free_thresh, so unknown to ROS 1 and nav2 alike. With
-/// nav2's own 0.25 it would be free.
+/// Gray 205 is occupancy 0.19608: above this free_thresh and therefore unknown in ROS 1 and nav2.
+/// With nav2's default of 0.25 it would be free.
 constexpr const char* kThresholds = "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
 std::string yaml_of(const std::string& picture, const OccupancyGrid& grid) {

@@ -6,13 +6,13 @@
 
 namespace mms {
 
-/// Writes a grid as ROS map servers read it (map_server, nav2): the picture NAME.pgm beside
-/// `yaml`, an 8-bit PGM with the largest y on top, 254 for free, 0 for occupied, 205 for unknown;
-/// and NAME.yaml with its resolution and origin, in mode trinary. The key `T_world_map` in it,
-/// which map servers ignore, takes the map frame to the frame of the trajectory. An empty grid is
-/// one unknown cell, because map servers refuse empty pictures.
+/// Writes a grid for ROS map servers (map_server, nav2): the image NAME.pgm next to `yaml`, an
+/// 8-bit PGM with the largest y on top, 254 for free, 0 for occupied, 205 for unknown; and
+/// NAME.yaml with resolution and origin, in mode trinary. Its key `T_world_map`, which map servers
+/// ignore, is the transform from the map frame to the frame of the trajectory. An empty grid
+/// becomes one unknown cell, because map servers reject empty images.
 /// @param yaml  path of the YAML file
-/// @throws FileError when a file cannot be written.
+/// @throws FileError if a file cannot be written.
 void write_occupancy_grid(const std::filesystem::path& yaml, const OccupancyGrid& grid);
 
 }  // namespace mms

@@ -21,19 +21,19 @@ std::optional<octomap::OcTreeKey> octomap_key(const VoxelKey& key) {
   return octomap::OcTreeKey(part(key.x), part(key.y), part(key.z));
 }
 
-/// Ours, because the library's own writer also prints to the terminal.
+/// Replaces the library's writer, which also prints to the terminal.
 void write_header(const octomap::OcTree& tree, std::ostream& stream) {
   stream << "# Octomap OcTree binary file\n# free and occupied space, z up\nid "
          << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
          << format_number(tree.getResolution()) << "\ndata\n";
 }
 
-/// Gives the voxels that value; returns the number of those that have no place.
+/// Sets the voxels to `log_odds`; returns the number of voxels outside the tree.
 std::size_t set_all(const std::vector<VoxelKey>& keys, float log_odds, octomap::OcTree& tree) {
   std::size_t left_out = 0;
   for (const VoxelKey& key : keys) {
     const std::optional<octomap::OcTreeKey> place = octomap_key(key);
-    // Lazily: the inner nodes are computed once, when all leaves are there.
+    // Lazy: the inner nodes are computed once, after all leaves.
     if (place) tree.setNodeValue(*place, log_odds, true);
     left_out += !place;
   }

@@ -20,14 +20,14 @@ void expect_columns(const TextTable& table, const TextLine& line, std::size_t co
 }
 
 void expect_poses(const std::filesystem::path& path, const Trajectory& trajectory) {
-  if (trajectory.empty()) throw DataError(path.string(), "holds no poses");
+  if (trajectory.empty()) throw DataError(path.string(), "has no poses");
 }
 
 Timestamp stamp_of(const TextTable& table, const TextLine& line) {
   const auto stamp = parse_stamp(line.fields[0]);
   if (stamp) return *stamp;
   throw DataError(table.where(line), "'" + std::string(line.fields[0]) + "' is not a stamp",
-                  "stamps are seconds, below 9.2e9");
+                  "stamps are seconds below 9.2e9");
 }
 
 StampedPose tum_pose(const TextTable& table, const TextLine& line) {
@@ -53,7 +53,7 @@ Trajectory tum_trajectory(const TextTable& table) {
 Trajectory kitti_trajectory(const TextTable& table) {
   Trajectory trajectory;
   for (const TextLine& line : table.lines()) {
-    expect_columns(table, line, kKittiColumns, "a 3x4 matrix row by row");
+    expect_columns(table, line, kKittiColumns, "a 3x4 matrix, row-major");
     const std::string where = table.where(line);
     const Timestamp stamp = Timestamp() + kKittiPeriod * trajectory.size();
     trajectory.push_back({stamp, Transform<World, Sensor>(
@@ -77,7 +77,7 @@ void append_row(std::string& text, std::span<const double> numbers) {
 }  // namespace
 
 Trajectory read_trajectory_tum(const std::filesystem::path& path) {
-  const Trajectory trajectory = tum_trajectory(TextTable(path));
+  Trajectory trajectory = tum_trajectory(TextTable(path));
   expect_poses(path, trajectory);
   return trajectory;
 }
@@ -88,7 +88,7 @@ Trajectory read_trajectory_kitti(const std::filesystem::path& path,
   expect_poses(path, trajectory);
   if (stamps.empty()) return trajectory;
   if (stamps.size() != trajectory.size()) {
-    throw DataError(path.string(), std::to_string(trajectory.size()) + " poses, but " +
+    throw DataError(path.string(), std::to_string(trajectory.size()) + " poses and " +
                                        std::to_string(stamps.size()) + " stamps");
   }
   for (std::size_t i = 0; i < stamps.size(); ++i) trajectory[i].stamp = stamps[i];
@@ -101,7 +101,7 @@ bool is_kitti_trajectory(const std::filesystem::path& path) {
 
 Trajectory read_trajectory(const std::filesystem::path& path) {
   const TextTable table(path);
-  const Trajectory trajectory = is_kitti(table) ? kitti_trajectory(table) : tum_trajectory(table);
+  Trajectory trajectory = is_kitti(table) ? kitti_trajectory(table) : tum_trajectory(table);
   expect_poses(path, trajectory);
   return trajectory;
 }

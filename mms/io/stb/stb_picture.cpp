@@ -24,7 +24,7 @@ Image<Rgb> decode_with_stb(std::string_view bytes, const std::string& where) {
       &stbi_image_free);
   if (!pixels) throw DataError(where, "is a damaged image that cannot be decoded");
   Image<Rgb> image(width, height);
-  static_assert(sizeof(Rgb) == 3, "pixels are copied as they are");
+  static_assert(sizeof(Rgb) == 3, "pixels are copied bytewise");
   std::memcpy(image.pixels().data(), pixels.get(), sizeof(Rgb) * image.size());
   return image;
 }

@@ -7,8 +7,8 @@
 
 namespace mms {
 
-/// The picture in the bytes of a PNG or JPEG file, by stb_image: for machines without OpenCV.
-/// @throws DataError at `where` when they are truncated or no image.
+/// Decodes a PNG or JPEG file with stb_image, for builds without OpenCV.
+/// @throws DataError at `where` if it is truncated or not an image.
 Image<Rgb> decode_with_stb(std::string_view bytes, const std::string& where);
 
 }  // namespace mms

@@ -12,7 +12,7 @@ namespace mms {
 namespace fs = std::filesystem;
 namespace {
 
-/// Where the bytes are to land: a link's target, so that the link survives.
+/// Resolves links, so that writing keeps them.
 fs::path destination(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);

@@ -8,11 +8,12 @@
 
 namespace mms {
 
-/// A file that appears whole or not at all: bytes go to a neighbour that `commit` renames. Without
-/// `commit` (an exception on the way) the neighbour is removed and an older file stays as it was.
+/// A file that is written completely or not at all: the bytes go to a temporary file next to it,
+/// which `commit` renames. Without `commit` (after an exception) the temporary file is removed and
+/// an existing file is unchanged.
 class AtomicFile {
  public:
-  /// @throws FileError when the folder is missing or not writable, or `path` is no regular file.
+  /// @throws FileError if the folder is missing or not writable, or `path` is not a regular file.
   explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -21,7 +22,7 @@ class AtomicFile {
   /// Where the bytes go, before `commit`.
   std::ostream& stream() { return stream_; }
 
-  /// @throws FileError when any byte could not be written.
+  /// @throws FileError if a write failed.
   void commit();
 
  private:
@@ -32,7 +33,8 @@ class AtomicFile {
   std::ofstream stream_;
 };
 
-/// Writes a whole file through an AtomicFile. @throws FileError as AtomicFile does.
+/// Writes a whole file through an AtomicFile.
+/// @throws FileError as AtomicFile.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 std::string read_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw FileError(path.string(), "there is no such file");
+  if (!fs::exists(status)) throw FileError(path.string(), "no such file");
   if (!fs::is_regular_file(status)) throw FileError(path.string(), "is not a regular file");
 
   errno = 0;
@@ -33,7 +33,7 @@ std::vector<std::string> list_folder(const fs::path& folder) {
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     names.push_back(entry->path().filename().string());
   }
-  if (error) throw FileError(folder.string(), "cannot be listed: " + error.message());
+  if (error) throw FileError(folder.string(), "cannot list the folder: " + error.message());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -43,8 +43,8 @@ bool make_folder(const fs::path& folder) {
   const bool made = fs::create_directories(folder, error);
   if (!error && fs::is_directory(folder)) return made;
   throw FileError(folder.string(),
-                  "cannot be made a folder: " + (error ? error.message() : "it is a file"),
-                  "choose another with -o");
+                  "cannot create the folder: " + (error ? error.message() : "is a file"),
+                  "choose another folder with -o");
 }
 
 }  // namespace mms

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: the text headers that PLY and PCD files begin with.
+// Internal to io: the text headers of PLY and PCD files.
 
 #include <cstdint>
 #include <string>
@@ -9,27 +9,28 @@
 
 namespace mms {
 
-/// Reads a header line by line off the front of a file's bytes.
+/// Reads header lines from the front of a file's bytes.
 class HeaderText {
  public:
   /// @param bytes  of the file, from its start; have to outlive the reader
   /// @param file   for messages
   HeaderText(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {}
 
-  /// Words of the next line that is no comment. @throws DataError when there is no further line,
-  /// or when what should be a line is longer than any header's.
+  /// Words of the next line that is not a comment.
+  /// @throws DataError if there is no further line or the line is too long.
   std::vector<std::string> next_line();
 
-  /// Bytes after the lines taken so far.
+  /// Bytes after the lines read so far.
   std::string_view rest() const { return rest_; }
 
-  /// "file:12" of the line taken last, for messages.
+  /// "file:12" of the last line, for messages.
   std::string where() const { return file_ + ":" + std::to_string(line_); }
 
-  /// @throws DataError at the current line, with that text.
+  /// @throws DataError at the current line.
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const;
 
-  /// The count that `word` spells. @throws DataError when it is none.
+  /// Parses a count.
+  /// @throws DataError if it is none.
   std::uint64_t count(const std::string& word) const;
 
  private:

@@ -39,7 +39,7 @@ std::string suggestion(std::string_view word, std::span<const std::string> known
   const std::size_t allowed = std::max<std::size_t>(2, nearest->size() / 3);
   const std::size_t distance = edit_distance(word, *nearest);
   if (distance <= allowed && distance < nearest->size()) return "did you mean '" + *nearest + "'?";
-  return "known are " + joined(known);
+  return "known: " + joined(known);
 }
 
 }  // namespace mms

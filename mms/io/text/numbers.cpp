@@ -8,7 +8,7 @@ namespace {
 
 template <class Number>
 std::optional<Number> parse_whole(std::string_view text) {
-  // std::from_chars knows no plus sign.
+  // std::from_chars rejects a plus sign.
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   Number value{};
   const char* end = text.data() + text.size();
@@ -36,7 +36,7 @@ std::optional<Timestamp> parse_stamp(std::string_view text) {
 }
 
 std::string format_number(double value) {
-  // Left alone, std::to_chars takes 1e+05 for shorter than 100000.
+  // By default std::to_chars prefers 1e+05 to 100000.
   const double size = std::abs(value);
   const bool plain = value == 0.0 || (size >= 1e-4 && size < 1e7);
   char text[32];

@@ -9,14 +9,14 @@
 
 namespace mms {
 
-/// The number that the whole of `text` spells, "nan" and "inf" included; nothing otherwise.
+/// Parses the whole of `text` as a number, including "nan" and "inf"; nullopt if it is none.
 std::optional<double> parse_double(std::string_view text);
 
-/// The whole number that the whole of `text` spells in decimal; nothing otherwise.
+/// Parses the whole of `text` as a decimal integer; nullopt if it is none.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
-/// A stamp in seconds: exact for plain decimals, to a double's precision for "1.3e+09" and
-/// negative ones; nothing for anything that fits no int64 of nanoseconds.
+/// Parses a stamp in seconds: exact for plain decimals, with the precision of a double for
+/// "1.3e+09" and negative ones; nullopt if it does not fit int64 nanoseconds.
 std::optional<Timestamp> parse_stamp(std::string_view text);
 
 /// The shortest decimal text that `parse_double` reads back as the same value.

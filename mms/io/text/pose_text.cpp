@@ -24,8 +24,8 @@ std::vector<double> parse_finite(std::span<const std::string_view> fields,
 
 Eigen::Isometry3d isometry_from_rows(std::span<const double> numbers, const std::string& where) {
   if (numbers.size() != 12 && numbers.size() != 16) {
-    throw DataError(where, std::to_string(numbers.size()) + " numbers make no pose",
-                    "a 3x4 or 4x4 matrix row by row has 12 or 16");
+    throw DataError(where, std::to_string(numbers.size()) + " numbers are not a pose",
+                    "expected 12 or 16, a 3x4 or 4x4 matrix, row-major");
   }
   using Rows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
   const Rows rows = Eigen::Map<const Rows>(numbers.data());

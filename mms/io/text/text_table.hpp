@@ -9,14 +9,14 @@ namespace mms {
 
 /// One line of a text table, split at blanks, tabs and commas.
 struct TextLine {
-  int number = 0;                        ///< in the file, from 1
+  int number = 0;                        ///< line number in the file, from 1
   std::vector<std::string_view> fields;  ///< views into the table
 };
 
-/// The lines of a text file that are neither empty nor '#' comments. Owns what the fields view.
+/// The lines of a text file that are neither empty nor '#' comments. Owns the text of the fields.
 class TextTable {
  public:
-  /// @throws FileError when the file cannot be read.
+  /// @throws FileError if the file cannot be read.
   explicit TextTable(const std::filesystem::path& path);
   TextTable(const TextTable&) = delete;
   TextTable& operator=(const TextTable&) = delete;

@@ -8,13 +8,13 @@ namespace {
 constexpr std::uint32_t kSign = 0x8000;
 constexpr std::uint32_t kFraction = 0x03FF;
 constexpr std::uint32_t kExponent = 0x7C00;
-constexpr std::uint32_t kDropped = 13;               // bits of a float's fraction
-constexpr std::uint32_t kBias = (127U - 15U) << 23;  // between the two exponents
-constexpr float kTooLarge = 65520.0F;                // halfway from 65504 to the next: rounds up
-constexpr float kSmallestNormal = 0x1p-14F;
-constexpr float kSmallestStep = 0x1p-24F;
+constexpr std::uint32_t kDropped = 13;               // bits of a float's fraction that are dropped
+constexpr std::uint32_t kBias = (127U - 15U) << 23;  // difference of the exponent biases
+constexpr float kTooLarge = 65520.0F;  // half way from 65504 to the next value: rounds up
+constexpr float kMinNormal = 0x1p-14F;
+constexpr float kMinStep = 0x1p-24F;
 
-/// Below the normal numbers the steps are all alike: those of a float between 0.5 and 1.
+/// Subnormal numbers are spaced as floats between 0.5 and 1.
 std::uint32_t subnormal_bits(float magnitude) {
   return std::bit_cast<std::uint32_t>(magnitude + 0.5F) - std::bit_cast<std::uint32_t>(0.5F);
 }
@@ -32,7 +32,7 @@ std::optional<std::uint16_t> half_from_float(float value) {
   const float magnitude = sign == 0 ? value : -value;
   if (!(magnitude < kTooLarge)) return std::nullopt;
   const std::uint32_t bits =
-      magnitude < kSmallestNormal ? subnormal_bits(magnitude) : normal_bits(magnitude);
+      magnitude < kMinNormal ? subnormal_bits(magnitude) : normal_bits(magnitude);
   return static_cast<std::uint16_t>(sign | bits);
 }
 
@@ -42,7 +42,7 @@ float float_from_half(std::uint16_t bits) {
   const std::uint32_t fraction = bits & kFraction;
   std::uint32_t magnitude = (exponent | fraction) << kDropped;
   if (exponent == 0) {
-    magnitude = std::bit_cast<std::uint32_t>(static_cast<float>(fraction) * kSmallestStep);
+    magnitude = std::bit_cast<std::uint32_t>(static_cast<float>(fraction) * kMinStep);
   } else if (exponent == kExponent) {
     magnitude |= 0x7F800000U;
   } else {

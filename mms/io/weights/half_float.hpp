@@ -5,14 +5,14 @@
 
 namespace mms {
 
-/// Bits of the IEEE 754 binary16 number nearest to `value`, ties to even, subnormal where it has to
-/// be. Nothing for what rounds beyond 65504, the largest one, and for infinity and NaN.
+/// Bits of the IEEE 754 binary16 number nearest to `value`, ties to even, possibly subnormal.
+/// nullopt for values that round beyond 65504, the largest one, and for infinity and NaN.
 std::optional<std::uint16_t> half_from_float(float value);
 
-/// The number that binary16 bits stand for; every one fits a float exactly.
+/// The value of binary16 bits, exact.
 float float_from_half(std::uint16_t bits);
 
-/// The number that bfloat16 bits stand for: the upper half of a float.
+/// The value of bfloat16 bits, the upper half of a float.
 float float_from_bfloat(std::uint16_t bits);
 
 }  // namespace mms

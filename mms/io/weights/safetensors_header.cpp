@@ -26,8 +26,7 @@ const ElementFormat& format_of(ElementType type) {
   return kFormats[static_cast<std::size_t>(type)];
 }
 
-/// Stops the parser at what it would take in silence: keys that are there twice, numbers with a
-/// fraction, and lists in lists in lists.
+/// Rejects what the parser would accept: duplicate keys, floating-point numbers, and deep nesting.
 class StrictEvents {
  public:
   explicit StrictEvents(const std::string& where) : where_(where) {}
@@ -40,20 +39,20 @@ class StrictEvents {
     } else if (event == Json::parse_event_t::value && parsed.is_number_float()) {
       throw DataError(where_, "its header has the floating-point number " +
                                   format_number(parsed.get<double>()) +
-                                  ", allowed are whole numbers below 2^63");
+                                  ", allowed: integers below 2^63");
     }
     return true;
   }
 
  private:
-  /// Header, tensor and list are as deep as it gets.
+  /// Depth of header, tensor and list.
   static constexpr std::size_t kDepth = 3;
 
   void enter(int depth) {
     const auto level = static_cast<std::size_t>(depth);
     if (level >= kDepth) {
-      throw DataError(where_, "its header is nested more than " + std::to_string(kDepth) +
-                                  " deep, a header of tensors never is");
+      throw DataError(where_,
+                      "its header is nested more than " + std::to_string(kDepth) + " levels deep");
     }
     keys_[level].clear();
   }
@@ -79,7 +78,7 @@ Json parse_strictly(std::string_view text, const std::string& where) {
   } catch (const Json::exception& error) {
     const std::string what = error.what();  // "[json.exception...] parse error at line 1, ..."
     const std::size_t end = what.find("] ");
-    throw DataError(where, "its header is no JSON: " +
+    throw DataError(where, "its header is not JSON: " +
                                (end == std::string::npos ? what : what.substr(end + 2)));
   }
 }
@@ -91,14 +90,14 @@ ElementType type_of(const JsonEntry& entry) {
     if (kFormats[i].name == name) return static_cast<ElementType>(i);
     allowed += (i == 0 ? "" : ", ") + std::string(kFormats[i].name);
   }
-  entry.fail("is '" + name + "', allowed are " + allowed);
+  entry.fail("is '" + name + "', allowed: " + allowed);
 }
 
 std::uint64_t size_of(const StoredTensor& tensor, const JsonEntry& shape) {
   std::uint64_t size = bytes_of(tensor.type);
   for (const std::int64_t side : tensor.shape) {
     if (__builtin_mul_overflow(size, static_cast<std::uint64_t>(side), &size)) {
-      shape.fail("is of more bytes than 64 bits count");
+      shape.fail("exceeds 64 bits");
     }
   }
   return size;
@@ -107,17 +106,18 @@ std::uint64_t size_of(const StoredTensor& tensor, const JsonEntry& shape) {
 void read_place(const JsonEntry& offsets, std::uint64_t size, StoredTensor& tensor) {
   const std::vector<JsonEntry> pair = offsets.elements();
   if (pair.size() != 2) {
-    offsets.fail("has " + std::to_string(pair.size()) + " numbers, expected first and last byte");
+    offsets.fail("has " + std::to_string(pair.size()) +
+                 " numbers, expected the first and last byte");
   }
   tensor.begin = static_cast<std::uint64_t>(pair[0].integer({0}));
   tensor.end = static_cast<std::uint64_t>(pair[1].integer({0}));
   if (tensor.end < tensor.begin) {
-    offsets.fail("end at byte " + std::to_string(tensor.end) + ", before they begin at byte " +
+    offsets.fail("end at byte " + std::to_string(tensor.end) + ", before its begin at byte " +
                  std::to_string(tensor.begin));
   }
   if (tensor.end - tensor.begin != size) {
-    offsets.fail("hold " + std::to_string(tensor.end - tensor.begin) +
-                 " bytes, shape and dtype make " + std::to_string(size));
+    offsets.fail("have " + std::to_string(tensor.end - tensor.begin) +
+                 " bytes, expected from shape and dtype: " + std::to_string(size));
   }
 }
 
@@ -131,14 +131,14 @@ StoredTensor read_tensor(const std::string& name, const Json& json, const std::s
   read_place(entry.at("data_offsets"), size_of(tensor, shape), tensor);
   for (const auto& [key, value] : json.items()) {
     if (key == "dtype" || key == "shape" || key == "data_offsets") continue;
-    entry.fail("has the unknown key '" + key + "', allowed are dtype, shape, data_offsets");
+    entry.fail("has the unknown key '" + key + "', allowed: dtype, shape, data_offsets");
   }
   return tensor;
 }
 
 std::map<std::string, std::string> read_metadata(const Json& json, const std::string& where) {
   const std::string key(kSafetensorsMetadata);
-  if (!json.is_object()) JsonEntry(json, where, key).fail("is no object of texts");
+  if (!json.is_object()) JsonEntry(json, where, key).fail("is not an object of strings");
   std::map<std::string, std::string> metadata;
   for (const auto& [name, text] : json.items()) {
     metadata[name] = JsonEntry(text, where, key + "." + name).text();
@@ -152,13 +152,13 @@ void check_no_gaps(const std::vector<StoredTensor>& tensors, const std::string& 
     if (tensor.begin < end) {
       throw DataError(where,
                       "tensor '" + tensor.name + "' begins at byte " +
-                          std::to_string(tensor.begin) + " of the data, where byte " +
-                          std::to_string(end) + " is the first that is free",
-                      "no two tensors may share data");
+                          std::to_string(tensor.begin) + " of the data, but byte " +
+                          std::to_string(end) + " is the first free one",
+                      "tensors must not overlap");
     }
     if (tensor.begin > end) {
-      throw DataError(where, "no tensor has the " + std::to_string(tensor.begin - end) +
-                                 " bytes of data before '" + tensor.name + "'");
+      throw DataError(where, std::to_string(tensor.begin - end) + " unused bytes of data before '" +
+                                 tensor.name + "'");
     }
     end = tensor.end;
   }
@@ -173,7 +173,7 @@ std::uint64_t bytes_of(ElementType type) {
 void fail_value(const std::string& where, const std::string& tensor, std::size_t index,
                 double value, double largest) {
   throw DataError(where, "tensor '" + tensor + "': value " + std::to_string(index) + " is " +
-                             format_number(value) + ", allowed is " + format_number(-largest) +
+                             format_number(value) + ", allowed: " + format_number(-largest) +
                              " to " + format_number(largest));
 }
 

@@ -12,7 +12,7 @@
 namespace mms {
 namespace {
 
-constexpr const char* kFormatHint = "is it a safetensors file? a .pth has to be converted to one";
+constexpr const char* kFormatHint = "is it a safetensors file? convert a .pth file to one";
 constexpr const char* kCopyHint = "copy it again";
 
 template <class Unsigned>
@@ -24,7 +24,7 @@ Unsigned little_endian(const std::uint8_t* bytes) {
   return value;
 }
 
-/// A double holds whatever is stored, whole numbers to 53 bits, until it is known to fit a float.
+/// A double holds every stored number, integers to 53 bits.
 double number_at(const std::uint8_t* bytes, ElementType type) {
   switch (type) {
     case ElementType::kF32:
@@ -47,23 +47,23 @@ double number_at(const std::uint8_t* bytes, ElementType type) {
 
 WeightTensor decode(const StoredTensor& stored, std::span<const std::uint8_t> data,
                     const std::string& where) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
+  constexpr double kMaxFloat = std::numeric_limits<float>::max();
   const std::size_t step = bytes_of(stored.type);
   WeightTensor tensor{stored.shape, std::vector<float>((stored.end - stored.begin) / step)};
   const std::uint8_t* bytes = data.data() + stored.begin;
   for (std::size_t i = 0; i < tensor.values.size(); ++i, bytes += step) {
     const double value = number_at(bytes, stored.type);
-    if (!(std::abs(value) <= kLargest)) fail_value(where, stored.name, i, value, kLargest);
+    if (!(std::abs(value) <= kMaxFloat)) fail_value(where, stored.name, i, value, kMaxFloat);
     tensor.values[i] = static_cast<float>(value);
   }
   return tensor;
 }
 
 [[noreturn]] void fail_truncated(const std::string& where, std::uint64_t size,
-                                 std::uint64_t wanted) {
+                                 std::uint64_t expected) {
   throw DataError(where,
-                  "is truncated: " + std::to_string(wanted - size) + " of its " +
-                      std::to_string(wanted) + " bytes are missing",
+                  "is truncated: " + std::to_string(expected - size) + " of its " +
+                      std::to_string(expected) + " bytes are missing",
                   kCopyHint);
 }
 
@@ -73,8 +73,8 @@ std::string_view header_text(std::span<const std::uint8_t> bytes, const std::str
   const auto length = little_endian<std::uint64_t>(bytes.data());
   if (length > kMaxSafetensorsHeader) {
     throw DataError(where,
-                    "its header would be of " + std::to_string(length) +
-                        " bytes, allowed is up to " + std::to_string(kMaxSafetensorsHeader),
+                    "its header has " + std::to_string(length) + " bytes, allowed: up to " +
+                        std::to_string(kMaxSafetensorsHeader),
                     kFormatHint);
   }
   if (length > bytes.size() - kSafetensorsLength) {
@@ -85,11 +85,11 @@ std::string_view header_text(std::span<const std::uint8_t> bytes, const std::str
 
 void check_data_size(const SafetensorsHeader& header, std::uint64_t before, std::uint64_t size,
                      const std::string& where) {
-  const std::uint64_t wanted = header.tensors.empty() ? 0 : header.tensors.back().end;
-  if (size < wanted) fail_truncated(where, before + size, before + wanted);
-  if (size == wanted) return;
-  throw DataError(where, "has " + std::to_string(size - wanted) +
-                             " bytes after its last tensor, none are allowed");
+  const std::uint64_t expected = header.tensors.empty() ? 0 : header.tensors.back().end;
+  if (size < expected) fail_truncated(where, before + size, before + expected);
+  if (size == expected) return;
+  throw DataError(where, "has " + std::to_string(size - expected) +
+                             " bytes after its last tensor, allowed: none");
 }
 
 }  // namespace

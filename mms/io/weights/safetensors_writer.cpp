@@ -13,10 +13,10 @@
 namespace mms {
 namespace {
 
-/// How a tensor type is written.
+/// Name and size of a number format.
 struct Format {
   const char* name;
-  std::size_t bytes;  ///< of a number
+  std::size_t bytes;  ///< per number
 };
 
 Format format_of(TensorType type) {
@@ -30,10 +30,10 @@ bool holds_bytes(const WeightTensor& tensor) {
   });
 }
 
-/// float32 for a tensor with values that float16 cannot hold.
-TensorType type_of(const WeightTensor& tensor, TensorType wanted) {
-  if (wanted == TensorType::kFloat32) return wanted;
-  if (wanted == TensorType::kInt8 && holds_bytes(tensor)) return wanted;
+/// float32 for a tensor with values beyond float16.
+TensorType type_of(const WeightTensor& tensor, TensorType requested) {
+  if (requested == TensorType::kFloat32) return requested;
+  if (requested == TensorType::kInt8 && holds_bytes(tensor)) return requested;
   const bool fits = std::all_of(tensor.values.begin(), tensor.values.end(), [](float value) {
     return !std::isfinite(value) || half_from_float(value).has_value();
   });
@@ -49,7 +49,7 @@ void append_little_endian(Unsigned value, std::vector<std::uint8_t>& bytes) {
 
 void check_tensor(const std::string& name, const WeightTensor& tensor, const std::string& where) {
   if (name == kSafetensorsMetadata) {
-    throw DataError(where, "a tensor may not be called '" + name + "'");
+    throw DataError(where, "the tensor name '" + name + "'");
   }
   std::int64_t count = 1;
   for (const std::int64_t side : tensor.shape) {
@@ -58,10 +58,10 @@ void check_tensor(const std::string& name, const WeightTensor& tensor, const std
   }
   if (count == static_cast<std::int64_t>(tensor.values.size())) return;
   throw DataError(where, "tensor '" + name + "' has " + std::to_string(tensor.values.size()) +
-                             " values, which is not the product of its shape");
+                             " values, expected the product of its shape");
 }
 
-/// Places the tensors one after another and describes them; padded with spaces to whole words.
+/// The header: tensors with consecutive data, padded with spaces.
 std::string describe(const Weights& weights, TensorType type, const std::string& where) {
   nlohmann::ordered_json header = nlohmann::ordered_json::object();
   if (!weights.metadata.empty()) header[std::string(kSafetensorsMetadata)] = weights.metadata;
@@ -79,7 +79,7 @@ std::string describe(const Weights& weights, TensorType type, const std::string&
     text.append((kSafetensorsLength - text.size() % kSafetensorsLength) % kSafetensorsLength, ' ');
     return text;
   } catch (const nlohmann::json::exception&) {
-    throw DataError(where, "a tensor's name or a text of the metadata is no UTF-8");
+    throw DataError(where, "a name or a metadata text is not UTF-8");
   }
 }
 
@@ -93,9 +93,9 @@ void append_value(float value, TensorType type, const std::string& name, std::si
     }
     append_little_endian(std::bit_cast<std::uint32_t>(value), bytes);
   } else {
-    constexpr double kLargestHalf = 65504.0;
+    constexpr double kMaxHalf = 65504.0;
     const std::optional<std::uint16_t> half = half_from_float(value);
-    if (!half) fail_value(where, name, index, value, kLargestHalf);
+    if (!half) fail_value(where, name, index, value, kMaxHalf);
     append_little_endian(*half, bytes);
   }
 }

@@ -12,7 +12,7 @@
 namespace mms {
 namespace {
 
-/// Opens a bag; what is wrong with one that cannot be opened is found out by `fail_bag`.
+/// Opens a bag; `fail_bag` reports the fault if it cannot be opened.
 void open(rosbag::Bag& bag, const std::filesystem::path& path) {
   check_bag_file(path);
   try {

@@ -15,7 +15,7 @@ class BagWriter::Impl {
       : path_(path), temporary_(path.string() + ".part") {
     const std::filesystem::path folder = path.parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-      throw FileError(path.string(), "its folder is not there", "make " + folder.string());
+      throw FileError(path.string(), "its folder does not exist", "create " + folder.string());
     }
     guarded([&] { bag_.open(temporary_.string(), rosbag::bagmode::Write); });
   }
@@ -24,7 +24,7 @@ class BagWriter::Impl {
     if (finished_) return;
     try {
       bag_.close();
-    } catch (const std::exception&) {  // the file goes anyway
+    } catch (const std::exception&) {  // the file is removed anyway
     }
     std::error_code ignored;
     std::filesystem::remove(temporary_, ignored);
@@ -33,7 +33,7 @@ class BagWriter::Impl {
   Impl& operator=(const Impl&) = delete;
 
   void write(const std::string& topic, Timestamp recorded, RawMessage message) {
-    ros::Time time;  // that of zero means none to rosbag
+    ros::Time time;  // rosbag treats time zero as none
     time.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(1, recorded.nanoseconds())));
     guarded([&] { bag_.write(topic, time, message); });
   }

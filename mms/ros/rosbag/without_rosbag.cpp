@@ -2,7 +2,7 @@
 #include "mms/ros/bag_reader.hpp"
 #include "mms/ros/bag_writer.hpp"
 
-// Takes the place of bag_reader.cpp and bag_writer.cpp where librosbag-storage-dev is missing.
+// Replaces bag_reader.cpp and bag_writer.cpp if librosbag-storage-dev is missing.
 
 namespace mms {
 namespace {

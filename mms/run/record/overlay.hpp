@@ -5,7 +5,7 @@
 
 namespace mms {
 
-/// Picture of an organised, coloured cloud: dynamic points tinted red, pixels without depth dimmed.
+/// Image of an organized cloud with colors: dynamic points tinted red, pixels without depth dimmed.
 Image<Rgb> draw_overlay(const LabeledCloud& cloud);
 
 }  // namespace mms

@@ -4,11 +4,11 @@
 
 namespace mms {
 
-/// Largest memory that the process has held so far [MiB].
+/// Peak memory of the process [MiB].
 inline double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux reports KiB
 }
 
 }  // namespace mms

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t kTimes = 1 + kStageCount;  ///< columns of milliseconds: read and the stages
+constexpr std::size_t kTimes = 1 + kStageCount;  ///< columns in milliseconds: read and the stages
 
-/// Lines of timing.csv: stamp, read, the stages, and more.
+/// Rows of timing.csv: stamp, read, the stages, and others.
 std::map<Timestamp, std::vector<float>> read_times(const fs::path& file) {
   const TextTable table(file);
   std::map<Timestamp, std::vector<float>> times;
@@ -33,7 +33,7 @@ std::map<Timestamp, std::vector<float>> read_times(const fs::path& file) {
       values.push_back(static_cast<float>(parse_double(line.fields[i]).value_or(kUnknown)));
     }
     if (!stamp || values.size() != kTimes) {
-      throw DataError(table.where(line), "is no line of a run's timing.csv");
+      throw DataError(table.where(line), "is not a row of timing.csv");
     }
     times[*stamp] = std::move(values);
   }
@@ -51,7 +51,7 @@ MapCloud read_map(const fs::path& file) {
   return map;
 }
 
-/// Settings of another version of the program are no reason to show nothing.
+/// Ignores settings of another version of the program.
 SystemConfig read_settings(const fs::path& file) {
   SystemConfig config;
   try {
@@ -95,17 +95,16 @@ RunFiles read_killed(const fs::path& journal) {
 
 RunFiles read_run_files(const fs::path& folder) {
   if (!fs::exists(folder)) {
-    throw FileError(folder.string(), "is not there", "give the folder that mms run wrote to");
+    throw FileError(folder.string(), "does not exist", "use a folder written by mms run");
   }
   if (!fs::is_directory(folder)) {
-    throw FileError(folder.string(), "is no folder", "give the folder that mms run wrote to");
+    throw FileError(folder.string(), "is not a folder", "use a folder written by mms run");
   }
   if (fs::exists(folder / "trajectory.tum")) return read_finished(folder);
   if (fs::exists(folder / kJournalName)) return read_killed(folder / kJournalName);
-  throw DataError(
-      folder.string(),
-      "holds no results of a run: neither trajectory.tum nor " + std::string(kJournalName),
-      "give the folder that mms run wrote to; mms run --view shows a recording");
+  throw DataError(folder.string(),
+                  "is not a result folder: neither trajectory.tum nor " + std::string(kJournalName),
+                  "use a folder written by mms run; to view a recording use mms run --view");
 }
 
 }  // namespace mms

@@ -34,8 +34,8 @@ RecoveredRun recover_run(const std::filesystem::path& journal) {
   }
   run.damage = reader.damage();
   if (run.trajectory.empty()) {
-    throw DataError(run.damage.empty() ? journal.string() : run.damage, "holds no whole frame",
-                    "the run was ended before its first frame was done");
+    throw DataError(run.damage.empty() ? journal.string() : run.damage, "has no complete frame",
+                    "the run ended before its first frame was processed");
   }
   run.map = map.cloud();
   return run;

@@ -9,19 +9,19 @@
 
 namespace mms {
 
-/// What a run's journal gives back.
+/// Content of a run's journal.
 struct RecoveredRun {
   JournalHeader header;
   Trajectory trajectory;
   Trajectory keyframes;
   MapCloud map;
   Timestamp written;      ///< wall clock of the last frame, since 1970
-  bool organised = true;  ///< from a depth camera (y down), else a LiDAR (z up)
-  std::string damage;     ///< why the journal was not read to its end; empty where it was
+  bool organised = true;  ///< true for a depth camera (y down), false for a LiDAR (z up)
+  std::string damage;     ///< fault at which reading stopped; empty if the journal is complete
 };
 
-/// Reads a journal up to its first record that is not whole.
-/// @throws FileError when it cannot be read; DataError when it is no journal or holds no frame.
+/// Reads a journal up to its first incomplete record.
+/// @throws FileError if it cannot be read; DataError if it is not a journal or has no frame.
 RecoveredRun recover_run(const std::filesystem::path& journal);
 
 }  // namespace mms

@@ -9,7 +9,7 @@
 namespace mms {
 namespace {
 
-constexpr std::size_t kQueueCapacity = 64;  // frames, some seconds of them
+constexpr std::size_t kQueueCapacity = 64;  // frames, several seconds
 
 Timestamp wall_clock() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -17,7 +17,7 @@ Timestamp wall_clock() {
 }
 
 void warn_of(const std::exception& error, const RunJournal::WarningHandler& warn) {
-  warn(std::string(error.what()) + "; the run goes on, but could not be recovered if it is killed");
+  warn(std::string(error.what()) + "; the run continues, but cannot be recovered if it is killed");
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ void RunJournal::push(std::optional<MapChanges> map) {
 void RunJournal::write_frames(WarningHandler warn) {
   try {
     while (const auto frame = queue_.pop()) writer_->append(**frame);
-  } catch (const std::exception& error) {  // memory may be short, too
+  } catch (const std::exception& error) {  // including lack of memory
     queue_.close();
     warn_of(error, warn);
   }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxPictures = 8;
 constexpr std::size_t kMinPosesForError = 3;
-constexpr double kStandsStill = 1.0;  ///< largest movement of a sensor that stands still [cm]
+constexpr double kStandsStill = 1.0;  ///< largest movement of a static sensor [cm]
 
 template <class Value>
 std::vector<double> column(const std::vector<LoggedFrame>& frames, const Value& value) {
@@ -55,7 +55,8 @@ void RunLog::add(const Processed& processed) {
 }
 
 void RunLog::keep_picture(const Processed& processed) {
-  // Evenly spread over a run of unknown length: when there are too many, every other one goes.
+  // Evenly distributed over a run of unknown length: if there are too many, every second one is
+  // removed.
   if ((frames_.size() - 1) % picture_stride_ != 0 || !processed.result.cloud.organised()) return;
   pictures_.push_back({fmt::format("{} ({:.0f} % dynamic)", processed.frame.name,
                                    100.0 * processed.result.dynamic_share),

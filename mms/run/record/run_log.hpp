@@ -16,7 +16,7 @@
 
 namespace mms {
 
-/// What is kept of every frame of a run.
+/// Data kept of every frame of a run.
 struct LoggedFrame {
   std::string name;
   Timestamp stamp;
@@ -26,37 +26,37 @@ struct LoggedFrame {
   bool keyframe = false;
   double dynamic_share = 0.0;
   double read_ms = 0.0;
-  double interval_ms = 0.0;  ///< wall time since the frame before was done
+  double interval_ms = 0.0;  ///< wall time since the end of the previous frame
   StageTimes stage_ms{};
-  std::optional<double> latency_ms;  ///< in real time
+  std::optional<double> latency_ms;  ///< in real-time mode
 
   double stages_ms() const;  ///< sum of reading and all stages
 };
 
-/// Collects what a run's files are written from.
+/// Collects the data for a run's files.
 class RunLog {
  public:
-  /// @param compare_masks  whether the frames' masks are truth, and not what the run went by
-  /// @param objects        of the system whose frames are added
+  /// @param compare_masks  whether the frames' masks are ground truth and not the run's input
+  /// @param objects        settings of the dynamic map
   RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects);
 
   void add(const Processed& processed);
 
-  /// Sums the run up once all frames are in.
-  /// @param skipped  frames that could not be read
+  /// Computes the summary after the last frame.
+  /// @param skipped  number of unreadable frames
   void finish(std::size_t skipped, const AsyncPipeline& pipeline, const SlamSystem& system);
 
-  /// Compares the tracked objects with the true ones, in the frame of the truth poses.
+  /// Compares the tracked objects with the ground truth, in the frame of the ground-truth poses.
   void compare_objects(const ObjectHistory& truth);
 
-  /// Compares the static map with the true one, which is taken to the map's frame by aligning the
-  /// poses of all frames that have a true one. Without such a frame there is no comparison.
-  /// @param truth  in the world frame of the truth poses
-  /// @throws DataError when the truth has no usable points.
+  /// Compares the static map with the ground truth, transformed to the map's frame by aligning the
+  /// poses of all frames with ground truth. Does nothing without such frames.
+  /// @param truth  in the world frame of the ground-truth poses
+  /// @throws DataError if the ground truth has no valid points.
   void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
 
   const std::vector<LoggedFrame>& frames() const { return frames_; }
-  /// As judged later (ObjectSmoother); empty until `finish`.
+  /// Smoothed objects (ObjectSmoother); empty before `finish`.
   const ObjectHistory& objects() const { return objects_; }
   std::size_t objects_now() const { return live_objects_.back().objects.size(); }
   const std::vector<ReportPicture>& pictures() const { return pictures_; }
@@ -77,7 +77,7 @@ class RunLog {
   std::vector<LoggedFrame> frames_;
   ObjectSmoother smoother_;
   ObjectHistory objects_;
-  ObjectHistory live_objects_;  ///< as the dynamic map had them at once
+  ObjectHistory live_objects_;  ///< live output of the dynamic map
   std::vector<ReportPicture> pictures_;
   std::size_t picture_stride_ = 1;
   bool has_image_ = false;

@@ -11,7 +11,7 @@
 
 namespace mms {
 
-/// The words of `mms run`.
+/// Arguments of `mms run`.
 struct RunOptions {
   std::string data = "sim:warehouse_loop";
   std::filesystem::path config;  ///< empty: the defaults
@@ -25,7 +25,7 @@ struct RunOptions {
   std::size_t start = 0;
   bool realtime = false;
   bool keep_journal = false;
-  int threads = 0;  ///< 0: one a core
+  int threads = 0;  ///< 0: one per core
   std::optional<ViewOptions> view;
 };
 

@@ -108,7 +108,7 @@ RunRecord read_run_record(const fs::path& file) {
         json.at("masks").get<std::string>(), json.at("sensor").get<std::string>() == "depth camera",
         json.at("voxel_size").get<double>(), camera_of(json.at("camera"))};
   } catch (const Json::exception& error) {
-    throw DataError(file.string(), std::string("is no record of a run: ") + error.what());
+    throw DataError(file.string(), std::string("is not a record of a run: ") + error.what());
   }
 }
 
@@ -119,7 +119,7 @@ std::vector<FrameRecord> read_frame_records(const fs::path& file) {
     if (line.fields[0] == "stamp") continue;
     const std::optional<FrameRecord> frame = frame_of(line);
     if (!frame) {
-      throw DataError(table.where(line), "is no line of \"" + std::string(kFramesHeader) + "\"");
+      throw DataError(table.where(line), "is not a row of \"" + std::string(kFramesHeader) + "\"");
     }
     frames.push_back(*frame);
   }

@@ -5,7 +5,7 @@
 
 namespace mms {
 
-/// Where the viewer is served.
+/// Address of the viewer.
 struct ViewOptions {
   std::uint16_t port = 8080;
   std::string bind = "127.0.0.1";

@@ -8,11 +8,11 @@
 
 namespace mms {
 
-/// A map as the files of point clouds take it.
+/// The map as content of a point cloud file.
 PointCloudFile file_of(const MapCloud& map);
 
 /// Writes trajectory.tum, trajectory_kitti.txt, keyframes.tum, static_map.ply and static_map.pcd.
-/// @throws FileError naming the file that cannot be written.
+/// @throws FileError with the file that cannot be written.
 void write_result_files(const std::filesystem::path& folder, const Trajectory& trajectory,
                         const Trajectory& keyframes, const MapCloud& map);
 

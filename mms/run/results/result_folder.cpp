@@ -23,7 +23,7 @@ std::string name_of(const std::string& data) {
   return name.empty() ? "run" : name;
 }
 
-/// results/<time>_<name>, counted up where runs start within one second.
+/// results/<time>_<name>, with a counter for runs within one second.
 fs::path default_folder(const std::string& data) {
   const std::string stem =
       fmt::format("{:%Y%m%d-%H%M%S}_{}", fmt::localtime(std::time(nullptr)), name_of(data));
@@ -39,7 +39,7 @@ void check_writable(const fs::path& folder) {
   std::error_code ignored;
   fs::remove(probe, ignored);
   if (!written) {
-    throw FileError(folder.string(), "cannot be written to",
+    throw FileError(folder.string(), "is not writable",
                     "choose another folder with -o or change its permissions");
   }
 }
@@ -55,13 +55,13 @@ ResultFolder::ResultFolder(const fs::path& output, const std::string& data)
 ResultFolder::~ResultFolder() {
   if (!made_) return;
   std::error_code ignored;
-  fs::remove(path_, ignored);  // fails, as it should, where there is anything inside
+  fs::remove(path_, ignored);  // fails on purpose if it is not empty
 }
 
 void ResultFolder::make_latest() const {
   if (!default_place_) return;
   const fs::path link = path_.parent_path() / "latest";
-  std::error_code error;  // a file system without links still has the results
+  std::error_code error;  // optional, for file systems without links
   fs::remove(link, error);
   fs::create_directory_symlink(path_.filename(), link, error);
 }

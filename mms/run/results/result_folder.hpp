@@ -5,22 +5,22 @@
 
 namespace mms {
 
-/// The folder a run writes to. Made before the run, so that one that cannot be written to costs no
-/// time.
+/// Output folder of a run, created before the run, so that a folder that cannot be written is
+/// detected first.
 class ResultFolder {
  public:
   /// @param output  empty: `results/TIME_NAME` in the working directory
-  /// @throws FileError when the folder cannot be made or written to.
+  /// @throws FileError if the folder cannot be made or written to.
   ResultFolder(const std::filesystem::path& output, const std::string& data);
 
-  /// Removes the folder if it was made for a run that left nothing in it.
+  /// Removes the folder if it was created for this run and is empty.
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
   ResultFolder& operator=(const ResultFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Lets results/latest point to the folder, if it is one of results/.
+  /// Links results/latest to the folder, if it is in results/.
   void make_latest() const;
 
  private:

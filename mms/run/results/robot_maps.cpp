@@ -19,9 +19,9 @@ void write_robot_maps(const std::filesystem::path& folder, const OccupancyMap& o
   const Floor floor = find_floor(map, axes.up, config.floor);
   if (!floor.found && map.size() > 0) {
     fmt::print(stderr,
-               "warning: no floor of {} m^2 was found within {} deg of level: map.yaml and map.bt "
-               "take the first sensor pose for level and the lowest points for the floor (see "
-               "occupancy.floor in the settings)\n",
+               "warning: no floor of {} m^2 found within {} deg of level: map.yaml and map.bt "
+               "assume that the first sensor pose is level and that the lowest points are the "
+               "floor (see occupancy.floor in the settings)\n",
                config.floor.min_area, config.floor.max_tilt);
   }
   const Transform<World, Map> T_world_map = map_frame(floor, axes.forward);
@@ -30,8 +30,8 @@ void write_robot_maps(const std::filesystem::path& folder, const OccupancyMap& o
   const std::size_t left_out = write_octomap(folder / "map.bt", voxels);
   if (left_out > 0) {
     fmt::print(stderr,
-               "warning: map.bt lacks {} voxels that are farther than 32768 voxels of {} m away "
-               "(raise occupancy.voxel_size)\n",
+               "warning: map.bt lacks {} voxels farther than 32768 voxels of {} m (raise "
+               "occupancy.voxel_size)\n",
                left_out, voxels.voxel_size);
   }
 }

@@ -21,7 +21,7 @@
 namespace mms {
 namespace {
 
-/// Points higher than this over the first camera hide the room in a view from above [m].
+/// Points higher above the first camera are omitted in the top view [m].
 constexpr double kCeiling = 1.2;
 
 std::string timing_csv(const RunLog& log) {
@@ -73,7 +73,7 @@ RunReport make_report(const std::string& data, const MapCloud& map, const MapClo
   return report;
 }
 
-/// The report's pictures as files of their own.
+/// Writes the report's images as separate files.
 void write_pictures(const std::filesystem::path& folder, const RunReport& report) {
   make_folder(folder);
   if (!report.map_view.empty()) write_png(folder / "map.png", report.map_view);

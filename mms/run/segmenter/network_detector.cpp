@@ -51,9 +51,8 @@ fs::path default_weights() {
   for (const fs::path& base : {folder / "../share/mms", folder / "../..", folder / ".."}) {
     if (fs::exists(base / kFileName)) return fs::weakly_canonical(base / kFileName);
   }
-  throw FileError(kFileName, "is neither in share/mms/ beside the program nor in its source tree",
-                  "name a weights file under segmentation.weights in the settings, or use "
-                  "--segmenter masks or none");
+  throw FileError(kFileName, "is neither in share/mms/ of the installation nor in the source tree",
+                  "set segmentation.weights in the settings, or use --segmenter masks or none");
 }
 
 std::unique_ptr<Detector> make_detector(const SegmentationConfig& config) {
@@ -71,9 +70,9 @@ void resize_input(NetworkConfig& network, int long_side) {
 }
 
 std::unique_ptr<Segmenter> make_network_segmenter(const SegmentationConfig& config) {
-  SegmentationConfig wanted = config;  // masks that count for nothing need not be made
-  wanted.decoder.score = std::max(wanted.decoder.score, config.objects.score);
-  return std::make_unique<NetworkSegmenter>(make_detector(wanted), config.objects);
+  SegmentationConfig adjusted = config;  // rejected masks need not be computed
+  adjusted.decoder.score = std::max(adjusted.decoder.score, config.objects.score);
+  return std::make_unique<NetworkSegmenter>(make_detector(adjusted), config.objects);
 }
 
 }  // namespace mms

@@ -10,16 +10,16 @@
 
 namespace mms {
 
-/// The network that the program comes with: below its folder when installed, in the source tree
-/// when built there. @throws FileError when it is in neither place.
+/// Path of the default network: in the installation, or in the source tree of a build.
+/// @throws FileError if it is in neither.
 std::filesystem::path default_weights();
 
-/// The network of the settings: our safetensors, or an ONNX model with YOLO's outputs.
-/// @throws FileError, DataError when the file cannot be read or holds no such network; Error when
-///         the program was built without what it takes.
+/// The network of the settings: our safetensors, or an ONNX model with YOLO outputs.
+/// @throws FileError, DataError if the file cannot be read or has no such network; Error if the
+/// program was built without its backend.
 std::unique_ptr<Detector> make_detector(const SegmentationConfig& config);
 
-/// Gives the network's input another long side [px] and keeps its shape.
+/// Sets the long side [px] of the network's input; keeps the aspect ratio.
 void resize_input(NetworkConfig& network, int long_side);
 
 std::unique_ptr<Segmenter> make_network_segmenter(const SegmentationConfig& config);

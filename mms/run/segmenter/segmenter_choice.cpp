@@ -13,8 +13,8 @@ std::unique_ptr<Segmenter> make_segmenter(const std::string& segmenter, const st
   if (segmenter == "network") return make_network_segmenter(config.segmentation);
   if (!source.has_masks()) {
     throw DataError(data, "has no masks",
-                    "put label images into its masks/ folder, give --masks DIR, or choose "
-                    "--segmenter network or none");
+                    "add label images in its folder masks/, use --masks DIR, or choose --segmenter "
+                    "network or none");
   }
   return std::make_unique<MaskSegmenter>();
 }

@@ -9,13 +9,13 @@
 
 namespace mms {
 
-// What takes libtorch. Two libraries define it: `mms_run_torch` on libtorch, and
-// `mms_run_no_torch`, which refuses, for programs that start at once and fit on a robot.
+// Functions that need libtorch. Two libraries define them: `mms_run_torch` with libtorch, and
+// `mms_run_no_torch`, which throws, for fast start and small size.
 
-/// Whether libtorch finds a GPU; false without it.
+/// Whether libtorch finds a GPU; false without libtorch.
 bool torch_has_gpu();
 
-/// @throws DataError when the weights do not fit the network; Error without libtorch.
+/// @throws DataError if the weights do not fit the network; Error without libtorch.
 std::unique_ptr<Detector> make_torch_detector(const SegmentationModel& model,
                                               const std::string& where,
                                               const SegmentationConfig& config);

@@ -9,7 +9,7 @@ bool torch_has_gpu() {
 
 std::unique_ptr<Detector> make_torch_detector(const SegmentationModel&, const std::string& where,
                                               const SegmentationConfig&) {
-  throw Error(where, "is to be computed by libtorch, which this program does without",
+  throw Error(where, "requires libtorch, which is not part of this program",
               "use mms-torch with the same arguments, or segmentation.backend: auto");
 }
 

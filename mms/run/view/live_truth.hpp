@@ -7,18 +7,19 @@
 
 namespace mms {
 
-/// True positions while a run goes on: the truth is put in place by the first frame that has one.
+/// Ground-truth positions during a run, aligned by the first frame with ground truth.
 class LiveTruth {
  public:
   explicit LiveTruth(Trajectory truth);
 
   bool empty() const { return truth_.empty(); }
 
-  /// True position at a frame in the frame of the estimate [m]; nothing where none is near in time.
+  /// Ground-truth position at a frame in the frame of the estimate [m]; nullopt if none is close in
+  /// time.
   std::optional<Eigen::Vector3d> at(const StampedPose& estimate);
 
  private:
-  Trajectory truth_;  // by time
+  Trajectory truth_;  // in order of time
   std::optional<Eigen::Isometry3d> T_world_truth_;
 };
 

@@ -13,7 +13,7 @@
 namespace mms {
 namespace {
 
-/// Of this run and no other on this machine.
+/// Unique on this machine.
 std::string run_id() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return fmt::format("{}-{}", ::getpid(),

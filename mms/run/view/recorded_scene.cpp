@@ -17,14 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t kTimes = 1 + kStageCount;  ///< series of milliseconds: read and the stages
+constexpr std::size_t kTimes = 1 + kStageCount;  ///< series in milliseconds: read and the stages
 
 double voxel_size_of(const RunFiles& files) {
   return files.record && files.record->voxel_size > 0.0 ? files.record->voxel_size
                                                         : files.config.static_map.voxel_size;
 }
 
-/// Up as the map's floor says, else as the sensor was held.
+/// Up direction of the map's floor, else that of the sensor.
 Eigen::Vector3d up_of(const RunFiles& files) {
   const bool may_be_camera = !files.record || files.record->depth_camera;
   const bool may_be_lidar = !files.record || !files.record->depth_camera;
@@ -43,7 +43,7 @@ std::string name_of(const fs::path& folder, const std::string& data) {
   return run.empty() ? data : run;
 }
 
-/// The places of all frames in the recording; empty where one is not known.
+/// Indices of all frames in the recording; empty if one is unknown.
 std::vector<FrameRecord> records_of(const RunFiles& files) {
   std::vector<FrameRecord> records;
   for (const StampedPose& pose : files.trajectory) {
@@ -54,11 +54,11 @@ std::vector<FrameRecord> records_of(const RunFiles& files) {
   return records;
 }
 
-/// What gives the run's pictures, or a note that says why nothing does.
+/// Loader of the run's images, or a note with the reason if there is none.
 Scene::ViewLoader make_loader(const RunFiles& files, std::string& note) {
   std::vector<FrameRecord> records = records_of(files);
   if (!files.record || records.empty()) {
-    note = "the folder does not say which frames of which recording were run";
+    note = "the folder does not contain the recording's name and frame indices";
     return nullptr;
   }
   try {

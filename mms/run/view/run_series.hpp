@@ -6,12 +6,12 @@
 
 namespace mms {
 
-/// The series of a run: milliseconds of reading and of all stages, share of dynamic points,
-/// objects, distance to where the run began [cm], which is drift where the sensor stands still,
-/// and, where there is truth, distance to it [cm].
+/// The series of a run: milliseconds of reading and all stages, dynamic share, objects, distance
+/// from the start [cm], which is drift for a static sensor, and distance from the ground truth [cm]
+/// if available.
 std::vector<SeriesName> run_series(bool has_truth);
 
-/// Adds a frame's distances to the values of the series before them. NaN where it has no truth.
+/// Appends a frame's distances to its other values. NaN without ground truth.
 void append_distances(std::vector<float>& values, const SceneFrame& frame, bool has_truth);
 
 }  // namespace mms

@@ -8,10 +8,10 @@
 
 namespace mms {
 
-/// Begins to serve a scene.
-/// @param port_hint  how to choose another port, for the error when it is taken
-/// @param background  whether its threads give way to all others
-/// @throws DataError when the address or port cannot be listened at.
+/// Starts to serve a scene.
+/// @param port_hint  how to choose another port, for the error if it is in use
+/// @param background  whether its threads have low priority
+/// @throws DataError if the address or port cannot be used.
 std::unique_ptr<ViewerServer> serve(const ViewOptions& options, std::shared_ptr<Scene> scene,
                                     const std::string& port_hint, bool background);
 

@@ -5,7 +5,7 @@
 
 namespace mms {
 
-/// Names of COCO's 80 classes, in the order in which networks number them.
+/// Names of COCO's 80 classes in the usual order.
 const std::vector<std::string>& coco_classes();
 
 }  // namespace mms

@@ -7,15 +7,15 @@
 
 namespace mms {
 
-/// An instance-segmentation network ready to be asked.
+/// Instance-segmentation network, ready for inference.
 class Detector {
  public:
   virtual ~Detector() = default;
 
-  /// The objects in a picture of any size, best first.
+  /// The objects in an image of any size, highest score first.
   virtual std::vector<Detection> detect(const Image<Rgb>& image) = 0;
 
-  /// Names of the classes, in the order of `Detection::category`.
+  /// Class names in the order of `Detection::category`.
   virtual const std::vector<std::string>& classes() const = 0;
 };
 

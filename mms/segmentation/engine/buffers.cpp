@@ -5,7 +5,7 @@
 namespace mms::engine {
 namespace {
 
-constexpr int kBefore = -1;  // the first operation
+constexpr int kBefore = -1;  // before the first operation
 
 class BufferFinder {
  public:
@@ -71,8 +71,8 @@ class BufferFinder {
 
   const Graph& graph_;
   int end_;
-  std::vector<int> first_;  ///< operation that makes a value
-  std::vector<int> last_;   ///< operation that needs it
+  std::vector<int> first_;  ///< operation that computes a value
+  std::vector<int> last_;   ///< last operation that uses it
   std::vector<ValueId> kept_;
   Buffers buffers_;
 };

@@ -7,14 +7,14 @@
 
 namespace mms::engine {
 
-/// Which values of a graph share a buffer, and when each buffer is needed.
+/// Assignment of a graph's values to buffers, and lifetimes of the buffers.
 struct Buffers {
   std::vector<int> of_value;  ///< index of a value's buffer
   std::vector<Lifetime> lifetimes;
 };
 
-/// A convolution's result replaces its residual where nothing else needs that any more; all other
-/// values have buffers of their own. The image, constants and outputs are never replaced.
+/// A convolution's result replaces its residual if no later operation needs it; all other values
+/// have their own buffers. The image, constants and outputs are never replaced.
 Buffers find_buffers(const Graph& graph);
 
 }  // namespace mms::engine

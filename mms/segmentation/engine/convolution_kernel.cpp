@@ -8,7 +8,7 @@ namespace {
 
 using dnnl::memory;
 
-constexpr float kLargestByte = 127.0F;
+constexpr float kMaxInt8 = 127.0F;
 
 memory::data_type data_type(Number number) {
   switch (number) {
@@ -49,7 +49,7 @@ dnnl::primitive_attr attributes(const ConvLayer& layer, const std::vector<float>
   return attr;
 }
 
-/// oneDNN pads and places the kernel by its corners: output (h + before + after - reach) / stride.
+/// oneDNN positions the kernel by its corners: output (h + before + after - reach) / stride.
 dnnl::convolution_forward::primitive_desc describe(const ConvLayer& layer, const Tensor& x,
                                                    const Tensor& y,
                                                    const dnnl::primitive_attr& attr,
@@ -87,7 +87,7 @@ const ConvolutionLibrary::Bytes& ConvolutionLibrary::bytes_of(const ConvLayerPtr
     const float* row = layer->weight.data() + first;
     float largest = 0.0F;
     for (int i = 0; i < count; ++i) largest = std::max(largest, std::abs(row[i]));
-    const float scale = largest > 0.0F ? largest / kLargestByte : 1.0F;
+    const float scale = largest > 0.0F ? largest / kMaxInt8 : 1.0F;
     quantize(row, count, 1.0F / scale, bytes.stored.data() + first);
     bytes.scales.push_back(scale);
   }
@@ -98,18 +98,19 @@ const std::vector<float>& ConvolutionLibrary::weight_scales(const ConvLayerPtr& 
   return bytes_of(layer).scales;
 }
 
-memory ConvolutionLibrary::packed(const ConvLayerPtr& layer, const memory::desc& wanted) {
+memory ConvolutionLibrary::packed(const ConvLayerPtr& layer, const memory::desc& target_format) {
   const auto [first, last] = packed_.equal_range(layer.get());
   for (auto it = first; it != last; ++it) {
-    if (it->second.memory.get_desc() == wanted) return it->second.memory;
+    if (it->second.memory.get_desc() == target_format) return it->second.memory;
   }
-  const bool bytes = wanted.data_type() == memory::data_type::s8;
+  const bool bytes = target_format.data_type() == memory::data_type::s8;
   const void* source = bytes ? static_cast<const void*>(bytes_of(layer).stored.data())
                              : static_cast<const void*>(layer->weight.data());
-  memory plain(memory::desc(weight_sides(*layer), wanted.data_type(), memory::format_tag::oihw),
-               engine_,
-               const_cast<void*>(source));  // only read
-  memory result(wanted, engine_);
+  memory plain(
+      memory::desc(weight_sides(*layer), target_format.data_type(), memory::format_tag::oihw),
+      engine_,
+      const_cast<void*>(source));  // read only
+  memory result(target_format, engine_);
   dnnl::reorder(plain, result).execute(stream_, plain, result);
   stream_.wait();
   packed_.emplace(layer.get(), Packed{layer, result});

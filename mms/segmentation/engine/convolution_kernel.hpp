@@ -11,8 +11,8 @@
 
 namespace mms::engine {
 
-/// oneDNN's engine and stream, and weights in the forms in which its convolutions want them; each
-/// is made once and shared by the plans of all sizes.
+/// oneDNN's engine and stream, and weights in the layouts of its convolutions, shared by the plans
+/// of all sizes.
 class ConvolutionLibrary {
  public:
   ConvolutionLibrary();
@@ -20,8 +20,8 @@ class ConvolutionLibrary {
   const dnnl::engine& engine() const { return engine_; }
   dnnl::stream& stream() { return stream_; }
 
-  /// A layer's weights, as bytes when `type` says so, laid out as `wanted`.
-  dnnl::memory packed(const ConvLayerPtr& layer, const dnnl::memory::desc& wanted);
+  /// A layer's weights in the layout `target_format`, converted to int8 if its type requires it.
+  dnnl::memory packed(const ConvLayerPtr& layer, const dnnl::memory::desc& target_format);
 
   /// Per output channel: weight = stored * scale.
   const std::vector<float>& weight_scales(const ConvLayerPtr& layer);
@@ -44,11 +44,11 @@ class ConvolutionLibrary {
   std::unordered_multimap<const ConvLayer*, Packed> packed_;
 };
 
-/// A convolution between two maps in memory, float32 or bytes by the format of its input.
+/// A convolution between two maps in memory, float32 or int8 depending on its input.
 class ConvolutionKernel {
  public:
-  /// @param residual  format of the map that is added: it is found in y, where the result replaces
-  ///                  it; nothing: none is added
+  /// @param residual  format of the map to add, which is in y and is replaced by the result;
+  /// nullopt: none
   ConvolutionKernel(ConvolutionLibrary& library, const ConvLayerPtr& layer, const Tensor& x,
                     const Tensor& y, const std::optional<Format>& residual);
 
@@ -60,7 +60,7 @@ class ConvolutionKernel {
   std::unordered_map<int, dnnl::memory> arguments_;
 };
 
-/// Memory of a map for oneDNN.
+/// oneDNN description of a map.
 dnnl::memory::desc description(const Tensor& tensor);
 
 }  // namespace mms::engine

@@ -16,7 +16,8 @@ EngineDetector::EngineDetector(SegmentationModel model, const std::string& where
                            : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {}
 
 std::vector<Detection> EngineDetector::detect(const Image<Rgb>& image) {
-  omp_set_num_threads(threads_);  // a thread's number of threads is its own; frames come in any
+  omp_set_num_threads(
+      threads_);  // OpenMP's number of threads is per thread, and frames arrive in any thread
   const PreparedImage prepared = prepare_image(image, network_.config());
   return decode(network_.run(prepared), network_.config(), prepared, config_);
 }

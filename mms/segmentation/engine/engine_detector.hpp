@@ -8,12 +8,12 @@
 
 namespace mms::engine {
 
-/// Finds objects with a `NetworkEngine`.
+/// Detects objects with a `NetworkEngine`.
 class EngineDetector : public Detector {
  public:
-  /// @param where    what errors call the model, as its file's name
-  /// @param threads  of the network; 0: one a core
-  /// @throws DataError as `NetworkEngine` does.
+  /// @param where    name of the model in messages, such as the file name
+  /// @param threads  of the network; 0: one per core
+  /// @throws DataError as `NetworkEngine`.
   EngineDetector(SegmentationModel model, const std::string& where, Quantization quantization,
                  const DecoderConfig& config, int threads);
 

@@ -7,11 +7,11 @@
 namespace mms::engine {
 namespace {
 
-constexpr double kGroupNormFloor = 1e-5;  // of the variance
+constexpr double kGroupNormFloor = 1e-5;  // added to the variance
 
 using Channels = std::array<float, kMaxChannels>;
 
-/// Numbers of a few pixels between their loading and storing: small enough for the nearest cache.
+/// Numbers of several pixels between loading and storing: small enough for the L1 cache.
 using Strip = std::array<float, 2 * kMaxChannels>;
 
 int strip_pixels(const Shape& shape) {
@@ -52,7 +52,7 @@ void mean_of(const Tensor& tensor, float* mean) {
 }
 
 float dot(const float* a, const float* b, int count) {
-  constexpr int kLanes = 8;  // sums side by side, which the compiler may keep in one register
+  constexpr int kLanes = 8;  // parallel sums, which fit a vector register
   std::array<float, kLanes> sums{};
   int i = 0;
   for (; i + kLanes <= count; i += kLanes) {

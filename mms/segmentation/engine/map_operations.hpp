@@ -6,19 +6,19 @@
 
 namespace mms::engine {
 
-// The operations of a network that are no convolutions, on maps of any format. They compute in
-// float32 and use as many threads as OpenMP is set to.
+// Network operations other than convolutions, on maps of any format. They compute in float32 with
+// OpenMP's number of threads.
 
-/// Scales maps of one size to another.
+/// Resizes maps.
 class Resizer {
  public:
   Resizer(const Resizing& resizing, const Shape& from, const Shape& to);
 
-  /// @param addend  of y's shape, or null
+  /// @param addend  with y's shape, or null
   void run(const Tensor& x, const Tensor* addend, const Tensor& y) const;
 
  private:
-  /// Two neighbouring rows or columns and how much the second counts.
+  /// Two adjacent rows or columns and the weight of the second.
   struct Neighbours {
     int first = 0;
     int second = 0;
@@ -34,11 +34,11 @@ class Resizer {
 
 void concatenate(const std::vector<Tensor>& parts, const Tensor& y);
 
-/// @param residual  of y's shape, or null
+/// @param residual  with y's shape, or null
 void add_global_context(const GlobalContext& context, const Tensor& x, const Tensor* residual,
                         const Tensor& y);
 
-/// @param scratch  of x's number of pixels
+/// @param scratch  as many as x's pixels
 void compute_gate(const Gate& gate, const Tensor& x, std::vector<float>& scratch, const Tensor& y);
 
 /// @param gate  float32

@@ -23,7 +23,7 @@ MemoryPlan plan_memory(const std::vector<Lifetime>& buffers) {
     return buffers[a].bytes > buffers[b].bytes;
   });
   MemoryPlan plan{std::vector<std::size_t>(buffers.size()), 0};
-  std::vector<std::size_t> placed;  // by offset
+  std::vector<std::size_t> placed;  // sorted by offset
   for (const std::size_t buffer : order) {
     const std::size_t bytes = aligned(buffers[buffer].bytes);
     std::size_t offset = 0;

@@ -9,7 +9,7 @@
 namespace mms::engine {
 namespace {
 
-/// Planes one after the other to channels side by side.
+/// Converts planes to channels last.
 void write_input(const PreparedImage& image, const Tensor& input) {
   const int pixels = input.shape.pixels();
   float* next = input.floats();
@@ -27,8 +27,8 @@ ChannelsLastMap head_map(const Plan& plan, ValueId id) {
 
 void check_supported(const NetworkConfig& config, const std::string& where) {
   if (config.backbone.sac != SacMode::kDeformable) return;
-  throw DataError(where, "has deformable convolutions, which only libtorch computes here",
-                  "take segmentation.backend: libtorch, or a network with sac: plain");
+  throw DataError(where, "has deformable convolutions, which require libtorch",
+                  "use segmentation.backend: libtorch, or a network with sac: plain");
 }
 
 }  // namespace

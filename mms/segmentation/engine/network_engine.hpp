@@ -13,15 +13,15 @@
 
 namespace mms::engine {
 
-/// A trained network on the CPU without libtorch: oneDNN's convolutions, in float32 or in bytes.
+/// A trained network on the CPU without libtorch: oneDNN convolutions in float32 or int8.
 class NetworkEngine {
  public:
-  /// @param where  what errors call the model, as its file's name
-  /// @throws DataError when the weights do not fit the network, or it has deformable convolutions.
+  /// @param where  name of the model in messages, such as the file name
+  /// @throws DataError if the weights do not fit the network, or it has deformable convolutions.
   NetworkEngine(SegmentationModel model, const std::string& where, Quantization quantization);
 
-  /// The head's maps of a picture, valid until the next call. The plans of the last few sizes
-  /// of input are kept.
+  /// The head's maps of an image, valid until the next call. Keeps the plans of the latest input
+  /// sizes.
   HeadMaps run(const PreparedImage& image, const Plan::Observer& observer = {});
 
   const NetworkConfig& config() const { return config_; }
@@ -38,7 +38,7 @@ class NetworkEngine {
   Quantization quantization_;
   LayerReader layers_;
   ConvolutionLibrary library_;
-  std::vector<std::unique_ptr<Plan>> plans_;  ///< the last used first
+  std::vector<std::unique_ptr<Plan>> plans_;  ///< most recently used first
 };
 
 }  // namespace mms::engine

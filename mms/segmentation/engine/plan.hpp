@@ -10,25 +10,25 @@
 
 namespace mms::engine {
 
-/// A graph ready to run: all its memory is laid out, all its operations are prepared. Running it
-/// allocates nothing.
+/// A graph ready to run: memory is allocated and all operations are prepared. Running it allocates
+/// nothing.
 class Plan {
  public:
-  /// Sees a value just after it was computed.
+  /// Called with a value right after its computation.
   using Observer = std::function<void(const Value&, const Tensor&)>;
 
   Plan(Graph graph, ConvolutionLibrary& library);
-  Plan(const Plan&) = delete;  // the steps know where everything lies
+  Plan(const Plan&) = delete;  // the steps store addresses
   Plan& operator=(const Plan&) = delete;
 
-  /// Where the image is to be written before each run.
+  /// The input image, to be written before each run.
   Tensor input() const { return tensor(graph_.input); }
   void run(const Observer& observer = {});
 
-  /// The outputs may be read until the next run.
+  /// Outputs are valid until the next run.
   Tensor tensor(ValueId id) const;
   const Graph& graph() const { return graph_; }
-  /// Of all maps together.
+  /// Total size of all maps.
   std::size_t bytes() const { return memory_.size(); }
 
  private:
@@ -51,7 +51,7 @@ class Plan {
   ConvolutionLibrary& library_;
   std::vector<std::size_t> offsets_;  ///< of the values
   std::vector<std::byte> memory_;
-  std::byte* base_ = nullptr;  ///< the first aligned byte of `memory_`
+  std::byte* base_ = nullptr;  ///< first aligned byte of `memory_`
   std::vector<Step> steps_;    ///< of the nodes
 };
 

@@ -45,23 +45,23 @@ class Quantizer {
       choose_convolution(node);
     } else if (std::holds_alternative<MaxPooling>(node.operation)) {
       graph_.value(node.output).format = graph_.value(node.inputs[0]).format;
-    } else if (is_of_bytes(node) && may_be_bytes(node.output)) {
+    } else if (is_int8(node) && may_be_int8(node.output)) {
       graph_.value(node.output).format = bytes_of(node.output);
     }
-    if (is_of_bytes(node)) of_bytes_.insert(node.output);
+    if (is_int8(node)) int8_values_.insert(node.output);
   }
 
-  bool may_be_bytes(ValueId id) const { return !graph_.value(id).keep_float && is_known(id); }
+  bool may_be_int8(ValueId id) const { return !graph_.value(id).keep_float && is_known(id); }
 
-  /// Whether all that the node computes with comes out of quantized convolutions, so that it has no
-  /// more to lose.
-  bool is_of_bytes(const Node& node) const {
+  /// Whether all inputs of the node come from quantized convolutions, so that int8 costs no
+  /// accuracy.
+  bool is_int8(const Node& node) const {
     if (const auto* convolution = std::get_if<Convolution>(&node.operation)) {
       return is_quantized(*convolution->layer, node.inputs[0]);
     }
     if (std::holds_alternative<Constant>(node.operation)) return false;
     return std::all_of(node.inputs.begin(), node.inputs.end(),
-                       [&](ValueId id) { return of_bytes_.contains(id) || is_constant(id); });
+                       [&](ValueId id) { return int8_values_.contains(id) || is_constant(id); });
   }
 
   bool is_quantized(const ConvLayer& layer, ValueId input) const {
@@ -81,7 +81,7 @@ class Quantizer {
       return;
     }
     node.inputs[0] = in_some_bytes(node.inputs[0]);
-    if (may_be_bytes(node.output)) graph_.value(node.output).format = bytes_of(node.output);
+    if (may_be_int8(node.output)) graph_.value(node.output).format = bytes_of(node.output);
     if (node.inputs.size() < 2) return;
     ValueId& residual = node.inputs[1];
     residual = in_bytes(node.output) ? in_some_bytes(residual) : in_format(residual, Format{});
@@ -95,7 +95,7 @@ class Quantizer {
     if (known != conversions_.end()) return known->second;
     const auto converted = static_cast<ValueId>(graph_.values.size());
     Value value = graph_.value(id);
-    value.name += format.number == Number::kFloat ? " in float32" : " in bytes";
+    value.name += format.number == Number::kFloat ? " in float32" : " in int8";
     value.format = format;
     graph_.values.push_back(std::move(value));
     graph_.nodes.push_back({Conversion{}, {id}, converted});
@@ -104,7 +104,7 @@ class Quantizer {
 
   const Quantization& quantization_;
   Graph graph_;
-  std::set<ValueId> of_bytes_;
+  std::set<ValueId> int8_values_;
   std::map<std::pair<ValueId, Number>, ValueId> conversions_;
 };
 
@@ -117,7 +117,7 @@ float range_of(const std::string& text, const std::string& name, const std::stri
   const bool whole = fault == std::errc() && end == text.data() + text.size();
   if (whole && std::isfinite(range) && range > 0.0F) return range;
   throw DataError(where, name + " is '" + text + "', expected a positive number",
-                  "mms quantize writes it anew");
+                  "write it again with mms quantize");
 }
 
 }  // namespace
@@ -153,16 +153,16 @@ Quantization unpack_quantization(const Weights& weights, const std::string& wher
 void check_quantization(const Quantization& quantization, const Graph& graph,
                         const std::string& where) {
   if (quantization.ranges.empty()) return;
-  constexpr const char* kHint = "quantize its weights again with mms quantize";
+  constexpr const char* kHint = "quantize the weights again with mms quantize";
   std::set<std::string> names;
   for (const Value& value : graph.values) {
     names.insert(value.name);
     if (quantization.ranges.contains(value.name)) continue;
-    throw DataError(where, "has no range of the value '" + value.name + "' for int8", kHint);
+    throw DataError(where, "has no range for the value '" + value.name + "' for int8", kHint);
   }
   for (const auto& [name, range] : quantization.ranges) {
     if (names.contains(name)) continue;
-    throw DataError(where, "has an int8 range of '" + name + "', which the network does not have",
+    throw DataError(where, "has an int8 range for '" + name + "', which the network does not have",
                     kHint);
   }
 }

@@ -10,8 +10,8 @@
 namespace mms::engine {
 namespace {
 
-constexpr float kLargestSigned = 127.0F;  // -128 is left out: weights and maps are symmetric
-constexpr float kLargestUnsigned = 255.0F;
+constexpr float kMaxSigned = 127.0F;  // -128 is not used: weights and maps are symmetric
+constexpr float kMaxUnsigned = 255.0F;
 
 template <typename Stored>
 void expand(const Stored* stored, int count, float scale, float* values) {
@@ -23,7 +23,7 @@ void add(const Stored* stored, int count, float scale, float* sum) {
   for (int i = 0; i < count; ++i) sum[i] += scale * static_cast<float>(stored[i]);
 }
 
-/// Calls function(pointer to the first number of the span, how many, scale).
+/// Calls function(pointer to the first number of the span, count, scale).
 template <typename Function>
 void with_numbers(const Tensor& tensor, const PixelSpan& pixels, const Function& function) {
   const int count = pixels.count * tensor.shape.channels;
@@ -40,19 +40,19 @@ void with_numbers(const Tensor& tensor, const PixelSpan& pixels, const Function&
   }
 }
 
-/// In two loops over short pieces, so that the compiler makes vectors of both.
+/// In two loops over short pieces, so that the compiler vectorizes both.
 template <typename Stored>
 void shrink(const float* values, int count, float inverse_scale, float least, float most,
             Stored* stored) {
-  // Added to a number, it leaves that rounded to a whole one in the lowest bits.
-  constexpr float kWhole = 12582912.0F;  // 1.5 * 2^23
+  // Adding it rounds a number to an integer in the lowest bits.
+  constexpr float kRounding = 12582912.0F;  // 1.5 * 2^23
   constexpr int kPiece = 128;
   std::array<float, kPiece> whole;
   for (int first = 0; first < count; first += kPiece) {
     const int length = std::min(kPiece, count - first);
     for (int i = 0; i < length; ++i) {
       const float limited = std::min(std::max(values[first + i] * inverse_scale, least), most);
-      whole[static_cast<std::size_t>(i)] = limited + kWhole;
+      whole[static_cast<std::size_t>(i)] = limited + kRounding;
     }
     for (int i = 0; i < length; ++i) {
       const auto bits = std::bit_cast<std::uint32_t>(whole[static_cast<std::size_t>(i)]);
@@ -64,7 +64,7 @@ void shrink(const float* values, int count, float inverse_scale, float least, fl
 }  // namespace
 
 void quantize(const float* values, int count, float inverse_scale, std::int8_t* stored) {
-  shrink(values, count, inverse_scale, -kLargestSigned, kLargestSigned, stored);
+  shrink(values, count, inverse_scale, -kMaxSigned, kMaxSigned, stored);
 }
 
 void load(const Tensor& tensor, const PixelSpan& pixels, float* channels) {
@@ -86,13 +86,13 @@ void store(const Tensor& tensor, const PixelSpan& pixels, const float* channels)
     } else if constexpr (std::is_signed_v<Stored>) {
       quantize(channels, count, 1.0F / scale, stored);
     } else {
-      shrink(channels, count, 1.0F / scale, 0.0F, kLargestUnsigned, stored);
+      shrink(channels, count, 1.0F / scale, 0.0F, kMaxUnsigned, stored);
     }
   });
 }
 
 Format byte_format(float range, bool non_negative) {
-  const float largest = non_negative ? kLargestUnsigned : kLargestSigned;
+  const float largest = non_negative ? kMaxUnsigned : kMaxSigned;
   const float scale = std::max(range, std::numeric_limits<float>::min() * largest) / largest;
   return {non_negative ? Number::kUnsigned8 : Number::kSigned8, scale};
 }

@@ -9,7 +9,7 @@
 
 namespace mms::network {
 
-/// Convolution and norm, unless the norm is folded into it.
+/// Convolution and norm, unless the norm is folded.
 torch::Tensor normalised_conv(BackboneConv& conv, torch::nn::BatchNorm2d& norm,
                               const torch::Tensor& x);
 
@@ -22,15 +22,15 @@ class ResidualBlockImpl : public torch::nn::Module {
     std::int64_t planes = 0;  ///< of the 3x3 convolutions
     std::int64_t stride = 1;
     bool bottleneck = false;
-    bool standardised = false;  ///< weights of all convolutions
+    bool standardised = false;  ///< standardize the weights of all convolutions
     SacMode sac = SacMode::kNone;
-    std::int64_t feedback = 0;  ///< channels of the pyramid that are fed back; 0: none
+    std::int64_t feedback = 0;  ///< channels of the pyramid's feedback; 0: none
 
     std::int64_t out() const { return bottleneck ? 4 * planes : planes; }
   };
 
   explicit ResidualBlockImpl(const Shape& shape);
-  /// @param feedback  (B, feedback, H, W) of the output's size; undefined where there is none
+  /// @param feedback  (B, feedback, H, W) of the output's size; undefined for none
   torch::Tensor forward(const torch::Tensor& x, const torch::Tensor& feedback = {});
   void fold();
 
@@ -40,40 +40,40 @@ class ResidualBlockImpl : public torch::nn::Module {
 
   Shape shape_;
   BackboneConv conv1_{nullptr};
-  BackboneConv conv2_{nullptr};  ///< null where `switchable2_` is not
+  BackboneConv conv2_{nullptr};  ///< null if `switchable2_` is used
   SwitchableConv switchable2_{nullptr};
   BackboneConv conv3_{nullptr};  ///< of bottlenecks
   torch::nn::BatchNorm2d bn1_{nullptr};
   torch::nn::BatchNorm2d bn2_{nullptr};
   torch::nn::BatchNorm2d bn3_{nullptr};
-  BackboneConv skip_conv_{nullptr};  ///< of `downsample`, where there is one
+  BackboneConv skip_conv_{nullptr};  ///< of `downsample`, if present
   torch::nn::BatchNorm2d skip_norm_{nullptr};
   torch::nn::Conv2d rfp_conv_{nullptr};
 };
 TORCH_MODULE(ResidualBlock);
 
-/// ResNet-18, 34 or 50 in torchvision's form.
+/// ResNet-18, 34 or 50 as in torchvision.
 class BackboneImpl : public torch::nn::Module {
  public:
   static constexpr int kStages = 4;
   using Features = std::array<torch::Tensor, kStages>;
 
-  /// @param feedback  channels of the pyramid fed back into stages 2 to 4; 0: none
+  /// @param feedback  channels of the pyramid's feedback to stages 2 to 4; 0: none
   BackboneImpl(const BackboneConfig& config, std::int64_t feedback);
 
   /// C2 to C5 of (B, 3, H, W): strides 4, 8, 16, 32.
-  /// @param feedback  maps for the stages 2 to 4; undefined ones are left out
+  /// @param feedback  maps for the stages 2 to 4; undefined ones are ignored
   Features forward(const torch::Tensor& image,
                    const std::array<torch::Tensor, kStages - 1>& feedback = {});
 
   /// Channels of C2 to C5.
   const std::array<std::int64_t, kStages>& channels() const { return channels_; }
 
-  /// Takes batch norms and standardisation into the weights, for inference.
+  /// Folds batch norms and standardization into the weights, for inference.
   void fold();
-  /// Stem and the first stages keep their weights in training.
+  /// Freezes the weights of the stem and the first stages.
   void freeze(int stages);
-  /// The batch norm of stem and the first stages keeps its statistics in training.
+  /// Freezes the batch norm statistics of the stem and the first stages.
   void keep_statistics(int stages);
   void train(bool on = true) override;
 

@@ -25,14 +25,14 @@ torch::Tensor kaiming_weight(const ConvShape& shape) {
   return weight;
 }
 
-/// The mean over each output channel, and how far its weights spread: (out, 1, 1, 1) both.
+/// Mean and standard deviation of the weights of each output channel: (out, 1, 1, 1) both.
 std::pair<torch::Tensor, torch::Tensor> channel_statistics(const torch::Tensor& weight) {
   const auto [variance, mean] =
       torch::var_mean(weight, {1, 2, 3}, /*unbiased=*/true, /*keepdim=*/true);
   return {mean, (variance + kVarianceFloor).sqrt()};
 }
 
-/// Mean of the 5x5 pixels about each stride-th one, mirrored at the border.
+/// Mean of the 5x5 pixels around each stride-th one, mirrored at the boundary.
 torch::Tensor mean_about(const torch::Tensor& x, std::int64_t stride = 1) {
   return torch::avg_pool2d(torch::reflection_pad2d(x, {2, 2, 2, 2}), 5, stride);
 }
@@ -132,7 +132,7 @@ torch::Tensor SwitchableConvImpl::convolve_at(const torch::Tensor& x, const torc
   return deformable_conv(x, convolve(pooled, offset), weight, shape_.stride, dilation);
 }
 
-/// The switch of the means is the mean of the switches, whose map has one channel.
+/// The switch of the means is the mean of the switch map, which has one channel.
 torch::Tensor SwitchableConvImpl::switch_at(const torch::Tensor& x) {
   const torch::Tensor each = torch::conv2d(x, switch_->weight, switch_->bias);
   return mean_about(each, shape_.stride);
@@ -147,7 +147,7 @@ torch::Tensor SwitchableConvImpl::forward(const torch::Tensor& input) {
   const torch::Tensor small = convolve_at(x, weight, offset_small_, pooled, 1);
   const torch::Tensor large =
       convolve_at(x, weight + difference_, offset_large_, pooled, kLargeDilation);
-  // In mixed precision the mean over pixels stays a float, the convolutions do not.
+  // In mixed precision the mean over pixels stays in float32, the convolutions do not.
   const torch::Tensor share = mix.to(small.scalar_type());
   return add_context(torch::lerp(large, small, share), post_context_);
 }

@@ -10,7 +10,7 @@
 
 namespace mms::network {
 
-/// Where and how a square kernel is laid over a map.
+/// Shape of a square convolution.
 struct ConvShape {
   std::int64_t in = 0;      ///< channels
   std::int64_t out = 0;     ///< channels
@@ -18,39 +18,39 @@ struct ConvShape {
   std::int64_t stride = 1;  ///< [px]; padding keeps the size at stride 1
 };
 
-/// W' = gamma (W - mean) / std + beta per output channel, with the unbiased variance (DetectoRS'
-/// adaptive weight standardisation, mmcv ConvAWS2d). gamma and beta are (out, 1, 1, 1).
+/// W' = gamma (W - mean) / std + beta per output channel, with the unbiased variance (adaptive
+/// weight standardization of DetectoRS, mmcv ConvAWS2d). gamma and beta are (out, 1, 1, 1).
 torch::Tensor standardise_weight(const torch::Tensor& weight, const torch::Tensor& gamma,
                                  const torch::Tensor& beta);
 
-/// Convolution of the backbone: no bias; weight standardised where the network has SAC.
+/// Convolution of the backbone: no bias; standardized weight if the network has SAC.
 class BackboneConvImpl : public torch::nn::Module {
  public:
   BackboneConvImpl(const ConvShape& shape, bool standardised);
   torch::Tensor forward(const torch::Tensor& x);
-  /// The weight that is convolved with.
+  /// The weight used in the convolution.
   torch::Tensor effective_weight() const;
-  /// Takes the batch norm that follows into weight and bias, for inference: the norm is to be left
-  /// out from then on.
+  /// Folds the following batch norm into weight and bias, for inference; the norm must be skipped
+  /// afterwards.
   void fold(torch::nn::BatchNorm2dImpl& norm);
   bool folded() const { return bias_.defined(); }
 
  private:
   ConvShape shape_;
   torch::Tensor weight_;
-  torch::Tensor gamma_;  ///< undefined when not standardised
+  torch::Tensor gamma_;  ///< undefined if not standardized
   torch::Tensor beta_;
   torch::Tensor bias_;  ///< of the folded norm; undefined before
 };
 TORCH_MODULE(BackboneConv);
 
-/// Switchable atrous convolution (DetectoRS): a 3x3 convolution at dilation 1 and one at 3, mixed
-/// per position by a switch, between two global contexts.
+/// Switchable atrous convolution (DetectoRS): 3x3 convolutions with dilations 1 and 3, mixed per
+/// pixel by a switch, between two global contexts.
 class SwitchableConvImpl : public torch::nn::Module {
  public:
   SwitchableConvImpl(const ConvShape& shape, bool deformable);
   torch::Tensor forward(const torch::Tensor& input);
-  /// Standardises the weights once and for all, for inference.
+  /// Standardizes the weights once, for inference.
   void fold();
 
  private:
@@ -64,13 +64,13 @@ class SwitchableConvImpl : public torch::nn::Module {
   torch::Tensor weight_;
   torch::Tensor gamma_;
   torch::Tensor beta_;
-  torch::Tensor difference_;  ///< of the dilated weight to the other
+  torch::Tensor difference_;  ///< difference of the dilated weight to the other
   torch::nn::Conv2d switch_{nullptr};
   torch::nn::Conv2d pre_context_{nullptr};
   torch::nn::Conv2d post_context_{nullptr};
-  torch::nn::Conv2d offset_small_{nullptr};  ///< null when not deformable
+  torch::nn::Conv2d offset_small_{nullptr};  ///< null if not deformable
   torch::nn::Conv2d offset_large_{nullptr};
-  torch::Tensor folded_;  ///< the standardised weight; undefined before `fold`
+  torch::Tensor folded_;  ///< standardized weight; undefined before `fold`
 };
 TORCH_MODULE(SwitchableConv);
 
@@ -79,7 +79,7 @@ class HeadUnitImpl : public torch::nn::Module {
  public:
   HeadUnitImpl(const ConvShape& shape, HeadNorm norm);
   torch::Tensor forward(const torch::Tensor& x);
-  /// Takes a batch norm into the convolution, for inference.
+  /// Folds the batch norm into the convolution, for inference.
   void fold();
 
  private:
@@ -89,7 +89,7 @@ class HeadUnitImpl : public torch::nn::Module {
 };
 TORCH_MODULE(HeadUnit);
 
-/// Convolution with bias and nothing else, kept one level down as `conv` (names of MMDetection).
+/// Convolution with bias, registered as child `conv` (names of MMDetection).
 class PlainUnitImpl : public torch::nn::Module {
  public:
   explicit PlainUnitImpl(const ConvShape& shape);
@@ -100,7 +100,7 @@ class PlainUnitImpl : public torch::nn::Module {
 };
 TORCH_MODULE(PlainUnit);
 
-/// Weight and bias of a convolution with the batch norm after it.
+/// Weight and bias of a convolution with the following batch norm.
 std::pair<torch::Tensor, torch::Tensor> folded_weight(const torch::Tensor& weight,
                                                       torch::nn::BatchNorm2dImpl& norm);
 

@@ -4,9 +4,9 @@
 
 namespace mms::network {
 
-/// torch::conv2d of square strides and dilations, padded so that the size is kept at stride 1. At
-/// inference on the CPU always by oneDNN: torch leaves small maps and 1x1 kernels to a BLAS, which
-/// in Debian is several times slower.
+/// torch::conv2d with square strides and dilations, padded so that the size is kept at stride 1. At
+/// inference on the CPU it uses oneDNN: torch uses BLAS for small maps and 1x1 kernels, which is
+/// several times slower with Debian's BLAS.
 /// @param bias  may be undefined
 torch::Tensor convolve(const torch::Tensor& x, const torch::Tensor& weight,
                        const torch::Tensor& bias, std::int64_t stride, std::int64_t dilation = 1);

@@ -35,7 +35,7 @@ torch::Tensor origins(std::int64_t count, std::int64_t stride, std::int64_t dila
 torch::Tensor deformable_conv(const torch::Tensor& input, const torch::Tensor& given_offsets,
                               const torch::Tensor& weight, std::int64_t stride,
                               std::int64_t dilation) {
-  const torch::Tensor x = input.to(torch::kFloat);  // positions need more than half's digits
+  const torch::Tensor x = input.to(torch::kFloat);  // positions need more than half precision
   const torch::Tensor offsets = given_offsets.to(torch::kFloat);
   const std::int64_t side = weight.size(2);
   const torch::Tensor rows = origins(offsets.size(2), stride, dilation, offsets).view({1, -1, 1});

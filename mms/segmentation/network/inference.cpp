@@ -7,9 +7,9 @@
 namespace mms::network {
 namespace {
 
-/// The first image's map; `tensor` is replaced by what it points into.
+/// The first image's map; `tensor` is replaced by the tensor that owns its data.
 ChannelsLastMap channels_last(torch::Tensor& tensor) {
-  // Of a map with one channel or one pixel both layouts are contiguous, and then also the same.
+  // For a map with one channel or one pixel both layouts are contiguous and equal.
   tensor = tensor.to(torch::kCPU, torch::kFloat).contiguous(at::MemoryFormat::ChannelsLast);
   return {tensor.data_ptr<float>(), static_cast<int>(tensor.size(1))};
 }

@@ -7,12 +7,12 @@
 
 namespace mms::network {
 
-/// Asks a network for the objects in one picture. The network is to be in evaluation mode.
+/// Detects the objects in one image. The network must be in evaluation mode.
 std::vector<Detection> detect(SoloNetwork& network, const Image<Rgb>& image,
                               const DecoderConfig& config);
 
-/// The maps of the first image of a batch, on the CPU; `output` is replaced by float32 tensors
-/// with their channels last, which the maps point into.
+/// The maps of the first image of a batch, on the CPU; `output` is replaced by float32 tensors with
+/// channels last that own the data.
 HeadMaps head_maps(HeadOutput& output);
 
 }  // namespace mms::network

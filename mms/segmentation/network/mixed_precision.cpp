@@ -6,7 +6,7 @@
 namespace mms::network {
 namespace {
 
-// torch 2 names the device; torch 1 has a function a device.
+// torch 2 has the device as an argument, torch 1 a function per device.
 void switch_autocast(torch::DeviceType device, bool on) {
 #if TORCH_VERSION_MAJOR >= 2
   at::autocast::set_autocast_enabled(device, on);
@@ -32,8 +32,8 @@ bool cpu_computes_in_bfloat16() {
 
 }  // namespace
 
-MixedPrecision::MixedPrecision(bool wanted, torch::DeviceType device)
-    : on_(wanted && (device != torch::kCPU || cpu_computes_in_bfloat16())), device_(device) {
+MixedPrecision::MixedPrecision(bool enabled, torch::DeviceType device)
+    : on_(enabled && (device != torch::kCPU || cpu_computes_in_bfloat16())), device_(device) {
   if (on_) switch_autocast(device_, true);
 }
 

@@ -4,12 +4,11 @@
 
 namespace mms::network {
 
-/// While one lives, convolutions and matrix products of the device run in bfloat16 where that is
-/// sound (torch's autocast) and the device computes in it: without such instructions a CPU would
-/// only convert to and fro.
+/// During its lifetime, convolutions and matrix products of the device run in bfloat16 (torch's
+/// autocast), if the device supports it: a CPU without such instructions would only convert.
 class MixedPrecision {
  public:
-  MixedPrecision(bool wanted, torch::DeviceType device);
+  MixedPrecision(bool enabled, torch::DeviceType device);
   ~MixedPrecision();
   MixedPrecision(const MixedPrecision&) = delete;
   MixedPrecision& operator=(const MixedPrecision&) = delete;

@@ -63,7 +63,7 @@ NeckImpl::NeckImpl(const NeckConfig& config, const BackboneConfig& backbone,
   if (!config.recursive) return;
   if (width % 4 != 0) {
     throw ConfigError("network.neck.channels", "is " + std::to_string(width),
-                      "a recursive pyramid needs a multiple of 4: its ASPP has four parts");
+                      "a recursive pyramid requires a multiple of 4: its ASPP has four parts");
   }
   second_->push_back(Backbone(backbone, width));
   register_module("rfp_modules", second_);
@@ -91,7 +91,7 @@ Pyramid NeckImpl::build(const BackboneImpl::Features& features) {
   return pyramid;
 }
 
-Pyramid NeckImpl::look_again(const torch::Tensor& image, const Pyramid& first) {
+Pyramid NeckImpl::second_step(const torch::Tensor& image, const Pyramid& first) {
   const Pyramid again =
       build(second_backbone()->forward(image, {aspp_(first[1]), aspp_(first[2]), aspp_(first[3])}));
   Pyramid fused;
@@ -104,7 +104,7 @@ Pyramid NeckImpl::look_again(const torch::Tensor& image, const Pyramid& first) {
 
 Pyramid NeckImpl::forward(const torch::Tensor& image, const BackboneImpl::Features& features) {
   const Pyramid first = build(features);
-  return second_->is_empty() ? first : look_again(image, first);
+  return second_->is_empty() ? first : second_step(image, first);
 }
 
 }  // namespace mms::network

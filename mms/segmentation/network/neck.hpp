@@ -12,10 +12,10 @@ namespace mms::network {
 /// P2 to P6: strides 4, 8, 16, 32, 64.
 using Pyramid = std::array<torch::Tensor, 5>;
 
-/// Atrous spatial pyramid pooling of DetectoRS: what the pyramid feeds back.
+/// Atrous spatial pyramid pooling of DetectoRS: the feedback of the pyramid.
 class AsppImpl : public torch::nn::Module {
  public:
-  /// @param channels  in and out; a multiple of 4
+  /// @param channels  input and output channels; a multiple of 4
   explicit AsppImpl(std::int64_t channels);
   torch::Tensor forward(const torch::Tensor& x);
 
@@ -24,14 +24,14 @@ class AsppImpl : public torch::nn::Module {
 };
 TORCH_MODULE(Aspp);
 
-/// Feature pyramid over a backbone's features; with `recursive` a second backbone that is fed the
-/// first pyramid looks again, and the two are fused (RFP, two steps).
+/// Feature pyramid on a backbone's features; with `recursive`, a second backbone with the feedback
+/// of the first pyramid processes the image again, and both pyramids are fused (RFP, two steps).
 class NeckImpl : public torch::nn::Module {
  public:
   NeckImpl(const NeckConfig& config, const BackboneConfig& backbone,
            const std::array<std::int64_t, BackboneImpl::kStages>& channels);
 
-  /// @param image     (B, 3, H, W), looked at again by the second backbone
+  /// @param image     (B, 3, H, W), input of the second backbone
   /// @param features  of the first backbone
   Pyramid forward(const torch::Tensor& image, const BackboneImpl::Features& features);
 
@@ -40,7 +40,7 @@ class NeckImpl : public torch::nn::Module {
 
  private:
   Pyramid build(const BackboneImpl::Features& features);
-  Pyramid look_again(const torch::Tensor& image, const Pyramid& first);
+  Pyramid second_step(const torch::Tensor& image, const Pyramid& first);
 
   torch::nn::ModuleList lateral_;
   torch::nn::ModuleList output_;

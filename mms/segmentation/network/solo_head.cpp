@@ -14,8 +14,8 @@ namespace {
 namespace nn = torch::nn;
 namespace F = torch::nn::functional;
 
-constexpr double kPriorProbability = 0.01;  // of an object in a cell, before any training
-constexpr double kInitialSpread = 0.01;     // of the predictions' weights
+constexpr double kPriorProbability = 0.01;  // initial probability of an object in a cell
+constexpr double kInitialSpread = 0.01;  // standard deviation of the predictions' initial weights
 
 torch::Tensor resized(const torch::Tensor& x, std::int64_t height, std::int64_t width) {
   if (x.size(2) == height && x.size(3) == width) return x;

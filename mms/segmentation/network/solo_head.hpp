@@ -8,17 +8,17 @@
 
 namespace mms::network {
 
-/// What SOLOv2's head says of a batch of images.
+/// Output of SOLOv2's head for a batch of images.
 struct HeadOutput {
   /// Logits of the categories, (B, classes, S, S) for each level's grid of S x S cells.
   std::array<torch::Tensor, HeadConfig::kLevels> categories;
   /// Kernels of the masks, (B, E, S, S).
   std::array<torch::Tensor, HeadConfig::kLevels> kernels;
-  /// (B, E, H/4, W/4), not negative: a mask's logits are its kernel times these.
+  /// (B, E, H/4, W/4), not negative: the logits of a mask are the product with its kernel.
   torch::Tensor mask_features;
 };
 
-/// One map for all masks of an image, from P2 to P5.
+/// Mask features from P2 to P5, shared by all masks of an image.
 class MaskFeatureHeadImpl : public torch::nn::Module {
  public:
   MaskFeatureHeadImpl(const HeadConfig& config, std::int64_t in);
@@ -41,14 +41,14 @@ class SoloHeadImpl : public torch::nn::Module {
 
   HeadConfig config_;
   torch::nn::ModuleList kernel_tower_;
-  torch::nn::ModuleList category_tower_;  ///< empty when the tower is shared
+  torch::nn::ModuleList category_tower_;  ///< empty if the tower is shared
   torch::nn::Conv2d category_{nullptr};
   torch::nn::Conv2d kernel_{nullptr};
   MaskFeatureHead mask_features_{nullptr};
 };
 TORCH_MODULE(SoloHead);
 
-/// Two channels (B, 2, H, W): x and y from -1 in the first pixel to 1 in the last.
+/// Two channels (B, 2, H, W): x and y from -1 at the first pixel to 1 at the last.
 torch::Tensor coordinate_channels(const torch::Tensor& like);
 
 }  // namespace mms::network

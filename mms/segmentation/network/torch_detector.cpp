@@ -27,7 +27,8 @@ TorchDetector::TorchDetector(const SegmentationModel& model, const std::string& 
 }
 
 std::vector<Detection> TorchDetector::detect(const Image<Rgb>& image) {
-  at::init_num_threads();  // a thread's number of threads is its own; frames may come in any
+  at::init_num_threads();  // torch's number of threads is per thread, and frames arrive in any
+                           // thread
   return network::detect(network_, image, config_);
 }
 

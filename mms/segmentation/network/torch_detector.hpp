@@ -6,13 +6,13 @@
 
 namespace mms::network {
 
-/// A trained network on libtorch: on the GPU where there is one, else on the CPU in float32 with
-/// batch norm folded into the convolutions.
+/// A trained network in libtorch: on the GPU if available, else on the CPU in float32 with batch
+/// norm folded into the convolutions.
 class TorchDetector : public Detector {
  public:
-  /// @param where    what errors call the model, as its file's name
-  /// @param threads  of libtorch, for the whole program; 0: one a core
-  /// @throws DataError when the weights do not fit the network.
+  /// @param where    name of the model in messages, such as the file name
+  /// @param threads  of libtorch, for the whole program; 0: one per core
+  /// @throws DataError if the weights do not fit the network.
   TorchDetector(const SegmentationModel& model, const std::string& where,
                 const DecoderConfig& config, int threads);
 

@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
-/// Reads a Python literal from left to right.
+/// Parses a Python literal from left to right.
 class LiteralReader {
  public:
   explicit LiteralReader(std::string_view text) : rest_(trimmed(text)) {}
@@ -26,14 +26,14 @@ class LiteralReader {
     return rest_.empty();
   }
 
-  /// Takes a sign if it is next.
+  /// Consumes `sign` if it is next.
   bool take(char sign) {
     if (at_end() || rest_.front() != sign) return false;
     rest_.remove_prefix(1);
     return true;
   }
 
-  /// "12:" in front of a value.
+  /// "12:" before a value.
   std::optional<int> key() {
     int number = 0;
     if (at_end()) return std::nullopt;
@@ -43,7 +43,7 @@ class LiteralReader {
     return take(':') ? std::optional(number) : std::nullopt;
   }
 
-  /// A text in either quotes; a backslash keeps the sign behind it.
+  /// A string in either kind of quotes; a backslash escapes the next character.
   std::optional<std::string> quoted() {
     if (at_end() || (rest_.front() != '\'' && rest_.front() != '"')) return std::nullopt;
     std::string text;
@@ -62,7 +62,7 @@ class LiteralReader {
   std::string_view rest_;
 };
 
-/// The names as far as the text can be read, by their numbers.
+/// The names by number, as far as the text can be parsed.
 std::map<int, std::string> numbered_names(LiteralReader& reader, bool dictionary) {
   std::map<int, std::string> names;
   do {
@@ -84,7 +84,7 @@ std::vector<std::string> listed_names(std::string_view text, const std::string& 
     names.emplace_back(trimmed(text.substr(begin, end - begin)));
     if (names.back().empty()) {
       throw DataError(where, "class " + std::to_string(names.size()) + " of '" + std::string(text) +
-                                 "' has no name");
+                                 "' is empty");
     }
     begin = end + 1;
   }

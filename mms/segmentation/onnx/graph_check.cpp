@@ -20,7 +20,7 @@ constexpr std::uint64_t kNodeOperator = 4;
 
 using Names = std::unordered_set<std::string_view>;
 
-/// Calls `action` with the bytes of each field of a number.
+/// Calls `action` with the bytes of each field of that number.
 template <class Action>
 void for_each(std::string_view message, std::uint64_t number, const std::string& where,
               const Action& action) {
@@ -30,7 +30,7 @@ void for_each(std::string_view message, std::uint64_t number, const std::string&
   }
 }
 
-/// What a graph has before its first layer; the empty name is an input left out.
+/// Inputs of the graph; the empty name is an omitted input.
 Names given_names(std::string_view graph, const std::string& where) {
   Names names = {""};
   const auto collect = [&](std::uint64_t field, std::uint64_t name) {
@@ -47,9 +47,9 @@ Names given_names(std::string_view graph, const std::string& where) {
   std::string type = "a layer";
   for_each(node, kNodeOperator, where, [&](std::string_view text) { type = text; });
   throw DataError(where,
-                  "has a layer " + type + " that takes '" + std::string(input) +
-                      "', which nothing before it makes",
-                  "export it anew");
+                  "has a layer " + type + " with the input '" + std::string(input) +
+                      "', which no earlier layer computes",
+                  "export it again");
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 
 namespace mms::onnx {
 
-/// Checks that each layer of an ONNX graph takes only what the graph is given or an earlier layer
-/// makes, as ONNX demands. OpenCV 4.6 crashes where one does not.
+/// Checks that the layers of an ONNX graph only use inputs of the graph and results of earlier
+/// layers, as ONNX requires; OpenCV 4.6 crashes otherwise.
 /// @param graph  the bytes of a GraphProto
-/// @throws DataError at `where` naming the layer, or when the bytes are no such message.
+/// @throws DataError at `where` with the layer, or if the bytes are not such a message.
 void check_graph(std::string_view graph, const std::string& where);
 
 }  // namespace mms::onnx

@@ -23,9 +23,9 @@ constexpr std::uint64_t kDimensionValue = 1;
 constexpr std::uint64_t kEntryKey = 1;
 constexpr std::uint64_t kEntryValue = 2;
 
-constexpr std::uint64_t kLargestSide = 4096;
+constexpr std::uint64_t kMaxSide = 4096;
 
-/// The first field of a number in a message.
+/// The first field of that number in a message.
 std::optional<ProtobufField> find(std::string_view message, std::uint64_t number,
                                   const std::string& where) {
   ProtobufReader reader(message, where);
@@ -35,7 +35,7 @@ std::optional<ProtobufField> find(std::string_view message, std::uint64_t number
   return std::nullopt;
 }
 
-/// The message inside a message inside ... that the numbers lead to; empty when there is none.
+/// The nested message at a path of field numbers; empty if there is none.
 std::string_view nested(std::string_view message, std::initializer_list<std::uint64_t> path,
                         const std::string& where) {
   for (const std::uint64_t number : path) {
@@ -45,7 +45,7 @@ std::string_view nested(std::string_view message, std::initializer_list<std::uin
   return message;
 }
 
-/// Lengths of a tensor's axes; 0 where the model leaves one open.
+/// Lengths of a tensor's axes; 0 if unspecified.
 std::vector<std::uint64_t> dimensions(std::string_view shape, const std::string& where) {
   std::vector<std::uint64_t> lengths;
   ProtobufReader reader(shape, where);
@@ -62,8 +62,8 @@ void read_input(std::string_view graph, ModelHeader& header, const std::string& 
       nested(graph, {kGraphInput, kInputType, kTypeTensor, kTensorShape}, where);
   const std::vector<std::uint64_t> lengths = dimensions(shape, where);
   const bool picture = lengths.size() == 4 && lengths[0] <= 1 &&
-                       (lengths[1] == 3 || lengths[1] == 0) && lengths[2] <= kLargestSide &&
-                       lengths[3] <= kLargestSide;
+                       (lengths[1] == 3 || lengths[1] == 0) && lengths[2] <= kMaxSide &&
+                       lengths[3] <= kMaxSide;
   if (picture) {
     header.height = static_cast<int>(lengths[2]);
     header.width = static_cast<int>(lengths[3]);
@@ -73,9 +73,9 @@ void read_input(std::string_view graph, ModelHeader& header, const std::string& 
   for (const std::uint64_t length : lengths) {
     found += (found.empty() ? "" : ", ") + (length == 0 ? "any" : std::to_string(length));
   }
-  throw DataError(where, "takes an input of shape (" + found +
+  throw DataError(where, "has an input of shape (" + found +
                              "), expected (1, 3, height, width) with sides of at most " +
-                             std::to_string(kLargestSide));
+                             std::to_string(kMaxSide));
 }
 
 void read_metadata(std::string_view entry, ModelHeader& header, const std::string& where) {
@@ -96,7 +96,7 @@ ModelHeader read_model_header(std::string_view bytes, const std::string& where) 
     read_input(field->bytes, header, where);
     graph = true;
   }
-  if (!graph) throw DataError(where, "is no ONNX model: it has no graph");
+  if (!graph) throw DataError(where, "is not an ONNX model: it has no graph");
   return header;
 }
 

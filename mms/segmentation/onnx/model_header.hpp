@@ -6,17 +6,17 @@
 
 namespace mms::onnx {
 
-/// What an ONNX file says of itself beside its layers.
+/// Header data of an ONNX file.
 struct ModelHeader {
-  int width = 0;  ///< of the pictures that it takes [px]; 0: any
+  int width = 0;  ///< of the input [px]; 0: any
   int height = 0;
-  std::vector<std::string> classes;  ///< from its metadata; empty when it names none
+  std::vector<std::string> classes;  ///< from its metadata; empty if absent
 };
 
-/// Reads the header of a file's bytes: the shape of the graph's first input, and what YOLO's tools
-/// write into the metadata as "names" (onnx.proto of ONNX's IR 3 to 10).
-/// @throws DataError at `where` when the bytes are no ONNX model, its graph is not sound
-///         (`check_graph`), or it does not take a single colour picture with sides of at most 4096.
+/// Reads the header of a file: the shape of the graph's first input, and the metadata "names" of
+/// YOLO tools (onnx.proto of ONNX's IR 3 to 10).
+/// @throws DataError at `where` if the bytes are not an ONNX model, its graph is invalid
+/// (`check_graph`), or its input is not a single color image with sides of at most 4096.
 ModelHeader read_model_header(std::string_view bytes, const std::string& where);
 
 }  // namespace mms::onnx

@@ -16,11 +16,11 @@ namespace mms {
 namespace fs = std::filesystem;
 namespace {
 
-const cv::Scalar kPadding(114, 114, 114);  // grey, of YOLO's tools
+const cv::Scalar kPadding(114, 114, 114);  // gray, as in YOLO tools
 
 std::string bytes_of(const fs::path& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) throw FileError(path.string(), "there is no such file");
+  if (!fs::exists(path, error)) throw FileError(path.string(), "no such file");
   if (!fs::is_regular_file(path, error)) throw FileError(path.string(), "is not a regular file");
   std::ifstream stream(path, std::ios::binary);
   std::string bytes(stream ? fs::file_size(path, error) : 0, '\0');
@@ -29,14 +29,14 @@ std::string bytes_of(const fs::path& path) {
   return bytes;
 }
 
-/// What the user says, else what the model says, else COCO's.
+/// Classes of the settings, else of the model, else of COCO.
 std::vector<std::string> classes_of(const OnnxConfig& config, const onnx::ModelHeader& header) {
   std::vector<std::string> given = onnx::listed_names(config.classes, "classes");
   if (!given.empty()) return given;
   return header.classes.empty() ? coco_classes() : header.classes;
 }
 
-/// The picture in the middle of a grey input: 1 x 3 x height x width, red first, in [0, 1].
+/// The image centered on a gray input: 1 x 3 x height x width, red first, in [0, 1].
 cv::Mat input_of(const Image<Rgb>& image, const onnx::Letterbox& letterbox) {
   const auto& [x, y] = letterbox;
   const cv::Mat pixels(image.height(), image.width(), CV_8UC3, const_cast<Rgb*>(image.row(0)));

@@ -14,14 +14,14 @@ namespace onnx {
 class OpencvNetwork;
 }
 
-/// Somebody else's network: an ONNX model for instance segmentation with the outputs of YOLOv5-seg,
-/// YOLOv8-seg or YOLO11-seg, run on the CPU by OpenCV's DNN module.
+/// An ONNX model for instance segmentation with the outputs of YOLOv5-seg, YOLOv8-seg or
+/// YOLO11-seg, run on the CPU by OpenCV's DNN module.
 class OnnxDetector : public Detector {
  public:
-  /// Reads the model and runs it once on an empty picture, so that faults show here.
-  /// @param threads  of OpenCV, for the whole program; 0: one a core
-  /// @throws FileError when the file cannot be read; DataError when it is no ONNX model, OpenCV
-  ///         cannot run it, or its outputs are of no known layout for its classes.
+  /// Reads the model and runs it once on an empty image, to detect faults early.
+  /// @param threads  of OpenCV, for the whole program; 0: one per core
+  /// @throws FileError if the file cannot be read; DataError if it is not an ONNX model, OpenCV
+  /// cannot run it, or its outputs have an unknown layout.
   OnnxDetector(const std::filesystem::path& model, const OnnxConfig& config, int threads);
   ~OnnxDetector() override;
 

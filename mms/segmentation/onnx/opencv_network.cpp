@@ -8,21 +8,21 @@
 namespace mms::onnx {
 namespace {
 
-constexpr std::size_t kLongestReason = 160;
+constexpr std::size_t kMaxReason = 160;
 
 /// The fault without OpenCV's source files: "Node [Add@ai.onnx]:(onnx_node!/Add) parse error".
 std::string reason_of(const std::exception& fault) {
   const auto* opencv = dynamic_cast<const cv::Exception*>(&fault);
   const std::string text = opencv != nullptr ? opencv->err : fault.what();
   const std::size_t end = std::min(text.find('\n'), text.find(": OpenCV("));
-  return text.substr(0, std::min(end, kLongestReason));
+  return text.substr(0, std::min(end, kMaxReason));
 }
 
 std::string running(int width, int height) {
   return "run it on " + std::to_string(width) + "x" + std::to_string(height) + " px";
 }
 
-/// Does what may throw in OpenCV.
+/// Runs an action that may throw in OpenCV.
 template <class Action>
 void guarded(const std::string& where, const std::string& doing, const Action& action) {
   try {

@@ -6,19 +6,18 @@
 
 namespace mms::onnx {
 
-/// An ONNX model in OpenCV's DNN module, on the CPU. OpenCV's faults become DataErrors with the
-/// reason in them.
+/// An ONNX model in OpenCV's DNN module, on the CPU. OpenCV's faults become DataErrors.
 class OpencvNetwork {
  public:
   /// @param bytes          of the file
-  /// @param where          what errors call the file
-  /// @param width, height  of the pictures [px]
-  /// @throws DataError when OpenCV cannot read the model or it does not take such pictures.
+  /// @param where          name of the file in messages
+  /// @param width, height of the images [px]
+  /// @throws DataError if OpenCV cannot read the model or it does not accept such images.
   OpencvNetwork(const std::string& bytes, const std::string& where, int width, int height);
 
   /// The model's outputs, each contiguous float32; valid until the next call.
   /// @param input  1 x 3 x height x width, float32
-  /// @throws DataError when OpenCV cannot run the model.
+  /// @throws DataError if OpenCV cannot run the model.
   std::vector<cv::Mat> forward(const cv::Mat& input);
 
  private:

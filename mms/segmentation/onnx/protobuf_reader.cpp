@@ -46,7 +46,7 @@ std::uint64_t ProtobufReader::varint() {
 std::string_view ProtobufReader::take(std::uint64_t size) {
   const std::size_t left = message_.size() - at_;
   if (size > left) {
-    fail("has a field of " + std::to_string(size) + " bytes where " + std::to_string(left) +
+    fail("has a field of " + std::to_string(size) + " bytes, but only " + std::to_string(left) +
          " are left");
   }
   const std::string_view taken = message_.substr(at_, static_cast<std::size_t>(size));
@@ -55,7 +55,7 @@ std::string_view ProtobufReader::take(std::uint64_t size) {
 }
 
 void ProtobufReader::fail(const std::string& what) const {
-  throw DataError(where_, "is no whole ONNX model: it " + what,
+  throw DataError(where_, "is not a complete ONNX model: it " + what,
                   "is it an .onnx file, and was it copied completely?");
 }
 

@@ -10,19 +10,20 @@ namespace mms::onnx {
 /// One field of a protobuf message.
 struct ProtobufField {
   std::uint64_t number = 0;
-  std::uint64_t value = 0;  ///< of a number; of 0 for bytes
-  std::string_view bytes;   ///< a text or a nested message; empty for a number
+  std::uint64_t value = 0;  ///< of a numeric field; 0 for bytes
+  std::string_view bytes;   ///< a string or a nested message; empty for a number
 };
 
-/// Goes over the fields of a protobuf message without knowing its schema.
+/// Iterates over the fields of a protobuf message without its schema.
 class ProtobufReader {
  public:
   /// @param message  has to outlive the reader and its fields
-  /// @param where    what errors call the file
+  /// @param where    name of the file in messages
   ProtobufReader(std::string_view message, const std::string& where)
       : message_(message), where_(where) {}
 
-  /// The next field; nothing at the end. @throws DataError where the bytes make no field.
+  /// The next field; nullopt at the end.
+  /// @throws DataError for an invalid field.
   std::optional<ProtobufField> next();
 
  private:

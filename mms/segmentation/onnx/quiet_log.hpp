@@ -4,8 +4,8 @@
 
 namespace mms::onnx {
 
-/// While it lives, OpenCV does not print what it throws as well. For the whole program: not to be
-/// used while other threads are in OpenCV.
+/// Suppresses OpenCV's messages during its lifetime; faults are reported as exceptions. For the
+/// whole program: not to be used while other threads use OpenCV.
 class QuietLog {
  public:
   QuietLog() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}

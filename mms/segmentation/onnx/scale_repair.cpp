@@ -6,7 +6,7 @@
 namespace mms::onnx {
 namespace {
 
-/// Whether axes of a tensor from `axis` on, one or more, have `values` values together.
+/// Whether one or more consecutive axes of a tensor from `axis` on have `values` values in total.
 bool fits(const cv::dnn::MatShape& shape, int axis, std::size_t values) {
   std::size_t product = 1;
   for (std::size_t i = static_cast<std::size_t>(axis); i < shape.size(); ++i) {
@@ -16,7 +16,7 @@ bool fits(const cv::dnn::MatShape& shape, int axis, std::size_t values) {
   return false;
 }
 
-/// The axis from which on, to the last, a tensor has `values` values; nothing below 0.
+/// The axis from which to the last a tensor has `values` values; negative if there is none.
 int trailing_axis(const cv::dnn::MatShape& shape, std::size_t values) {
   std::size_t product = 1;
   for (int axis = static_cast<int>(shape.size()) - 1; axis >= 0; --axis) {

@@ -22,7 +22,7 @@ bool has_area(const YoloBox& box) {
          std::isfinite(box.bottom) && box.left < box.right && box.top < box.bottom;
 }
 
-/// The likeliest class with its probability.
+/// The most probable class with its probability.
 void choose_class(const float* predictions, const YoloLayout& layout, YoloBox& box) {
   for (int category = 0; category < layout.classes; ++category) {
     const float probability =

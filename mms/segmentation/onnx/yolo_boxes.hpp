@@ -6,10 +6,10 @@
 
 namespace mms::onnx {
 
-/// A box that the network proposes. Its sides are places in the input [px].
+/// A box predicted by the network. Its sides are positions in the input [px].
 struct YoloBox {
-  int object = 0;    ///< among the predictions
-  int category = 0;  ///< the likeliest class
+  int object = 0;    ///< index among the predictions
+  int category = 0;  ///< the most probable class
   float score = 0.0F;
   float left = 0.0F;
   float top = 0.0F;
@@ -17,13 +17,13 @@ struct YoloBox {
   float bottom = 0.0F;
 };
 
-/// The boxes whose score is above `least`: the probability of their likeliest class, times the
-/// objectness where the layout has one. Boxes without an area are left out.
-/// @param predictions  float32, contiguous, as `layout` says
+/// The boxes with a score above `least`: the probability of their most probable class, times the
+/// objectness if the layout has one. Boxes without area are ignored.
+/// @param predictions  float32, contiguous, with `layout`
 std::vector<YoloBox> likely_boxes(const float* predictions, const YoloLayout& layout, float least);
 
-/// Non-maximum suppression class by class: best first, without those whose intersection over union
-/// with a better one of their class is above `overlap`; at most `most`.
+/// Non-maximum suppression per class: highest score first, without boxes whose intersection over
+/// union with a better one is above `overlap`; at most `most`.
 std::vector<YoloBox> suppress_boxes(std::vector<YoloBox> boxes, float overlap, int most);
 
 }  // namespace mms::onnx

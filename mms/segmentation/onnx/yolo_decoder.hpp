@@ -9,15 +9,15 @@
 
 namespace mms::onnx {
 
-/// A YOLO-seg model's outputs for one picture, contiguous float32.
+/// Outputs of a YOLO-seg model for one image, contiguous float32.
 struct YoloOutputs {
-  const float* predictions = nullptr;  ///< as the layout says
+  const float* predictions = nullptr;  ///< see the layout
   const float* prototypes = nullptr;   ///< coefficients x mask_height x mask_width
 };
 
-/// Turns the outputs into objects (threshold, non-maximum suppression class by class, masks cut out
-/// by their boxes), best first, with masks at the size of the picture. Objects without a pixel in
-/// the picture are left out.
+/// Decodes the outputs into objects (threshold, non-maximum suppression per class, masks cropped by
+/// their boxes), highest score first, with masks at the size of the image. Objects without a pixel
+/// in the image are ignored.
 std::vector<Detection> decode_yolo(const YoloOutputs& outputs, const YoloLayout& layout,
                                    const Letterbox& letterbox, const OnnxConfig& config);
 

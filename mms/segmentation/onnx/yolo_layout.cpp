@@ -17,14 +17,14 @@ std::string text_of(const Shape& shape) {
   std::string found;
   for (const Shape& shape : outputs) found += (found.empty() ? "" : " and ") + text_of(shape);
   const std::string count = std::to_string(classes);
-  throw DataError(where,
-                  "gives " + (found.empty() ? "nothing" : found) + ", known with " + count +
-                      " classes are (1, 4 + " + count +
-                      " + M, N) of YOLOv8-seg and YOLO11-seg "
-                      "and (1, N, 5 + " +
-                      count + " + M) of YOLOv5-seg, each with (1, M, H, W)",
-                  "take a model for segmentation, exported without NMS, and name its classes in "
-                  "their order");
+  throw DataError(
+      where,
+      "gives " + (found.empty() ? "nothing" : found) + ", supported for " + count +
+          " classes: (1, 4 + " + count +
+          " + M, N) of YOLOv8-seg and YOLO11-seg "
+          "and (1, N, 5 + " +
+          count + " + M) of YOLOv5-seg, each with (1, M, H, W)",
+      "use a model for segmentation, exported without NMS, and give its class names in order");
 }
 
 bool is_of_one_picture(const Shape& shape, std::size_t axes) {

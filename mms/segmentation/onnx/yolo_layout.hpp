@@ -9,23 +9,23 @@ namespace mms::onnx {
 /// Lengths of a tensor's axes.
 using Shape = std::vector<int>;
 
-/// The generations of YOLO-seg's outputs.
+/// Generations of YOLO-seg outputs.
 enum class YoloFormat {
   kV5,  ///< 1 x N x (box, objectness, classes, coefficients): YOLOv5
   kV8,  ///< 1 x (box, classes, coefficients) x N: YOLOv8, YOLO11
 };
 
-/// Where the values of N proposed objects lie in a model's outputs: the predictions, and the
-/// prototypes (1 x coefficients x mask_height x mask_width) that masks are sums of.
+/// Layout of N predicted objects in a model's outputs: the predictions, and the prototypes (1 x
+/// coefficients x mask_height x mask_width) of which masks are weighted sums.
 struct YoloLayout {
-  static constexpr int kBox = 4;  ///< centre x, centre y, width, height [px of the input]
+  static constexpr int kBox = 4;  ///< center x, center y, width, height [px of the input]
 
   YoloFormat format = YoloFormat::kV8;
-  std::size_t predictions = 0;  ///< which of the outputs
+  std::size_t predictions = 0;  ///< index among the outputs
   std::size_t prototypes = 1;
   int objects = 0;  ///< N
   int classes = 0;
-  int coefficients = 0;  ///< of a mask
+  int coefficients = 0;  ///< per mask
   int mask_width = 0;    ///< [px]
   int mask_height = 0;
 
@@ -34,7 +34,7 @@ struct YoloLayout {
   int first_coefficient() const { return first_class() + classes; }
   int channels() const { return first_coefficient() + coefficients; }
 
-  /// Where one value of an object is among the predictions.
+  /// Position of one value of an object in the predictions.
   std::size_t index(int object, int channel) const {
     const bool rows = format == YoloFormat::kV5;
     const auto row = static_cast<std::size_t>(rows ? object : channel);
@@ -43,9 +43,9 @@ struct YoloLayout {
   }
 };
 
-/// Tells from the shapes of a model's outputs, in any order, which layout they have.
-/// @param classes  how many the model is said to have
-/// @throws DataError at `where` with the shapes found and the layouts known.
+/// Determines the layout from the shapes of a model's outputs, in any order.
+/// @param classes  number of classes
+/// @throws DataError at `where` with the found and the supported shapes.
 YoloLayout find_layout(const std::vector<Shape>& outputs, int classes, const std::string& where);
 
 }  // namespace mms::onnx

@@ -8,14 +8,14 @@ namespace {
 
 constexpr float kThreshold = 0.5F;  // of a pixel's probability
 
-/// Between which prototype pixels a pixel of the picture lies.
+/// Interpolation of a pixel of the image between prototype pixels.
 struct Place {
   int low = 0;
   int high = 0;
-  float share = 0.0F;  ///< of `high`
+  float share = 0.0F;  ///< weight of `high`
 };
 
-/// One axis of a mask: the pixels of the picture from `first` on.
+/// One axis of a mask: the pixels of the image from `first` on.
 struct Axis {
   int first = 0;
   std::vector<Place> places;
@@ -25,7 +25,7 @@ struct Axis {
   int high() const { return places.back().high; }
 };
 
-/// The pixels whose centres are from `begin` to `end` [px of the input].
+/// The pixels whose centers are between `begin` and `end` [px of the input].
 Axis axis_between(float begin, float end, const LetterboxAxis& letterbox, int prototypes) {
   const auto pixel = [&](float place) {
     const float within =
@@ -85,7 +85,7 @@ class SoftMask {
   Image<float> values_;
 };
 
-/// Crops a mask to what is set in it.
+/// Crops a mask to its non-zero part.
 Detection cropped(const Detection& loose) {
   int left = loose.mask.width();
   int right = -1;

@@ -8,17 +8,17 @@
 
 namespace mms::onnx {
 
-/// Masks that every object's mask is a weighted sum of.
+/// Prototypes: every object's mask is a weighted sum of them.
 struct Prototypes {
   const float* values = nullptr;  ///< count x height x width, over the whole input of the network
   int width = 0;                  ///< [px]
   int height = 0;
 };
 
-/// The mask of a box at the size of the picture: sigmoid of the weighted sum of the prototypes,
-/// bilinear between their pixels, object where it exceeds one half and the pixel's centre is in the
-/// box; cropped. An empty mask when nothing does.
-/// @param coefficients  a weight for each prototype
+/// Mask of a box at the size of the image: sigmoid of the weighted sum of the prototypes, bilinear
+/// between their pixels, object where it exceeds one half and the pixel's center is in the box;
+/// cropped. Empty if there is none.
+/// @param coefficients  one weight per prototype
 Detection mask_in_box(const YoloBox& box, const std::vector<float>& coefficients,
                       const Prototypes& prototypes, const Letterbox& letterbox);
 

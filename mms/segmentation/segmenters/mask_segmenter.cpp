@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kNoRun = -1;
 
-/// Maximal horizontal stretch of one value: columns [begin, end) of row y.
+/// Maximal horizontal run of one value: columns [begin, end) of row y.
 struct Run {
   int y;
   int begin;
@@ -40,7 +40,7 @@ int find_root(std::vector<int>& parent, int i) {
   return i;
 }
 
-/// First run of the component of every run; runs of neighbouring rows touch when their columns
+/// First run of the component of every run; runs of adjacent rows are connected if their columns
 /// overlap or meet at a corner.
 std::vector<int> connect(const std::vector<Run>& runs) {
   std::vector<int> parent(runs.size());

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 9> kVehicles = {
 }  // namespace
 
 void NetworkSegmenterConfig::visit(ConfigVisitor& v) {
-  v.number({"score", "", "smallest score of an object that counts"}, score, {0.0, 1.0});
+  v.number({"score", "", "smallest score of a dynamic object"}, score, {0.0, 1.0});
   v.boolean({"person", "", "whether people count as dynamic"}, person);
   v.boolean({"agv", "", "whether vehicles count as dynamic"}, agv);
 }
@@ -32,15 +32,15 @@ NetworkSegmenter::NetworkSegmenter(std::unique_ptr<Detector> detector,
   bool any = false;
   for (const std::string& name : detector_->classes()) {
     std::optional<ObjectClass> meant = object_class_of(name);
-    const bool wanted = meant == ObjectClass::kPerson ? config.person : config.agv;
-    if (!wanted) meant.reset();
+    const bool enabled = meant == ObjectClass::kPerson ? config.person : config.agv;
+    if (!enabled) meant.reset();
     classes_.push_back(meant);
     any = any || meant.has_value();
   }
   if (any) return;
-  throw DataError("the network", "finds nothing that counts as dynamic",
-                  "its classes are to have person or agv among them, and segmentation.person or "
-                  "segmentation.agv is to be true");
+  throw DataError("the network", "detects no dynamic class",
+                  "its classes must include person or agv, and segmentation.person or "
+                  "segmentation.agv must be true");
 }
 
 Segmentation NetworkSegmenter::segment(const Frame& frame) {

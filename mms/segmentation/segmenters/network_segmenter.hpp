@@ -10,24 +10,24 @@
 
 namespace mms {
 
-/// Which of the objects that a network finds count as potentially dynamic.
+/// Which detected objects count as potentially dynamic.
 struct NetworkSegmenterConfig {
-  double score = 0.3;  ///< smallest
-  bool person = true;  ///< whether people count
-  bool agv = true;     ///< whether vehicles count
+  double score = 0.3;  ///< smallest score
+  bool person = true;  ///< whether people are dynamic
+  bool agv = true;     ///< whether vehicles are dynamic
 
   /// Declares the settings.
   void visit(ConfigVisitor& v);
 };
 
-/// The class that a network's own name for it means: "person", and "agv", "forklift", "truck" and
-/// other vehicles of COCO; nothing for all else.
+/// The class of a network's class name: "person", and "agv", "forklift", "truck" and other vehicles
+/// of COCO; nullopt for others.
 std::optional<ObjectClass> object_class_of(const std::string& name);
 
-/// Segments frames with a network (III-A). Frames without a picture have no instances.
+/// Segments frames with a network (III-A). Frames without an image have no instances.
 class NetworkSegmenter : public Segmenter {
  public:
-  /// @throws DataError when none of the detector's classes is wanted.
+  /// @throws DataError if none of the detector's classes is used.
   NetworkSegmenter(std::unique_ptr<Detector> detector, const NetworkSegmenterConfig& config);
 
   Segmentation segment(const Frame& frame) override;
@@ -35,7 +35,7 @@ class NetworkSegmenter : public Segmenter {
  private:
   std::unique_ptr<Detector> detector_;
   NetworkSegmenterConfig config_;
-  std::vector<std::optional<ObjectClass>> classes_;  ///< of the detector's categories, if wanted
+  std::vector<std::optional<ObjectClass>> classes_;  ///< of the detector's categories, if used
 };
 
 }  // namespace mms

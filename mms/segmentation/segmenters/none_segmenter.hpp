@@ -4,7 +4,7 @@
 
 namespace mms {
 
-/// Segmenter that finds nothing: the paper's row without semantic information.
+/// Segmenter without instances: the paper's row without semantic information.
 class NoneSegmenter : public Segmenter {
  public:
   Segmentation segment(const Frame& frame) override;

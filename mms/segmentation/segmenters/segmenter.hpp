@@ -5,12 +5,12 @@
 
 namespace mms {
 
-/// Finds the potentially dynamic objects in a frame's image (III-A).
+/// Segments the potentially dynamic objects in a frame's image (III-A).
 class Segmenter {
  public:
   virtual ~Segmenter() = default;
 
-  /// The instances of `frame`; the result has the size of the image they were found in.
+  /// The instances of `frame`; the result has the size of the segmented image.
   virtual Segmentation segment(const Frame& frame) = 0;
 };
 

@@ -26,7 +26,7 @@ std::vector<float> probabilities(std::span<const float> logits) {
 float probability_sum(std::span<const float> logits, const BitMask& mask) {
   float sum = 0.0F;
   for (std::size_t i = 0; i < mask.words.size(); ++i) {
-    if (mask.words[i] == 0) continue;  // most of a picture is not in a mask
+    if (mask.words[i] == 0) continue;  // most pixels are outside the mask
     const std::size_t first = i * kWordBits;
     const Values part = as_array(logits.subspan(first, std::min(kWordBits, logits.size() - first)));
     sum += (part > 0.0F).select(1.0F / (1.0F + (-part).exp()), 0.0F).sum();

@@ -8,7 +8,7 @@
 
 namespace mms {
 
-/// The probability that a logit stands for.
+/// Logistic function.
 inline float sigmoid(float logit) {
   return 1.0F / (1.0F + std::exp(-logit));
 }

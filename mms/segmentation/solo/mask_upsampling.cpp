@@ -9,7 +9,7 @@ namespace {
 constexpr float kThreshold = 0.5F;
 constexpr float kStride = 4.0F;  // input pixels per mask pixel
 
-/// Where the pixels of one axis of the picture lie in the mask.
+/// Interpolation positions of the image's pixels in the mask, along one axis.
 class Axis {
  public:
   Axis(int picture, int valid, int mask) : picture_(picture), mask_(mask) {
@@ -19,7 +19,7 @@ class Axis {
   struct Place {
     int low = 0;
     int high = 0;
-    float share = 0.0F;  ///< of `high`
+    float share = 0.0F;  ///< weight of `high`
   };
 
   /// Of the pixels first..last.
@@ -29,7 +29,7 @@ class Axis {
     return all;
   }
 
-  /// Pixels whose value may depend on the mask pixels first..last: inclusive range.
+  /// Image pixels that may depend on the mask pixels first..last: inclusive range.
   std::pair<int, int> reach(int first, int last) const {
     const auto pixel = [&](float at) { return (at + 0.5F) / step_ - 0.5F; };
     const int low = static_cast<int>(std::floor(pixel(static_cast<float>(first - 1))));
@@ -57,7 +57,7 @@ struct Box {
   int bottom = -1;
 };
 
-/// Box of the values that count, in rows of `width`.
+/// Bounding box of the values that count, in rows of `width`.
 template <class Value, class Counts>
 Box bounds(const std::vector<Value>& values, int width, const Counts& counts) {
   const auto row_of = [&](int y) { return values.data() + static_cast<std::ptrdiff_t>(y) * width; };
@@ -65,7 +65,7 @@ Box bounds(const std::vector<Value>& values, int width, const Counts& counts) {
   Box box{width, -1, 0, static_cast<int>(values.size()) / width - 1};
   while (box.top <= box.bottom && !has_some(box.top)) ++box.top;
   while (box.top < box.bottom && !has_some(box.bottom)) --box.bottom;
-  for (int y = box.top; y <= box.bottom; ++y) {  // only what may widen the box is looked at
+  for (int y = box.top; y <= box.bottom; ++y) {  // skips pixels that cannot extend the box
     const Value* row = row_of(y);
     box.left = static_cast<int>(std::find_if(row, row + box.left, counts) - row);
     int right = width - 1;
@@ -75,7 +75,7 @@ Box bounds(const std::vector<Value>& values, int width, const Counts& counts) {
   return box;
 }
 
-/// The rows first..last of a mask, each at the places of the picture's columns.
+/// The rows first..last of a mask, interpolated at the image's columns.
 Image<float> widened_rows(const std::vector<float>& soft, int mask_width, int first, int last,
                           const std::vector<Axis::Place>& columns) {
   Image<float> rows(static_cast<int>(columns.size()), last - first + 1);
@@ -87,14 +87,14 @@ Image<float> widened_rows(const std::vector<float>& soft, int mask_width, int fi
   return rows;
 }
 
-/// The object between two rows of probabilities.
+/// Thresholds the interpolation between two rows of probabilities.
 void cut_between(const float* low, const float* high, float share, int width, std::uint8_t* out) {
   for (int x = 0; x < width; ++x) {
     out[x] = low[x] + share * (high[x] - low[x]) > kThreshold ? 1 : 0;
   }
 }
 
-/// The mask at places between its pixels.
+/// The mask, interpolated at the given positions.
 Image<std::uint8_t> mask_at(const std::vector<float>& soft, int mask_width,
                             const std::vector<Axis::Place>& columns,
                             const std::vector<Axis::Place>& rows) {
@@ -109,7 +109,7 @@ Image<std::uint8_t> mask_at(const std::vector<float>& soft, int mask_width,
   return mask;
 }
 
-/// Crops a detection to the rows and columns that its mask is in.
+/// Crops a detection to the rows and columns of its mask.
 Detection cropped(const Detection& loose) {
   const Box box = bounds(loose.mask.pixels(), loose.mask.width(),
                          [](std::uint8_t value) { return value != 0; });

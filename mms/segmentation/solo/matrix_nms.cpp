@@ -16,7 +16,7 @@ float overlap(const NmsCandidate& a, const NmsCandidate& b) {
   return united == 0 ? 0.0F : static_cast<float>(common) / static_cast<float>(united);
 }
 
-/// At most 64 values as bits, the first one lowest. A span of fixed length vectorises.
+/// At most 64 values as bits, the first one lowest. A span of fixed length is vectorized.
 template <std::size_t kLength>
 std::uint64_t word_of(std::span<const float, kLength> values, float threshold) {
   std::uint64_t word = 0;

@@ -21,17 +21,17 @@ inline BitMask bit_mask(const std::vector<float>& values, float threshold) {
 /// Number of pixels in both of two masks of one size.
 int common_area(const BitMask& a, const BitMask& b);
 
-/// One mask that competes with the others of its category.
+/// A mask that competes with others of its category.
 struct NmsCandidate {
   int category = 0;
   float score = 0.0F;
   BitMask mask;
 };
 
-/// Matrix NMS of SOLOv2 with the Gaussian kernel: what the scores fall to where better masks of the
-/// same category overlap, decay_j = min over i < j of exp(-sigma (iou_ij^2 - c_i^2)), with c_i the
-/// largest overlap of i with a better one.
-/// @param candidates  in falling order of their scores
+/// Matrix NMS of SOLOv2 with the Gaussian kernel: factors on the scores for overlap with better
+/// masks of the same category, decay_j = min over i < j of exp(-sigma (iou_ij^2 - c_i^2)), with c_i
+/// the largest overlap of i with a better one.
+/// @param candidates  in descending order of score
 std::vector<float> matrix_nms(const std::vector<NmsCandidate>& candidates, float sigma = 2.0F);
 
 }  // namespace mms

@@ -58,7 +58,7 @@ void BackboneConfig::visit(ConfigVisitor& v) {
   int index = static_cast<int>(std::find(kLayers.begin(), kLayers.end(), depth) - kLayers.begin());
   v.choice({"depth", "", "layers of the ResNet"}, index, kDepths);
   depth = kLayers[static_cast<std::size_t>(index)];
-  v.integer({"last_planes", "", "planes of stage 4; ResNet's are 512"}, last_planes, {16, 512});
+  v.integer({"last_planes", "", "planes of stage 4; 512 in ResNet"}, last_planes, {16, 512});
   v.enumeration({"sac", "", "switchable atrous convolution in stages 2 to 4"}, sac, kSacModes);
 }
 
@@ -70,17 +70,17 @@ void NeckConfig::visit(ConfigVisitor& v) {
 
 void HeadConfig::visit(ConfigVisitor& v) {
   v.integer({"tower_channels", "", "of the kernel and category towers"}, tower_channels, {8, 1024});
-  v.integer({"tower_depth", "", "convolutions of a tower"}, tower_depth, {1, 8});
+  v.integer({"tower_depth", "", "convolutions per tower"}, tower_depth, {1, 8});
   v.boolean({"shared_tower", "", "one tower for kernels and categories"}, shared_tower);
   v.integer({"kernel_channels", "", "of the mask features, and of a kernel"}, kernel_channels,
             {8, 512});
   v.integer({"mask_channels", "", "hidden channels of the mask-feature branch"}, mask_channels,
             {8, 512});
-  v.number({"grid_density", "", "of SOLOv2's 40, 36, 24, 16 and 12 cells a side"}, grid_density,
-           {0.2, 2.0});
-  v.number({"object_scale", "px", "largest object of the finest grid, sqrt of its box's area"},
+  v.number({"grid_density", "", "factor of SOLOv2's 40, 36, 24, 16 and 12 cells per side"},
+           grid_density, {0.2, 2.0});
+  v.number({"object_scale", "px", "largest object of the finest grid, square root of its box area"},
            object_scale, {4.0, 400.0});
-  v.enumeration({"norm", "", "normalisation in the heads"}, norm, kNorms);
+  v.enumeration({"norm", "", "normalization in the heads"}, norm, kNorms);
 }
 
 std::array<int, HeadConfig::kLevels> HeadConfig::grids() const {
@@ -109,7 +109,7 @@ NetworkConfig NetworkConfig::preset(NetworkSize size, NetworkVariant variant) {
 void NetworkConfig::visit(ConfigVisitor& v) {
   const NetworkSize size_before = size;
   const NetworkVariant variant_before = variant;
-  v.enumeration({"size", "", "how large the network is; sets what is not written below"}, size,
+  v.enumeration({"size", "", "size of the network; sets all values that are not given"}, size,
                 kSizes);
   v.enumeration({"variant", "", "row of the paper's Table I; sets sac and recursive"}, variant,
                 kVariants);

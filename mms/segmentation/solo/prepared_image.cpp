@@ -8,16 +8,16 @@
 namespace mms {
 namespace {
 
-constexpr int kLargestStride = 32;
-constexpr int kSmallestSide = 96;  // SAC looks at 5x5 pixels of the coarsest map
+constexpr int kMaxStride = 32;
+constexpr int kMinSide = 96;  // SAC uses 5x5 pixels of the coarsest map
 constexpr std::array<float, 3> kMean = {123.675F, 116.28F, 103.53F};  // of ImageNet, r g b
 constexpr std::array<float, 3> kDeviation = {58.395F, 57.12F, 57.375F};
 
 }  // namespace
 
 int padded_length(int length) {
-  const int multiple = (length + kLargestStride - 1) / kLargestStride * kLargestStride;
-  return std::max(kSmallestSide, multiple);
+  const int multiple = (length + kMaxStride - 1) / kMaxStride * kMaxStride;
+  return std::max(kMinSide, multiple);
 }
 
 void normalise(const Image<Rgb>& image, int width, int height, int plane_width, int plane_height,

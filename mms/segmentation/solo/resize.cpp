@@ -8,7 +8,7 @@
 namespace mms {
 namespace {
 
-/// What one output pixel takes from a row (or column) of input pixels.
+/// Weights of input pixels of a row (or column) for one output pixel.
 struct Taps {
   int first = 0;  ///< input pixel
   std::vector<float> weights;
@@ -37,7 +37,7 @@ std::vector<Taps> all_taps(int output_size, int input_size) {
   return taps;
 }
 
-/// Weighted sum of input rows: 3 * width samples, and what else `row` has room for.
+/// Weighted sum of input rows: 3 * width samples, and the rest of `row`.
 void mix_rows(const Image<Rgb>& image, const Taps& taps, std::vector<float>& row) {
   const std::size_t samples = 3 * static_cast<std::size_t>(image.width());
   std::fill(row.begin(), row.end(), 0.0F);
@@ -49,9 +49,9 @@ void mix_rows(const Image<Rgb>& image, const Taps& taps, std::vector<float>& row
   }
 }
 
-/// Weighted sum of a row's pixels, as a vector of four: it reads one sample more than they have.
+/// Weighted sum of a row's pixels, as a vector of four: it reads one sample beyond the last pixel.
 Rgb mix_pixels(const std::vector<float>& row, const Taps& taps) {
-  Eigen::Array4f sum = Eigen::Array4f::Constant(0.5F);  // rounds what follows
+  Eigen::Array4f sum = Eigen::Array4f::Constant(0.5F);  // for rounding
   const float* sample = row.data() + 3 * static_cast<std::size_t>(taps.first);
   for (const float weight : taps.weights) {
     sum += weight * Eigen::Map<const Eigen::Array4f>(sample);

@@ -4,13 +4,13 @@
 
 namespace mms {
 
-/// Scales a picture with bilinear weights that widen when it shrinks, so that nothing is skipped
-/// (anti-aliased, as PIL's). Pixel areas are aligned, not pixel centres.
-/// @param width, height  wanted [px], at least 1
+/// Scales an image with bilinear weights that widen for downsampling (anti-aliased, as in PIL).
+/// Pixel areas are aligned, not pixel centers.
+/// @param width, height of the result [px], at least 1
 Image<Rgb> resize(const Image<Rgb>& image, int width, int height);
 
-/// The factor with which width x height just fits into long_side x short_side [px], whichever way
-/// it lies.
+/// The factor with which width x height fits into long_side x short_side [px], in either
+/// orientation.
 double fitting_scale(int width, int height, int long_side, int short_side);
 
 /// A scaled length, rounded, at least 1 [px].

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<int, HeadConfig::kLevels> kStrides = {8, 8, 16, 32, 32};
 
-/// A cell whose category is likely.
+/// A cell with a likely category.
 struct Cell {
   int level = 0;
   int index = 0;  ///< row-major
@@ -30,7 +30,7 @@ struct CategoryGrid {
 
   float logit(int row, int column) const { return map.cell(row * side + column)[category]; }
 
-  /// Whether no cell above, to the left or between has a higher logit.
+  /// Whether no adjacent cell above or to the left has a higher logit.
   bool is_peak(int row, int column) const {
     const float own = logit(row, column);
     for (int dy = 0; dy <= std::min(1, row); ++dy) {
@@ -42,9 +42,9 @@ struct CategoryGrid {
   }
 };
 
-/// Adds the peaks that may become objects. An object's score is its cell's times two factors of at
-/// most 1, and matrix NMS never lets a mask lower the score, or change the compensation, of one
-/// with a higher score: what cannot reach `config.score` can be left out without changing the rest.
+/// Adds the peaks that may become objects. An object's score is that of its cell times two factors
+/// of at most 1, and in matrix NMS a mask affects only those with lower scores. Cells that cannot
+/// reach `config.score` can therefore be skipped.
 void collect_peaks(const CategoryGrid& grid, int level, const DecoderConfig& config,
                    std::vector<Cell>& cells) {
   const auto probability = static_cast<float>(config.candidate_score);
@@ -77,7 +77,7 @@ std::vector<Cell> likely_cells(const HeadMaps& maps, const NetworkConfig& networ
   return cells;
 }
 
-/// A row a mask, a column a pixel.
+/// One row per mask, one column per pixel.
 using MaskLogits = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The dynamic convolution: mask logits of the cells.
@@ -96,13 +96,13 @@ MaskLogits mask_logits(const std::vector<Cell>& cells, const HeadMaps& maps,
   return kernels * features;
 }
 
-/// A mask that competes with the others.
+/// A mask before suppression.
 struct Candidate {
   NmsCandidate nms;
   std::span<const float> logits;  ///< of its pixels
 };
 
-/// The mask with its score times its maskness; area 0 when it is too small for its level.
+/// The mask with its score times its maskness; area 0 if it is too small for its level.
 Candidate candidate_of(const Cell& cell, std::span<const float> logits) {
   Candidate candidate{{cell.category, 0.0F, bit_mask(logits, 0.0F)}, logits};
   BitMask& mask = candidate.nms.mask;
@@ -115,7 +115,7 @@ Candidate candidate_of(const Cell& cell, std::span<const float> logits) {
   return candidate;
 }
 
-/// Sorts them, best first, and keeps at most so many.
+/// Sorts by score and keeps at most `most`.
 void keep_best(std::vector<Candidate>& candidates, int most) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.nms.score > b.nms.score; });
@@ -124,7 +124,7 @@ void keep_best(std::vector<Candidate>& candidates, int most) {
   }
 }
 
-/// The masks that may become objects, best first.
+/// The masks that may become objects, highest score first.
 std::vector<Candidate> candidates_of(const std::vector<Cell>& cells, const MaskLogits& logits,
                                      const DecoderConfig& config) {
   const auto pixels = static_cast<std::size_t>(logits.cols());
@@ -138,7 +138,7 @@ std::vector<Candidate> candidates_of(const std::vector<Cell>& cells, const MaskL
   return candidates;
 }
 
-/// Lets better masks suppress worse ones; what is left, best first.
+/// Matrix NMS; the remaining ones, highest score first.
 void suppress(std::vector<Candidate>& candidates, const DecoderConfig& config) {
   std::vector<NmsCandidate> competing;
   for (const Candidate& candidate : candidates) competing.push_back(candidate.nms);
@@ -156,8 +156,8 @@ void DecoderConfig::visit(ConfigVisitor& v) {
   v.number({"candidate_score", "", "smallest probability of a cell's category"}, candidate_score,
            {0.001, 0.999});
   v.number({"score", "", "smallest score after matrix NMS"}, score, {0.0, 1.0});
-  v.integer({"candidates", "", "at most, before matrix NMS"}, candidates, {1, 10000});
-  v.integer({"instances", "", "at most, after it"}, instances, {1, 1000});
+  v.integer({"candidates", "", "largest number before matrix NMS"}, candidates, {1, 10000});
+  v.integer({"instances", "", "largest number after matrix NMS"}, instances, {1, 1000});
 }
 
 std::vector<Detection> decode(const HeadMaps& maps, const NetworkConfig& network,

@@ -64,7 +64,7 @@ class BackboneWalk {
     layers_.batch_norm(name + "bn3", out);
   }
 
-  /// All convolutions have their weights standardised as soon as some are switchable.
+  /// All convolutions have standardized weights if some are switchable.
   void conv(const std::string& name, std::int64_t out, std::int64_t in, std::int64_t side) {
     layers_.conv(name, out, in, side);
     if (config_.sac == SacMode::kNone) return;
@@ -72,7 +72,7 @@ class BackboneWalk {
     layers_.add(name + ".weight_beta", {out, 1, 1, 1});
   }
 
-  /// What a switchable convolution has besides its standardised weight.
+  /// Tensors of a switchable convolution besides its standardized weight.
   void add_switch(const std::string& name, std::int64_t planes) {
     layers_.add(name + ".weight_diff", {planes, planes, 3, 3});
     layers_.biased_conv(name + ".switch", 1, planes, 1);

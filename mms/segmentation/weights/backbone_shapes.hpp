@@ -8,24 +8,22 @@
 
 namespace mms {
 
-/// What the names of the tensors of the one backbone begin with, and of the one that a recursive
-/// pyramid looks with again.
+/// Prefixes of the tensor names of the first backbone and of the second one of a recursive pyramid.
 inline constexpr std::string_view kFirstBackbone = "backbone.";
 inline constexpr std::string_view kSecondBackbone = "neck.rfp_modules.0.";
 
-/// How many residual blocks the four stages of a ResNet have, and of which kind.
+/// Number and kind of the residual blocks of a ResNet's four stages.
 struct ResnetLayout {
   int depth = 50;  ///< layers, as in ResNet-50
   std::array<int, 4> blocks{};
   bool bottleneck = false;  ///< 1x1, 3x3, 1x1 instead of two 3x3
 };
 
-/// The ResNets that a network may have: of 18, 34 and 50 layers.
+/// Supported ResNets: 18, 34 and 50 layers.
 const std::array<ResnetLayout, 3>& resnet_layouts();
 
-/// Adds a backbone's tensors, which begin with `prefix`: torchvision's names, and DetectoRS' where
-/// it has SAC.
-/// @param feedback  channels of the pyramid that are fed back into stages 2 to 4; 0: none
+/// Adds a backbone's tensors with `prefix`: torchvision's names, and DetectoRS' for SAC.
+/// @param feedback  channels of the pyramid's feedback to stages 2 to 4; 0: none
 void add_backbone(const BackboneConfig& config, const std::string& prefix, std::int64_t feedback,
                   LayerShapes& layers);
 

@@ -13,12 +13,13 @@ namespace {
 
 constexpr const char* kStem = "backbone.conv1.weight";
 constexpr const char* kStrideNote =
-    "from detectron2, whose ResNet-50 has the stride in the 1x1 convolutions: has to be trained on";
+    "from detectron2, whose ResNet-50 has the stride in the 1x1 convolutions: requires further "
+    "training";
 
-/// A checkpoint's tensors under the network's names.
+/// A checkpoint's tensors with the network's names.
 struct RenamedTensors {
   std::map<std::string, WeightTensor> tensors;
-  std::map<std::string, std::string> published;  ///< the names that they had
+  std::map<std::string, std::string> published;  ///< original names
   bool detectron = false;
 
   TensorShapes shapes() const {
@@ -28,7 +29,7 @@ struct RenamedTensors {
   }
 };
 
-RenamedTensors rename(std::map<std::string, WeightTensor> tensors, const std::string& where) {
+RenamedTensors rename(std::map<std::string, WeightTensor>&& tensors, const std::string& where) {
   RenamedTensors renamed;
   for (auto& [published, tensor] : tensors) {
     const std::optional<std::string> name = network_name(published);
@@ -56,7 +57,7 @@ void check_no_unknown(const RenamedTensors& found, const TensorShapes& expected,
   }
   if (count == 0) return;
   throw DataError(where,
-                  "has " + std::to_string(count) + " tensors that its network has no place for: " +
+                  "has " + std::to_string(count) + " tensors that do not fit its network: " +
                       names + (count > kShown ? ", ..." : ""),
                   deformable ? "deformable convolutions are only supported as part of SAC" : "");
 }
@@ -71,26 +72,27 @@ void check_none_missing(const RenamedTensors& found, const TensorShapes& expecte
   }
   if (count == 0) return;
   throw DataError(
-      where, "lacks " + std::to_string(count) + " tensors of its network, the first is " + first);
+      where, "lacks " + std::to_string(count) + " tensors of its network, the first one: " + first);
 }
 
 void check_shapes(const RenamedTensors& found, const TensorShapes& expected,
                   const std::string& where) {
   for (const auto& [name, tensor] : found.tensors) {
-    const TensorShape& wanted = expected.at(name);
-    if (tensor.shape != wanted) {
-      throw DataError(where, "tensor '" + found.published.at(name) + "' is of shape " +
-                                 shape_text(tensor.shape) + ", expected " + shape_text(wanted));
+    const TensorShape& expected_shape = expected.at(name);
+    if (tensor.shape != expected_shape) {
+      throw DataError(where, "tensor '" + found.published.at(name) + "' has shape " +
+                                 shape_text(tensor.shape) + ", expected " +
+                                 shape_text(expected_shape));
     }
-    const std::size_t count = value_count(wanted);
+    const std::size_t count = value_count(expected_shape);
     if (tensor.values.size() == count) continue;
     throw DataError(where, "tensor '" + found.published.at(name) + "' has " +
-                               std::to_string(tensor.values.size()) + " values, its shape makes " +
-                               std::to_string(count));
+                               std::to_string(tensor.values.size()) +
+                               " values, expected by its shape: " + std::to_string(count));
   }
 }
 
-/// Weights for RGB divided by ImageNet's deviation, from those for BGR as it is.
+/// Converts weights for BGR to weights for RGB divided by ImageNet's standard deviation.
 void take_normalised_rgb(WeightTensor& stem) {
   constexpr std::array<float, 3> kDeviation = {58.395F, 57.12F, 57.375F};  // of red, green, blue
   const std::size_t kernel = static_cast<std::size_t>(stem.shape[2] * stem.shape[3]);

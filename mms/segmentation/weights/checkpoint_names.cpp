@@ -16,7 +16,7 @@ constexpr std::string_view kDetectronBackbone = "backbone.bottom_up.";
 
 constexpr std::array<std::string_view, 3> kWrappers = {"state_dict.", "model.", "module."};
 
-// How names begin. The first that fits counts.
+// Prefixes of names. The first match counts.
 constexpr std::array<Replacement, 25> kBeginnings = {{
     // WXinlong/SOLO
     {"bbox_head.cate_convs.", "mask_head.cls_convs."},
@@ -48,7 +48,7 @@ constexpr std::array<Replacement, 25> kBeginnings = {{
     {"backbone.fpn_output5.", "neck.fpn_convs.3.conv."},
 }};
 
-// Parts in the middle, which no other framework's names have.
+// Inner parts, which no other framework's names contain.
 constexpr std::array<Replacement, 11> kCenters = {{
     // detectron2
     {".conv1.norm.", ".bn1."},
@@ -65,7 +65,7 @@ constexpr std::array<Replacement, 11> kCenters = {{
     {".conv2.1.", ".conv2.gn."},
 }};
 
-/// Wrappers may lie in one another.
+/// Wrappers may be nested.
 void unwrap(std::string& name) {
   for (bool again = true; again;) {
     again = false;
@@ -94,8 +94,8 @@ void replace_center(std::string& name) {
   }
 }
 
-/// AdelaiDet's towers count convolution, norm and ReLU each for itself: 0 and 1 are of the first
-/// unit, 3 and 4 of the second.
+/// AdelaiDet's towers number convolution, norm and ReLU separately: 0 and 1 belong to the first
+/// unit, 3 and 4 to the second.
 void replace_tower(std::string& name, std::string_view from, std::string_view to) {
   if (!name.starts_with(from)) return;
   constexpr int kLayersOfUnit = 3;

@@ -10,9 +10,9 @@
 namespace mms {
 namespace {
 
-constexpr int kLightTower = 256;  // widest of the light networks
+constexpr int kLightTower = 256;  // widest tower of the light networks
 
-/// Looks up what the tensors tell.
+/// Finds the network's parameters in the tensors.
 class TensorFacts {
  public:
   TensorFacts(const TensorShapes& tensors, const std::string& where)
@@ -29,13 +29,13 @@ class TensorFacts {
   int channels(const std::string& name) const {
     const auto found = tensors_.find(name + ".weight");
     if (found == tensors_.end()) {
-      throw DataError(where_, "is no SOLOv2 network: it has no tensor '" + name + ".weight'",
-                      "checkpoints of MMDetection, WXinlong/SOLO and AdelaiDet are read");
+      throw DataError(where_, "is not a SOLOv2 network: missing tensor '" + name + ".weight'",
+                      "supported: checkpoints of MMDetection, WXinlong/SOLO and AdelaiDet");
     }
     constexpr std::size_t kSides = 4;
     const TensorShape& shape = found->second;
     if (shape.size() != kSides || shape[0] > std::numeric_limits<int>::max()) {
-      throw DataError(where_, "tensor '" + found->first + "' is of shape " + shape_text(shape) +
+      throw DataError(where_, "tensor '" + found->first + "' has shape " + shape_text(shape) +
                                   ", a convolution's (out, in, height, expected width)");
     }
     return static_cast<int>(shape[0]);
@@ -43,7 +43,7 @@ class TensorFacts {
 
   /// One more than the largest N of the names "prefixN.".
   int count(const std::string& prefix) const {
-    constexpr int kMost = 1000;
+    constexpr int kMaxIndex = 1000;
     int count = 0;
     for (auto it = tensors_.lower_bound(prefix); it != tensors_.end(); ++it) {
       const std::string& name = it->first;
@@ -51,7 +51,7 @@ class TensorFacts {
       int number = 0;
       const char* digits = name.data() + prefix.size();
       const auto [end, fault] = std::from_chars(digits, name.data() + name.size(), number);
-      if (fault == std::errc() && number < kMost) count = std::max(count, number + 1);
+      if (fault == std::errc() && number < kMaxIndex) count = std::max(count, number + 1);
     }
     return count;
   }
@@ -72,11 +72,10 @@ int infer_depth(const TensorFacts& facts, const std::string& where) {
   for (const ResnetLayout& known : resnet_layouts()) {
     if (known.blocks == found.blocks && known.bottleneck == found.bottleneck) return known.depth;
   }
-  throw DataError(where,
-                  "its backbone has stages of " + blocks +
-                      (found.bottleneck ? " bottleneck" : " plain") +
-                      " blocks, allowed are ResNet-18 (2, 2, 2, 2 plain), ResNet-34 (3, 4, 6, "
-                      "3 plain) and ResNet-50 (3, 4, 6, 3 bottleneck)");
+  throw DataError(where, "its backbone has stages of " + blocks +
+                             (found.bottleneck ? " bottleneck" : " plain") +
+                             " blocks, allowed: ResNet-18 (2, 2, 2, 2 plain), ResNet-34 (3, 4, 6, "
+                             "3 plain) and ResNet-50 (3, 4, 6, 3 bottleneck)");
 }
 
 SacMode infer_sac(const TensorFacts& facts) {
@@ -99,17 +98,17 @@ void infer_head(const TensorFacts& facts, HeadConfig& head) {
   head.norm = facts.has("mask_head.kernel_convs.0.bn.weight") ? HeadNorm::kBatch : HeadNorm::kGroup;
 }
 
-/// Holds the numbers found against the ranges that the settings have.
+/// Checks the parameters against the ranges of the settings.
 class RangeCheck final : public ConfigVisitor {
  public:
   explicit RangeCheck(const std::string& where) : where_(where) {}
 
   void integer(const FieldInfo& info, int& value, Range range) override {
     if (value >= range.min && value <= range.max) return;
-    throw DataError(where_, "its tensors make a network whose " + std::string(info.key) + " is " +
-                                std::to_string(value) + ", allowed is " +
-                                std::to_string(static_cast<int>(range.min)) + " to " +
-                                std::to_string(static_cast<int>(range.max)));
+    throw DataError(where_, "its tensors result in a network whose " + std::string(info.key) +
+                                " is " + std::to_string(value) +
+                                ", allowed: " + std::to_string(static_cast<int>(range.min)) +
+                                " to " + std::to_string(static_cast<int>(range.max)));
   }
   void number(const FieldInfo&, double&, Range) override {}
   void boolean(const FieldInfo&, bool&) override {}

@@ -27,7 +27,7 @@ WeightTensor constant(std::int64_t channels, double value) {
           std::vector<float>(static_cast<std::size_t>(channels), static_cast<float>(value))};
 }
 
-/// Takes over one convolution with its batch norm after the other.
+/// Copies the convolutions with their batch norms.
 class BackboneTransfer {
  public:
   BackboneTransfer(const Weights& given, const BackboneConfig& config) {
@@ -39,7 +39,7 @@ class BackboneTransfer {
     }
   }
 
-  /// Under names without a prefix.
+  /// With names without a prefix.
   ImagenetBackbone run() {
     for (const auto& [name, shape] : wanted_) {
       if (!name.ends_with(kMean)) continue;
@@ -55,7 +55,7 @@ class BackboneTransfer {
   }
 
  private:
-  /// A tensor given in the shape wanted.
+  /// A tensor if it has the expected shape.
   const WeightTensor* find(const std::string& name) const { return find(name, wanted_.at(name)); }
 
   const WeightTensor* find(const std::string& name, const TensorShape& shape) const {

@@ -8,19 +8,20 @@
 
 namespace mms {
 
-/// What a network's backbones take over from a classifier.
+/// Weights that a network's backbones take from a classifier.
 struct ImagenetBackbone {
-  Weights weights;                    ///< by the network's names, complete layers only
-  std::vector<std::string> left_out;  ///< convolutions and batch norms of `backbone.` without any
+  Weights weights;  ///< by the network's names, complete layers only
+  std::vector<std::string>
+      left_out;  ///< convolutions and batch norms of `backbone.` without weights
 };
 
-/// Initial weights from a ResNet that torchvision trained on ImageNet; both backbones get them when
-/// the network looks twice. A convolution and the batch norm after it go together: where one of
-/// them is missing or of another shape, both are left out. Batch norm may be folded into the
-/// convolutions, which then have a bias: it comes back as one that only adds this bias. Where the
-/// network standardises weights (SAC), mean and deviation are set so that the weights convolved
-/// with are those given. What ImageNet knows nothing of (fc, SAC's switches, RFP) is no part of it.
-/// @throws DataError at `where` when no layer fits.
+/// Initial weights from torchvision's ResNet trained on ImageNet, for both backbones of a recursive
+/// network. A convolution and the following batch norm are copied together; if one of them is
+/// missing or has another shape, both are skipped. Batch norm may be folded into convolutions with
+/// a bias: it becomes a batch norm that only adds this bias. For standardized weights (SAC), gamma
+/// and beta are set so that the effective weights are the given ones. Layers without a counterpart
+/// (fc, SAC's switch, RFP) are not included.
+/// @throws DataError at `where` if no layer fits.
 ImagenetBackbone imagenet_backbone(const Weights& torchvision, const NetworkConfig& config,
                                    const std::string& where);
 

@@ -10,7 +10,7 @@
 namespace mms {
 namespace {
 
-constexpr float kLargest = 127.0F;
+constexpr float kMaxInt8 = 127.0F;
 constexpr std::string_view kScale = "_scale";
 
 /// The values of one output channel.
@@ -19,11 +19,11 @@ std::span<float> channel(WeightTensor& tensor, std::size_t index) {
   return std::span(tensor.values).subspan(index * count, count);
 }
 
-/// The step of a channel, whose values become multiples of it.
+/// The step of a channel, whose values are rounded to multiples of it.
 float round_to_bytes(std::span<float> values) {
   float largest = 0.0F;
   for (const float value : values) largest = std::max(largest, std::abs(value));
-  const float step = largest / kLargest;
+  const float step = largest / kMaxInt8;
   for (float& value : values) value = largest > 0.0F ? std::round(value / step) : 0.0F;
   return step;
 }
@@ -35,7 +35,7 @@ void multiply(WeightTensor& tensor, const std::string& name, const WeightTensor&
                     "'" + name + std::string(kScale) + "' has " +
                         std::to_string(steps.values.size()) +
                         " steps, expected one for each output channel of '" + name + "'",
-                    "mms quantize writes both");
+                    "write it with mms quantize");
   }
   for (std::size_t i = 0; i < steps.values.size(); ++i) {
     for (float& value : channel(tensor, i)) {
@@ -68,7 +68,7 @@ Weights from_bytes(Weights weights, const std::string& where) {
     const auto found = weights.tensors.find(of);
     if (found == weights.tensors.end()) {
       throw DataError(where, "has '" + name + "' but no tensor '" + of + "'",
-                      "mms quantize writes both");
+                      "write it with mms quantize");
     }
     multiply(found->second, of, tensor, where);
   }

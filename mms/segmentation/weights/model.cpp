@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kClasses = "classes";
 
-/// Goes over a config's fields with their whole paths: "network.head.norm".
+/// Visits a config's fields with their full paths: "network.head.norm".
 class PathVisitor : public ConfigVisitor {
  protected:
   void begin_group(const FieldInfo& info) override { groups_.push_back(path(info) + "."); }
@@ -57,7 +57,7 @@ class MetadataReader final : public PathVisitor {
     parse(info, value, range, "a number");
   }
   void integer(const FieldInfo& info, int& value, Range range) override {
-    parse(info, value, range, "a whole number");
+    parse(info, value, range, "an integer");
   }
   void boolean(const FieldInfo& info, bool& value) override {
     constexpr std::array<std::string_view, 2> kWords = {"false", "true"};
@@ -85,21 +85,21 @@ class MetadataReader final : public PathVisitor {
   const std::string& find(const FieldInfo& info) const {
     const auto found = metadata_.find(path(info));
     if (found == metadata_.end()) {
-      throw DataError(where_, "does not say what network it is for: no '" + path(info) + "'",
-                      "weights of other programs are converted with mms import");
+      throw DataError(where_, "does not describe its network: missing '" + path(info) + "'",
+                      "convert weights of other programs with mms import");
     }
     return found->second;
   }
 
   template <class Number>
-  void parse(const FieldInfo& info, Number& value, Range range, const std::string& wanted) const {
+  void parse(const FieldInfo& info, Number& value, Range range, const std::string& expected) const {
     const std::string& text = find(info);
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = fault == std::errc() && end == text.data() + text.size();
     const auto number = static_cast<double>(value);
     if (whole && number >= range.min && number <= range.max) return;
     std::ostringstream allowed;
-    allowed << wanted << " in [" << range.min << ", " << range.max << "]";
+    allowed << expected << " in [" << range.min << ", " << range.max << "]";
     fail(info, text, allowed.str());
   }
 

@@ -8,19 +8,19 @@
 
 namespace mms {
 
-/// A trained network: how it is built, what its classes are called, what it learned.
+/// A trained network: architecture, class names and weights.
 struct SegmentationModel {
   NetworkConfig network;
-  std::vector<std::string> classes;  ///< a name for each of network.classes
-  Weights weights;                   ///< the metadata are free
+  std::vector<std::string> classes;  ///< one name for each of network.classes
+  Weights weights;                   ///< with any metadata
 };
 
-/// The model as one set of weights that says itself what it is: architecture ("network.head.norm")
-/// and class names ("classes") go into the metadata.
+/// The model as one set of weights: architecture ("network.head.norm") and class names ("classes")
+/// are stored in the metadata.
 Weights pack_model(SegmentationModel model);
 
-/// Reads what `pack_model` wrote; weights in bytes become floats. @throws DataError at `where` when
-/// the metadata are missing or make no network.
+/// Inverse of `pack_model`; int8 weights become floats.
+/// @throws DataError at `where` if the metadata are missing or invalid.
 SegmentationModel unpack_model(Weights weights, const std::string& where);
 
 }  // namespace mms

@@ -8,12 +8,12 @@
 namespace mms {
 namespace {
 
-/// What is left of a name behind a prefix; empty where the name has another.
+/// Rest of a name after a prefix; empty if the prefix differs.
 std::string_view after(std::string_view name, std::string_view prefix) {
   return name.starts_with(prefix) ? name.substr(prefix.size()) : std::string_view();
 }
 
-/// Tells at how many places the kernel of a tensor is laid.
+/// Number of positions of a tensor's kernel.
 class Positions {
  public:
   Positions(const NetworkConfig& config, int width, int height)
@@ -54,7 +54,7 @@ class Positions {
 
   std::int64_t head(std::string_view name) const {
     const auto level = after(name, "mask_feature_head.convs_all_levels.");
-    if (!level.empty()) {  // "2.conv1.conv.weight": each is on a map of twice the size
+    if (!level.empty()) {  // "2.conv1.conv.weight": each one on a map of twice the size
       const int doublings = level[6] - '0';
       return at_stride((4 << (level[0] - '0')) >> doublings);
     }

@@ -6,12 +6,12 @@
 
 namespace mms {
 
-/// Operations (two a multiply-add) of a network's convolutions for one image, without those of the
-/// objects' masks.
-/// @param width, height  of the padded input [px], multiples of 32
+/// Operations (two per multiply-add) of a network's convolutions for one image, without those of
+/// the objects' masks.
+/// @param width, height of the padded input [px], multiples of 32
 std::int64_t network_operations(const NetworkConfig& config, int width, int height);
 
-/// Numbers that a network learns or keeps.
+/// Number of parameters and statistics.
 std::int64_t network_parameters(const NetworkConfig& config);
 
 }  // namespace mms

@@ -9,9 +9,9 @@ namespace mms {
 namespace {
 
 constexpr std::int64_t kCoordinates = 2;  // channels appended to a map: x and y
-constexpr int kLevels = 4;                // of the pyramid that come from the backbone
+constexpr int kLevels = 4;                // levels of the pyramid from the backbone
 
-/// Feature pyramid, with the second look's additions.
+/// Feature pyramid, with additions of the second RFP step.
 void add_neck(const NetworkConfig& config, LayerShapes& layers) {
   const std::int64_t channels = config.neck.channels;
   const auto inputs = backbone_channels(config.backbone);
@@ -30,7 +30,7 @@ void add_neck(const NetworkConfig& config, LayerShapes& layers) {
   layers.biased_conv("neck.rfp_weight", 1, channels, 1);
 }
 
-/// Convolution without bias, normalised.
+/// Convolution without bias, with norm.
 void add_unit(const std::string& name, std::int64_t out, std::int64_t in, std::int64_t side,
               HeadNorm norm, LayerShapes& layers) {
   layers.conv(name + ".conv", out, in, side);
@@ -49,7 +49,7 @@ void add_tower(const std::string& name, std::int64_t in, const HeadConfig& confi
   }
 }
 
-/// Each level has one convolution before each time that it is enlarged, the first level one.
+/// Each level has one convolution before each upsampling, the first level one.
 void add_mask_features(const std::string& name, std::int64_t in, const HeadConfig& config,
                        LayerShapes& layers) {
   for (int level = 0; level < kLevels; ++level) {
@@ -89,12 +89,12 @@ void check_fitting(const Weights& weights, const TensorShapes& expected, const s
   for (const auto& [name, tensor] : weights.tensors) {
     const auto found = expected.find(name);
     if (found == expected.end()) {
-      throw DataError(where, "has the tensor " + name + ", which the network does not",
-                      "the weights are of another architecture");
+      throw DataError(where, "has the tensor " + name + ", which its network does not have",
+                      "the weights have another architecture");
     }
     if (tensor.shape != found->second) {
       throw DataError(where, "tensor " + name + " is " + shape_text(tensor.shape) +
-                                 ", but the network's is " + shape_text(found->second));
+                                 ", the network has " + shape_text(found->second));
     }
   }
 }
@@ -103,8 +103,7 @@ void check_complete(const Weights& weights, const TensorShapes& expected,
                     const std::string& where) {
   for (const auto& [name, shape] : expected) {
     if (!weights.tensors.contains(name)) {
-      throw DataError(where, "lacks the network's tensor " + name,
-                      "the weights are of another architecture");
+      throw DataError(where, "misses the tensor " + name, "the weights have another architecture");
     }
   }
   check_fitting(weights, expected, where);

@@ -8,15 +8,14 @@
 
 namespace mms {
 
-/// Names and shapes of all parameters and statistics of a network, just as its weights file has
-/// them. Names are MMDetection's (SOLOv2 and DetectoRS) without the counters `num_batches_tracked`.
+/// Names and shapes of all parameters and statistics of a network, as in its weights file. Names
+/// are MMDetection's (SOLOv2 and DetectoRS) without the counters `num_batches_tracked`.
 TensorShapes expected_tensors(const NetworkConfig& config);
 
-/// @throws DataError at `where` for a tensor that is not among the expected ones, or of another
-/// shape.
+/// @throws DataError at `where` for an unexpected tensor or a wrong shape.
 void check_fitting(const Weights& weights, const TensorShapes& expected, const std::string& where);
 
-/// @throws DataError at `where` for a tensor that is missing, too.
+/// @throws DataError at `where` for a missing tensor as well.
 void check_complete(const Weights& weights, const TensorShapes& expected, const std::string& where);
 
 }  // namespace mms

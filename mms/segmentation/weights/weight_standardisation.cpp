@@ -13,7 +13,7 @@ constexpr std::string_view kGamma = ".weight_gamma";
 
 struct Spread {
   double mean = 0.0;
-  double deviation = 0.0;  ///< what is divided by
+  double deviation = 0.0;  ///< divisor
 };
 
 Spread spread_of(std::span<const float> values) {

@@ -9,7 +9,7 @@
 namespace mms {
 namespace {
 
-/// Of the convolutions of the first backbone that are given.
+/// For the given convolutions of the first backbone.
 void add_standardisation(const BackboneConfig& config, Weights& weights) {
   constexpr std::string_view kGamma = ".weight_gamma";
   LayerShapes layers;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kFiles = "/files/";
 
-/// Nothing but what this server gives, and no scripts within the page.
+/// Allows only resources of this server, and no inline scripts.
 std::string page_policy(const std::string& host) {
   return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
          "font-src 'self'; connect-src 'self' ws://" +
@@ -21,11 +21,11 @@ std::string page_policy(const std::string& host) {
          "frame-ancestors 'none'";
 }
 
-/// A run's report has its style and pictures in itself, and no scripts.
+/// A report has inline style and images, and no scripts.
 constexpr const char* kFilePolicy =
     "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox";
 
-/// Whether the Host can be put into a header: a name or address and a port.
+/// Whether the Host is valid in a header: a name or address and a port.
 bool is_plain_host(std::string_view host) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_:[]";
@@ -41,13 +41,13 @@ std::string tag_of(std::string_view bytes) {
 Answer page_answer(std::string_view path, const Request& request) {
   const PageFile* file = find_page_file(path);
   if (file == nullptr) {
-    return text_answer(404, page_files().empty() ? "this mms was built without the viewer's page"
-                                                 : "there is nothing at this address");
+    return text_answer(
+        404, page_files().empty() ? "this mms was built without the viewer page" : "not found");
   }
   Answer answer;
   answer.kind = Answer::Kind::kBytes;
   answer.type = mime_type(file->path);
-  answer.cache = "no-cache";  // but asked for again by its tag
+  answer.cache = "no-cache";  // revalidated by its tag
   answer.tag = tag_of(file->bytes);
   answer.policy = page_policy(request.host);
   answer.bytes = file->bytes;
@@ -77,7 +77,7 @@ Answer file_answer(std::string_view name, const Scene& scene) {
 }
 
 Answer web_socket_answer(const Request& request) {
-  if (!request.upgrades) return text_answer(426, "this address is for WebSocket");
+  if (!request.upgrades) return text_answer(426, "this address requires WebSocket");
   Answer answer;
   answer.kind = Answer::Kind::kWebSocket;
   return answer;
@@ -94,12 +94,13 @@ Answer text_answer(int status, std::string text) {
 }
 
 Answer answer_to(const Request& request, const Scene& scene, bool loopback) {
-  if (!is_plain_host(request.host)) return text_answer(400, "the Host is missing or no host");
+  if (!is_plain_host(request.host))
+    return text_answer(400, "the Host header is missing or invalid");
   if (loopback && !is_loopback_name(request.host)) {
-    return text_answer(403, "this server answers to localhost only");
+    return text_answer(403, "this server only answers to localhost");
   }
   if (!is_own_origin(request.origin, request.host)) {
-    return text_answer(403, "pages of another origin may not use this server");
+    return text_answer(403, "requests from pages of other origins are rejected");
   }
   if (!request.reads) return text_answer(405, "only GET and HEAD are allowed");
   const std::string_view target = request.target;

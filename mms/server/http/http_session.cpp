@@ -22,7 +22,7 @@ namespace beast = boost::beast;
 namespace http = boost::beast::http;
 
 constexpr std::uint32_t kMaxHeader = 8 * 1024;  ///< bytes
-constexpr std::uint64_t kMaxBody = 1024;        ///< bytes; nothing is read from it
+constexpr std::uint64_t kMaxBody = 1024;        ///< bytes; bodies are ignored
 constexpr std::chrono::seconds kReadTime{15};
 constexpr std::chrono::seconds kSendTime{120};
 
@@ -70,9 +70,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     }
     if (error && error.category() == http::make_error_code(http::error::bad_method).category() &&
         error != http::error::end_of_stream && error != http::error::partial_message) {
-      return refuse(text_answer(400, "this is no HTTP request"));
+      return refuse(text_answer(400, "invalid HTTP request"));
     }
-    if (error) return;  // gone, or silent for too long
+    if (error) return;  // closed, or timeout
     request_ = parser_->release();
     head_ = request_.method() == http::verb::head;
     Answer answer = answer_to(request_of(request_), *service_.scene, service_.loopback);
@@ -83,13 +83,13 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   void upgrade() {
     if (service_.viewers >= service_.options.max_viewers || service_.closing) {
-      return send(text_answer(503, "there are as many viewers as this server takes"));
+      return send(text_answer(503, "the maximum number of viewers is connected"));
     }
-    stream_.expires_never();  // WebSocket has limits of its own
+    stream_.expires_never();  // WebSocket has its own timeouts
     start_viewer(service_, std::move(stream_), std::move(request_));
   }
 
-  /// Writes a live run's file, sends it, and removes it.
+  /// Writes a file of a live run, sends it, and removes it.
   void make_file(Answer answer) {
     stream_.expires_never();
     asio::post(service_.encoder, [self = shared_from_this(), answer = std::move(answer)]() mutable {
@@ -101,7 +101,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       }
       asio::post(self->service_.io, [self, answer] {
         self->send(answer);
-        std::error_code ignored;  // an open file can still be read
+        std::error_code ignored;  // an open file remains readable
         if (!answer.live_file.empty()) {
           std::filesystem::remove(answer.file, ignored);
           std::filesystem::remove(answer.file.parent_path(), ignored);

@@ -8,8 +8,7 @@
 
 namespace mms {
 
-/// Answers the requests of a connection until it is closed, stands still for too long or becomes a
-/// viewer's WebSocket.
+/// Answers the requests of a connection until it is closed, times out or becomes a WebSocket.
 void start_http(Service& service, boost::asio::ip::tcp::socket socket);
 
 }  // namespace mms

@@ -24,14 +24,14 @@ namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
-constexpr std::size_t kMaxConnections = 128;  ///< those beyond are closed at once
+constexpr std::size_t kMaxConnections = 128;  ///< others are closed immediately
 constexpr std::chrono::milliseconds kGoodbyeTime{1000};
-constexpr std::chrono::milliseconds kAcceptPause{100};  ///< when the system has no more sockets
-constexpr std::chrono::seconds kMapPeriod{2};           ///< between takeovers without viewers
+constexpr std::chrono::milliseconds kAcceptPause{100};  ///< if the system is out of sockets
+constexpr std::chrono::seconds kMapPeriod{2};           ///< between map updates without viewers
 constexpr int kNiceness = 15;                           ///< of background threads
 
-/// Lets the calling thread give way to all others.
-void give_way() {
+/// Lowers the priority of the calling thread.
+void lower_priority() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness);
 }
 
@@ -42,10 +42,10 @@ void give_way() {
     throw DataError(where, "is in use by another program", "end it or choose another port" + hint);
   }
   if (error == asio::error::access_denied) {
-    throw DataError(where, "may not be listened at", "choose a port above 1023" + hint);
+    throw DataError(where, "requires privileges", "choose a port above 1023" + hint);
   }
-  throw DataError(where, "cannot be listened at: " + error.message(),
-                  "give an address of this machine, or 0.0.0.0 for all of them");
+  throw DataError(where, "cannot be used: " + error.message(),
+                  "use an address of this machine, or 0.0.0.0 for all");
 }
 
 asio::ip::address address_of(const ServerOptions& options) {
@@ -53,9 +53,8 @@ asio::ip::address address_of(const ServerOptions& options) {
   const auto address =
       asio::ip::make_address(options.address == "localhost" ? "127.0.0.1" : options.address, error);
   if (error) {
-    throw DataError(
-        "--bind", "'" + options.address + "' is no address",
-        "expected an address of this machine, for example 192.168.1.5, or 0.0.0.0 for all");
+    throw DataError("--bind", "'" + options.address + "' is not an address",
+                    "expected an address of this machine such as 192.168.1.5, or 0.0.0.0 for all");
   }
   return address;
 }
@@ -71,13 +70,13 @@ class ViewerServer::Parts {
         map_timer_(service_.io) {
     listen();
     accept();
-    take_over_map();
+    apply_map_changes();
     if (options.background) {
-      asio::post(service_.encoder, give_way);
-      asio::post(service_.loader, give_way);
+      asio::post(service_.encoder, lower_priority);
+      asio::post(service_.loader, lower_priority);
     }
     thread_ = std::thread([this, background = options.background] {
-      if (background) give_way();
+      if (background) lower_priority();
       service_.io.run();
     });
   }
@@ -107,11 +106,11 @@ class ViewerServer::Parts {
  private:
   void listen() {
     const ServerOptions& options = service_.options;
-    const tcp::endpoint wanted(address_of(options), options.port);
+    const tcp::endpoint local(address_of(options), options.port);
     ErrorCode error;
-    acceptor_.open(wanted.protocol(), error);
+    acceptor_.open(local.protocol(), error);
     if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
-    if (!error) acceptor_.bind(wanted, error);
+    if (!error) acceptor_.bind(local, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error) fail(options, error);
     endpoint_ = acceptor_.local_endpoint();
@@ -135,14 +134,14 @@ class ViewerServer::Parts {
     });
   }
 
-  /// So that changes of the map do not pile up while nobody views.
-  void take_over_map() {
+  /// Prevents map changes from accumulating without viewers.
+  void apply_map_changes() {
     map_timer_.expires_after(kMapPeriod);
     map_timer_.async_wait([this](ErrorCode error) {
       if (error) return;
       asio::post(service_.encoder,
                  [this] { service_.scene->read_map([](const MapChunks&) { return 0; }); });
-      take_over_map();
+      apply_map_changes();
     });
   }
 

@@ -20,14 +20,14 @@ namespace websocket = boost::beast::websocket;
 constexpr std::chrono::milliseconds kTick{33};
 constexpr std::chrono::seconds kHandshakeTime{10};
 constexpr std::chrono::seconds kIdleTime{30};  ///< without an answer to a ping
-constexpr int kMaxCommandsPerTick = 20;        ///< the others wait
+constexpr int kMaxCommandsPerTick = 20;        ///< others wait
 constexpr int kMaxFaults = 100;                ///< then the connection is closed
-/// What the system may hold of a slow viewer's messages, which are old when they arrive.
+/// Send buffer of the socket, small because a slow viewer's messages become outdated.
 constexpr int kSendBuffer = 256 * 1024;
 
-/// What `make` gives, or nothing where it fails: memory may be short, a picture damaged.
+/// Result of `make`, or nullopt on failure, such as lack of memory or a damaged image.
 template <class Result, class Make>
-Result or_nothing(const Make& make) {
+Result try_make(const Make& make) {
   try {
     return make();
   } catch (const std::exception&) {
@@ -35,8 +35,8 @@ Result or_nothing(const Make& make) {
   }
 }
 
-/// One viewer's socket. All of it runs in the thread of the sockets, but for what is posted to the
-/// other two.
+/// WebSocket of one viewer. Runs in the thread of the sockets, except for tasks posted to the other
+/// two.
 class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
  public:
   using Clock = Viewer::Clock;
@@ -104,14 +104,14 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
     });
   }
 
-  /// Sends what is next, once what was before is on its way.
+  /// Sends the next message after the previous one is written.
   void pump() {
     if (busy_ || ended_) return;
     const auto encode = viewer_.next(Clock::now());
     if (!encode) return;
     busy_ = true;
     asio::post(service_.encoder, [self = shared_from_this(), encode = *encode] {
-      const Message message = or_nothing<Message>(encode);
+      const Message message = try_make<Message>(encode);
       self->back([self, message] { message ? self->write(message) : self->end(); });
     });
   }
@@ -127,11 +127,11 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
   }
 
   void load_pictures() {
-    const auto wanted = viewer_.wanted_pictures(Clock::now());
+    const auto wanted = viewer_.requested_pictures(Clock::now());
     if (!wanted) return;
     asio::post(service_.loader, [self = shared_from_this(), frame = *wanted] {
       const auto pictures =
-          or_nothing<Viewer::Pictures>([&] { return self->service_.pictures.get(frame); });
+          try_make<Viewer::Pictures>([&] { return self->service_.pictures.get(frame); });
       self->back([self, pictures] {
         self->viewer_.loaded(pictures);
         self->pump();
@@ -155,7 +155,7 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
     });
   }
 
-  /// Goes on in the thread of the sockets.
+  /// Continues in the thread of the sockets.
   template <class Next>
   void back(Next next) {
     asio::post(service_.io, std::move(next));
@@ -181,7 +181,7 @@ class ViewerSession : public std::enable_shared_from_this<ViewerSession> {
   asio::steady_timer timer_;
   beast::flat_buffer buffer_;
   Viewer viewer_;
-  bool busy_ = false;  // a message is being made or written
+  bool busy_ = false;  // a message is being encoded or written
   bool reading_ = false;
   bool ended_ = false;
   int commands_ = 0;  // since the last tick

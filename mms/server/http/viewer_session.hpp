@@ -10,7 +10,7 @@
 
 namespace mms {
 
-/// Goes on with a connection as a viewer's WebSocket, which lives as long as the viewer stays.
+/// Upgrades a connection to a viewer's WebSocket, which exists until the viewer disconnects.
 void start_viewer(Service& service, boost::beast::tcp_stream stream,
                   boost::beast::http::request<boost::beast::http::string_body> request);
 

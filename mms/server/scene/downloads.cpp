@@ -29,11 +29,12 @@ bool holds(const std::array<std::string_view, n>& names, std::string_view name) 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// In a folder of its own, which nobody else can have made or may write to.
+/// In a new private folder.
 fs::path new_temporary(std::string_view name) {
   std::string folder = fs::temp_directory_path() / "mms-XXXXXX";
   if (::mkdtemp(folder.data()) == nullptr) {
-    throw FileError(folder, "no temporary folder can be made there", "set TMPDIR to another place");
+    throw FileError(folder, "a temporary folder cannot be created there",
+                    "set TMPDIR to another folder");
   }
   return fs::path(folder) / name;
 }

@@ -11,8 +11,8 @@ constexpr int kBlockSide = 1 << MapChunks::kBlockBits;
 constexpr int kBlockMask = kBlockSide - 1;
 constexpr int kBlockCells = kBlockSide * kBlockSide * kBlockSide;
 constexpr Rgb kUncoloredVoxel{128, 128, 128};
-/// Voxels from the origin beyond which a point counts as broken: keys are 32-bit.
-constexpr float kFarthest = 1e9F;
+/// Largest distance of a valid point from the origin [voxels]: keys have 32 bits.
+constexpr float kMaxVoxels = 1e9F;
 
 VoxelKey chunk_of_block(const VoxelKey& block) {
   constexpr int kBits = MapChunks::kSideBits - MapChunks::kBlockBits;
@@ -46,10 +46,10 @@ Eigen::Vector3f position_of(const VoxelKey& voxel, const VoxelChange& change, do
 auto place_of(std::vector<VoxelChange>& voxels, std::uint16_t cell) {
   return std::lower_bound(
       voxels.begin(), voxels.end(), cell,
-      [](const VoxelChange& voxel, std::uint16_t wanted) { return voxel.cell < wanted; });
+      [](const VoxelChange& voxel, std::uint16_t target) { return voxel.cell < target; });
 }
 
-/// Means of the points that share a cell of a coarser grid within one chunk.
+/// Means of the points per cell of a coarser grid within one chunk.
 class CellMeans {
  public:
   explicit CellMeans(int level)
@@ -215,7 +215,7 @@ MapChanges changes_of(std::span<const Eigen::Vector3f> points, std::span<const R
   tsl::robin_map<VoxelKey, std::size_t, VoxelKeyHash> place;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f steps = points[i] * inverse;
-    if (!steps.allFinite() || steps.cwiseAbs().maxCoeff() > kFarthest) continue;
+    if (!steps.allFinite() || steps.cwiseAbs().maxCoeff() > kMaxVoxels) continue;
     const VoxelKey voxel = voxel_key(points[i], inverse);
     const VoxelKey key = block_of(voxel);
     const auto [found, added] = place.try_emplace(key, changes.blocks.size());

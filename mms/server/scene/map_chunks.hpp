@@ -17,46 +17,46 @@ namespace mms {
 
 /// A chunk's points at one level of detail.
 struct LevelPoints {
-  int level = 0;            ///< 0: the map's own voxels; each level more doubles their side
+  int level = 0;            ///< 0: voxels of the map; each further level doubles the side
   double voxel_size = 0.0;  ///< side of a voxel at that level [m]
   ColoredPoints cloud;      ///< world frame
 };
 
-/// What there is to send of a chunk.
+/// State of a chunk.
 struct ChunkState {
   VoxelKey key;                                      ///< in units of the chunk's side
-  std::uint64_t version = 0;                         ///< grows with every change
-  std::size_t points = 0;                            ///< at level 0; about
+  std::uint64_t version = 0;                         ///< incremented by every change
+  std::size_t points = 0;                            ///< at level 0; approximate
   Eigen::Vector3f center = Eigen::Vector3f::Zero();  ///< world frame [m]
 };
 
-/// The static map in cubes of kSide^3 voxels that viewers are sent one by one. It repeats what the
-/// views did to the map (MapChanges), and shows the voxels that the map itself would show.
+/// The static map in cubes of kSide^3 voxels, sent to viewers one by one. Applies the changes of
+/// the map (MapChanges) and contains the same visible voxels.
 class MapChunks {
  public:
-  static constexpr int kBlockBits = 3;  ///< 8 voxels are a block's side
+  static constexpr int kBlockBits = 3;  ///< a block's side is 8 voxels
   static constexpr int kSideBits = 7;
   static constexpr int kSide = 1 << kSideBits;  ///< voxels
-  static constexpr int kLevels = 4;             ///< 0 to 3, the coarsest
+  static constexpr int kLevels = 4;             ///< 0 to 3 (coarsest)
 
-  /// @param min_observations  views that have to see a voxel before it is shown
+  /// @param min_observations  observations that a voxel needs to be visible
   explicit MapChunks(int min_observations) : min_observations_(min_observations) {}
 
-  /// Repeats the changes of a view. Voxels with no place in a block are passed over.
+  /// Applies changes. Ignores voxels with an invalid index.
   void apply(const MapChanges& changes);
 
-  /// The chunks that have voxels, by key.
+  /// The chunks with voxels, by key.
   std::vector<ChunkState> states() const;
 
-  /// The shown points of a chunk, down-sampled to means; none for an unknown one.
+  /// The visible points of a chunk, downsampled to means; none for an unknown chunk.
   LevelPoints points(const VoxelKey& chunk, int level) const;
 
-  /// All shown points.
+  /// All visible points.
   ColoredPoints cloud() const;
 
   double voxel_size() const { return voxel_size_; }
   std::uint64_t version() const { return version_; }
-  std::size_t size() const { return voxels_; }  ///< voxels, shown or not
+  std::size_t size() const { return voxels_; }  ///< voxels, visible or not
 
  private:
   struct Block {
@@ -83,7 +83,7 @@ class MapChunks {
   std::map<VoxelKey, Chunk> chunks_;
 };
 
-/// A cloud as changes of an empty map. Points that share a voxel become one.
+/// A cloud as changes of an empty map, one point per voxel.
 /// @param voxel_size  [m], > 0
 MapChanges changes_of(std::span<const Eigen::Vector3f> points, std::span<const Rgb> colors,
                       double voxel_size);

@@ -4,7 +4,7 @@ namespace mms {
 namespace {
 
 constexpr std::size_t kEntries = 8;
-/// Viewers who ask for the newest frame within this time get the same one.
+/// Requests of the newest frame within this time share one encoding.
 constexpr std::chrono::milliseconds kNew{50};
 
 }  // namespace

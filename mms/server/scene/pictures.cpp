@@ -31,7 +31,7 @@ constexpr std::uint8_t value_of(ObjectClass object_class) {
   return static_cast<std::uint8_t>(1 + static_cast<int>(object_class));
 }
 
-/// Value of a dynamic point whose object is known; else 0.
+/// Value of a dynamic point of a known object; else 0.
 std::uint8_t known_value(const LabeledCloud& cloud, std::size_t i) {
   if (cloud.labels[i] != PointLabel::kDynamic || cloud.cluster.empty()) return 0;
   const auto cluster = static_cast<std::size_t>(cloud.cluster[i]);
@@ -45,7 +45,7 @@ bool is_dynamic(const LabeledCloud& cloud, std::size_t i) {
          (!cloud.dynamic_pixels.empty() && cloud.dynamic_pixels[i] != 0);
 }
 
-/// Lets the values spread over the dynamic pixels, nearest first.
+/// Propagates the values over the dynamic pixels, nearest first.
 void spread(const LabeledCloud& cloud, Image<std::uint8_t>& mask) {
   std::vector<std::size_t> front;
   for (std::size_t i = 0; i < mask.size(); ++i) {
@@ -86,7 +86,7 @@ Image<std::uint8_t> mask_of(const LabeledCloud& cloud) {
   Image<std::uint8_t> mask(cloud.width, cloud.height);
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = known_value(cloud, i);
   spread(cloud, mask);
-  // What is left is a mask without a single point of its own, whose class is not known any more.
+  // The rest are masks without points, whose class is unknown.
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (mask[i] == 0 && is_dynamic(cloud, i)) mask[i] = value_of(ObjectClass::kPerson);
   }
@@ -100,7 +100,7 @@ ColoredPoints scan_points(const LabeledCloud& cloud, std::size_t max_points,
                     [](PointLabel label) { return label != PointLabel::kInvalid; }));
   ColoredPoints points;
   dynamic.clear();
-  // Bresenham's way to take max_points of the valid ones evenly.
+  // Bresenham's algorithm selects max_points of the valid points evenly.
   std::size_t error = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.labels[i] == PointLabel::kInvalid) continue;

@@ -8,7 +8,7 @@
 
 namespace mms {
 
-/// What a frame's sensor gave, small enough to be sent.
+/// Sensor data of a frame, encoded for the network.
 struct EncodedPictures {
   std::size_t frame = 0;
   ColoredPoints points;                ///< in the sensor frame, at most kMaxScanPoints
@@ -20,14 +20,14 @@ struct EncodedPictures {
 inline constexpr std::size_t kMaxScanPoints = 20000;
 inline constexpr int kMaxImageWidth = 640;  ///< [px]
 
-/// An image at most `max_width` wide, each pixel the mean of a square of the given ones.
+/// Image downsampled to at most `max_width` by averaging blocks.
 Image<Rgb> shrunk(const Image<Rgb>& image, int max_width);
 
-/// What is dynamic in an organised cloud, a byte a pixel: 0 static, 1 + class id; empty for others.
-/// Pixels under a mask that have no depth get the class of the nearest that have.
+/// Dynamic pixels of an organized cloud, one byte per pixel: 0 static, 1 + class id; empty for
+/// others. Mask pixels without depth get the class of the nearest pixel with depth.
 Image<std::uint8_t> mask_of(const LabeledCloud& cloud);
 
-/// Evenly chosen points of a scan that have a return, at most `max_points`.
+/// Evenly selected valid points of a scan, at most `max_points`.
 /// @param dynamic  set parallel to the result
 ColoredPoints scan_points(const LabeledCloud& cloud, std::size_t max_points,
                           std::vector<std::uint8_t>& dynamic);

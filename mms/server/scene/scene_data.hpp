@@ -16,49 +16,49 @@
 
 namespace mms {
 
-/// A number a frame has, drawn over time. Its unit is "" where it has none.
+/// A value per frame, plotted over time. Its unit is "" if it has none.
 struct SeriesName {
   std::string name;
   std::string unit;
 };
 
-/// What viewers are told of a run once.
+/// Constant information about a run.
 struct SceneInfo {
-  std::string id;     ///< of this run and no other
+  std::string id;     ///< unique id of the run
   std::string name;   ///< for the title
-  std::string data;   ///< what was run, in the user's words
-  bool live = false;  ///< frames still come
+  std::string data;   ///< input of the run, as the user gave it
+  bool live = false;  ///< the run continues
   std::optional<CameraIntrinsics> camera;
-  std::optional<std::size_t> frames;  ///< how many there will be, where that is known
+  std::optional<std::size_t> frames;  ///< total number, if known
   bool has_truth = false;
-  bool has_pictures = true;            ///< images, masks and scans can be shown
-  std::string pictures_note;           ///< why they cannot
+  bool has_pictures = true;            ///< images, masks and scans are available
+  std::string pictures_note;           ///< reason if they are not
   double voxel_size = 0.0;             ///< of the map [m]
   Eigen::Vector3d up{0.0, -1.0, 0.0};  ///< in the world frame, unit
   std::vector<SeriesName> series;
 };
 
-/// What viewers are shown of one frame, without what its sensor gave.
+/// One frame for viewers, without sensor data.
 struct SceneFrame {
   Timestamp stamp;
   Transform<World, Sensor> T_world_sensor;
   Status status = Status::kTracking;
-  std::vector<float> series;             ///< parallel to SceneInfo::series; NaN: not known
-  std::vector<ObjectBox> objects;        ///< `visible` is 0 where the frame does not show it
-  std::optional<Eigen::Vector3d> truth;  ///< true position in the world frame [m]
+  std::vector<float> series;             ///< parallel to SceneInfo::series; NaN: unknown
+  std::vector<ObjectBox> objects;        ///< `visible` is 0 if not in view
+  std::optional<Eigen::Vector3d> truth;  ///< ground-truth position in the world frame [m]
 };
 
-/// Successive frames, shared with whoever reads them while more come.
+/// Consecutive frames, shared with readers while more are added.
 using SceneFrames = std::vector<std::shared_ptr<const SceneFrame>>;
 
-/// What the sensor gave at a frame, and what was found in it.
+/// Sensor data of a frame and its segmentation.
 struct SensorView {
-  std::size_t frame = 0;  ///< its position in the run
+  std::size_t frame = 0;  ///< index in the run
   Image<Rgb> color;       ///< may be empty
   LabeledCloud cloud;
 };
 
-/// Points with colours; the vectors are parallel.
+/// Points with colors; the vectors are parallel.
 struct ColoredPoints {
   std::vector<Eigen::Vector3f> points;  ///< [m]
   std::vector<Rgb> colors;

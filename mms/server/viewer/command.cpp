@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kLargestCount = 1e9;
+constexpr double kMaxCount = 1e9;
 
 [[noreturn]] void fail(const std::string& what) {
   throw DataError("message", what);
@@ -27,18 +27,18 @@ double number(const Json& value, const char* name, double min, double max) {
     const auto given = value.get<double>();
     if (given >= min && given <= max) return given;
   }
-  fail(std::string("\"") + name + "\" has to be a number from " + Json(min).dump() + " to " +
+  fail(std::string("\"") + name + "\" must be a number from " + Json(min).dump() + " to " +
        Json(max).dump());
 }
 
 std::size_t count(const Json& value, const char* name) {
-  return static_cast<std::size_t>(number(value, name, 0.0, kLargestCount));
+  return static_cast<std::size_t>(number(value, name, 0.0, kMaxCount));
 }
 
 std::optional<bool> flag(const Json& json, const char* name) {
   const auto found = json.find(name);
   if (found == json.end()) return std::nullopt;
-  if (!found->is_boolean()) fail(std::string("\"") + name + "\" has to be true or false");
+  if (!found->is_boolean()) fail(std::string("\"") + name + "\" must be true or false");
   return found->get<bool>();
 }
 
@@ -49,13 +49,13 @@ WantCommand want_of(const Json& json) {
 }
 
 FocusCommand focus_of(const Json& json) {
-  constexpr double kFarthest = 1e6;  // [m]
+  constexpr double kMaxCoordinate = 1e6;  // [m]
   const Json& point = member(json, "point");
-  if (!point.is_array() || point.size() != 3) fail("\"point\" has to be [x, y, z]");
+  if (!point.is_array() || point.size() != 3) fail("\"point\" must be [x, y, z]");
   FocusCommand focus;
   for (int axis = 0; axis < 3; ++axis) {
     const double value =
-        number(point[static_cast<std::size_t>(axis)], "point", -kFarthest, kFarthest);
+        number(point[static_cast<std::size_t>(axis)], "point", -kMaxCoordinate, kMaxCoordinate);
     focus.point[axis] = static_cast<float>(value);
   }
   return focus;
@@ -63,7 +63,7 @@ FocusCommand focus_of(const Json& json) {
 
 StepCommand step_of(const Json& json) {
   if (!json.contains("by")) return {};
-  return {static_cast<int>(number(json["by"], "by", -kLargestCount, kLargestCount))};
+  return {static_cast<int>(number(json["by"], "by", -kMaxCount, kMaxCount))};
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ StepCommand step_of(const Json& json) {
 Command parse_command(std::string_view text) {
   if (text.size() > kMaxCommandBytes) fail("is longer than 4096 bytes");
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) fail("is no JSON object");
+  if (!json.is_object()) fail("is not a JSON object");
   const Json& type = member(json, "type");
   if (type == "play") return PlayCommand{};
   if (type == "pause") return PauseCommand{};
@@ -82,7 +82,7 @@ Command parse_command(std::string_view text) {
   }
   if (type == "want") return want_of(json);
   if (type == "focus") return focus_of(json);
-  fail("its \"type\" is unknown; known are play, pause, step, seek, speed, want, focus");
+  fail("its \"type\" is unknown; known: play, pause, step, seek, speed, want, focus");
 }
 
 }  // namespace mms

@@ -12,7 +12,7 @@ namespace mms {
 struct PlayCommand {};
 struct PauseCommand {};
 struct StepCommand {
-  int by = 1;  ///< frames; negative: back
+  int by = 1;  ///< frames; negative: backward
 };
 struct SeekCommand {
   std::size_t frame = 0;
@@ -20,12 +20,12 @@ struct SeekCommand {
 struct SpeedCommand {
   double value = 1.0;
 };
-/// What a viewer wants to be sent; what is not said stays as it was.
+/// Selects what the viewer receives; absent fields are unchanged.
 struct WantCommand {
   std::optional<bool> points;
   std::optional<bool> image;
   std::optional<bool> map;
-  std::optional<std::size_t> budget;  ///< points of the map it can draw
+  std::optional<std::size_t> budget;  ///< largest number of map points
 };
 struct FocusCommand {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< world frame [m]
@@ -38,7 +38,8 @@ inline constexpr std::size_t kMaxCommandBytes = 4096;
 inline constexpr double kMinSpeed = 0.1;
 inline constexpr double kMaxSpeed = 20.0;
 
-/// What a viewer asks for, from its JSON text. @throws DataError saying what is wrong with it.
+/// Parses a viewer's command from JSON.
+/// @throws DataError with the fault.
 Command parse_command(std::string_view text);
 
 }  // namespace mms

@@ -6,10 +6,10 @@ namespace mms {
 namespace {
 
 constexpr int kCoarsest = MapChunks::kLevels - 1;
-/// A map of at most so many points needs no coarse view of it first.
+/// A map of at most this many points is sent without a coarse level first.
 constexpr std::size_t kSmallMap = 100'000;
 
-/// Points of a chunk at a level: a surface has a quarter of its voxels at twice their side.
+/// Points of a chunk at a level: doubling the voxel side leaves a quarter of a surface's voxels.
 std::size_t points_at(std::size_t points, int level) {
   return points >> (2 * level);
 }
@@ -22,20 +22,20 @@ std::size_t total(const std::vector<ChunkState>& map) {
 
 }  // namespace
 
-std::vector<MapFeed::Wanted> MapFeed::wanted(const std::vector<ChunkState>& map,
-                                             const Eigen::Vector3f& focus) const {
-  std::vector<Wanted> chunks;
+std::vector<MapFeed::Candidate> MapFeed::candidates(const std::vector<ChunkState>& map,
+                                                    const Eigen::Vector3f& focus) const {
+  std::vector<Candidate> chunks;
   chunks.reserve(map.size());
-  std::size_t coarse = 0;  // points of what is not yet refined
+  std::size_t coarse = 0;  // points of chunks not yet refined
   for (const ChunkState& chunk : map) {
     chunks.push_back({&chunk, (chunk.center - focus).norm(), kCoarsest});
     coarse += points_at(chunk.points, kCoarsest);
   }
-  std::sort(chunks.begin(), chunks.end(), [](const Wanted& a, const Wanted& b) {
+  std::sort(chunks.begin(), chunks.end(), [](const Candidate& a, const Candidate& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.chunk->key < b.chunk->key;
   });
   std::size_t left = budget_ - std::min(budget_, coarse);
-  for (Wanted& want : chunks) {
+  for (Candidate& want : chunks) {
     const std::size_t now = points_at(want.chunk->points, kCoarsest);
     for (int level = 0; level < kCoarsest; ++level) {
       const std::size_t more = points_at(want.chunk->points, level) - now;
@@ -62,11 +62,11 @@ void MapFeed::plan(const std::vector<ChunkState>& map, const Eigen::Vector3f& fo
   queue_.clear();
   deferred_ = false;
   queue_gone(map);
-  const std::vector<Wanted> chunks = wanted(map, focus);
+  const std::vector<Candidate> chunks = candidates(map, focus);
   const bool coarse_first = total(map) > kSmallMap;
   std::deque<ChunkTask> changed;
   std::deque<ChunkTask> finer;
-  for (const Wanted& want : chunks) {
+  for (const Candidate& want : chunks) {
     const ChunkState& chunk = *want.chunk;
     const auto sent = sent_.find(chunk.key);
     if (sent == sent_.end()) {

@@ -12,36 +12,36 @@
 
 namespace mms {
 
-/// A chunk to be sent next.
+/// Next chunk to send.
 struct ChunkTask {
   VoxelKey key;
   int level = 0;
   std::uint64_t version = 0;
 };
 
-/// Decides for one viewer which chunks of the map it is sent, and in which order: first what it has
-/// nothing of, coarse and near things first; then what has changed; then all finer, near things
-/// first, as long as the points it can draw suffice. Holds keys, no points: what is sent is always
-/// the newest.
+/// Selects for one viewer which chunks of the map to send, and their order: first unsent chunks,
+/// coarse and near ones first; then changed ones; then refinements, near ones first, within the
+/// viewer's point budget. Stores keys, not points: the newest state is sent.
 class MapFeed {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// A chunk that keeps changing is sent again this long after it was sent.
+  /// Shortest time between two transmissions of a chunk.
   static constexpr std::chrono::milliseconds kRefresh{1000};
 
   explicit MapFeed(std::size_t budget) : budget_(budget) {}
 
   void set_budget(std::size_t points) { budget_ = points; }
 
-  /// Plans anew. @param focus  where the viewer views, world frame [m]
+  /// Recomputes the plan.
+  /// @param focus  point that the viewer observes, world frame [m]
   void plan(const std::vector<ChunkState>& map, const Eigen::Vector3f& focus,
             Clock::time_point now);
 
-  /// The next chunk of the plan, which counts as sent; nothing when the viewer has all of it.
+  /// The next chunk of the plan, marked as sent; nullopt if the viewer is up to date.
   std::optional<ChunkTask> next(Clock::time_point now);
 
-  /// Whether the last plan left out chunks that were sent a moment ago.
+  /// Whether the last plan deferred chunks that were sent recently.
   bool deferred() const { return deferred_; }
 
  private:
@@ -50,14 +50,14 @@ class MapFeed {
     int level = 0;
     Clock::time_point when;
   };
-  struct Wanted {
+  struct Candidate {
     const ChunkState* chunk = nullptr;
     float distance = 0.0F;
     int level = 0;
   };
 
-  std::vector<Wanted> wanted(const std::vector<ChunkState>& map,
-                             const Eigen::Vector3f& focus) const;
+  std::vector<Candidate> candidates(const std::vector<ChunkState>& map,
+                                    const Eigen::Vector3f& focus) const;
   void queue_gone(const std::vector<ChunkState>& map);
 
   std::size_t budget_;

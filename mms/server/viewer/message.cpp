@@ -5,7 +5,7 @@
 namespace mms {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "buffers are sent as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "buffers are sent bytewise");
 
 constexpr std::size_t kAlignment = 4;
 

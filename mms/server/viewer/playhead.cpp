@@ -13,7 +13,7 @@ void Playhead::follow(std::size_t frames) {
 void Playhead::advance(std::span<const Timestamp> stamps, Clock::time_point now) {
   clamp(stamps.size());
   if (stamps.empty()) return;
-  if (live_) start_.reset();  // the run has just ended
+  if (live_) start_.reset();  // the run has ended
   live_ = false;
   if (playing_) {
     if (!start_) restart(now);
@@ -53,7 +53,7 @@ void Playhead::set_speed(double speed, Clock::time_point now) {
   restart(now);
 }
 
-/// Keeps to frames that are there.
+/// Limits the position to existing frames.
 void Playhead::clamp(std::size_t frames) {
   frame_ = std::min(frame_, std::max<std::size_t>(frames, 1) - 1);
 }

@@ -9,10 +9,10 @@
 namespace mms {
 namespace {
 
-constexpr std::chrono::milliseconds kLivePeriod{66};   ///< between a live run's frames
-constexpr std::chrono::milliseconds kPlanPeriod{500};  ///< between views at the map
+constexpr std::chrono::milliseconds kLivePeriod{66};   ///< between frames of a live run
+constexpr std::chrono::milliseconds kPlanPeriod{500};  ///< between plans of the map
 constexpr std::size_t kDefaultBudget = 5'000'000;      ///< points of the map
-constexpr std::size_t kMaxErrors = 8;                  ///< messages that wait
+constexpr std::size_t kMaxErrors = 8;                  ///< pending messages
 constexpr float kFocusMoved = 2.0F;                    ///< [m]
 
 std::vector<Timestamp> stamps_of(const Scene& scene) {
@@ -65,7 +65,7 @@ void Viewer::obey(const WantCommand& want) {
   wants_map_ = want.map.value_or(wants_map_);
   if (want.budget) feed_.set_budget(*want.budget);
   map_version_ = 0;
-  sent_.pictures = false;  // of other parts
+  sent_.pictures = false;  // other parts were sent
 }
 
 void Viewer::tick(Clock::time_point now) {
@@ -85,7 +85,7 @@ void Viewer::notice_end() {
 }
 
 std::optional<Viewer::Encode> Viewer::next(Clock::time_point now) {
-  if (scene_.size() == 0 && !ended_) return std::nullopt;  // the sensor is not known yet
+  if (scene_.size() == 0 && !ended_) return std::nullopt;  // the sensor is not yet known
   if (auto task = next_short()) return task;
   if (edition_sent_ != scene_.edition()) {
     edition_sent_ = scene_.edition();
@@ -121,7 +121,7 @@ std::optional<Viewer::Encode> Viewer::next_short() {
   };
 }
 
-/// The rows before the frame that is shown that were not sent; at first and at the end all of them.
+/// Unsent rows before the current frame; all of them at first and at the end.
 std::optional<Viewer::Encode> Viewer::next_history() {
   Scene& scene = scene_;
   const bool all = ended_ || poses_sent_ == 0 || values_sent_ == 0;
@@ -172,7 +172,7 @@ Viewer::Encode Viewer::send_frame(std::size_t index, PicturesState state, Pictur
   };
 }
 
-std::optional<std::optional<std::size_t>> Viewer::wanted_pictures(Clock::time_point now) {
+std::optional<std::optional<std::size_t>> Viewer::requested_pictures(Clock::time_point now) {
   if (loading_ || loaded_ || !wants_pictures() || scene_.size() == 0) return std::nullopt;
   const std::size_t index = playhead_.frame();
   if (sent_.frame == index && sent_.pictures) return std::nullopt;
@@ -215,7 +215,7 @@ std::optional<Viewer::Encode> Viewer::next_chunk(Clock::time_point now) {
   };
 }
 
-/// Where the viewer views; where the sensor is, unless it said so.
+/// The viewer's focus, by default the sensor's position.
 Eigen::Vector3f Viewer::focus() const {
   if (focus_) return *focus_;
   const SceneFrames frame = scene_.frames(playhead_.frame(), playhead_.frame() + 1);

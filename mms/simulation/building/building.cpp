@@ -20,9 +20,9 @@ Eigen::Isometry3f turned(float x, float y, float z, float yaw) {
   return at(x, y, z) * Eigen::AngleAxisf(yaw, Vector3f::UnitZ());
 }
 
-/// Walls of a rectangular room about the origin: where each begins to count from, seen from inside.
+/// Walls of a rectangular room centered at the origin.
 struct Side {
-  Eigen::Isometry3f T;  ///< foot of the wall's center, x along it, y into the room
+  Eigen::Isometry3f T;  ///< base of the wall's center, x along it, y into the room
   float length;
 };
 
@@ -87,7 +87,7 @@ void furnish_wall(Mesh& mesh, const Side& side, float clutter, bool gates, Rando
   if (clutter > 0.0F) add_pipe(mesh, side.T * at(0.0F, 0.15F, 3.6F), side.length, 0.06F, random);
 }
 
-/// Lines on the floor on both sides of a straight part of the lane.
+/// Floor markings on both sides of a straight part of the lane.
 void mark_lane(Mesh& mesh, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                double half_width, const Material& paint) {
   const Eigen::Vector2d center = 0.5 * (from + to);
@@ -102,7 +102,7 @@ void mark_lane(Mesh& mesh, const Eigen::Vector2d& from, const Eigen::Vector2d& t
   }
 }
 
-/// Pallets, stacks of cartons and columns that stand along the outer walls of the hall.
+/// Pallets, stacks of cartons and columns along the outer walls of the hall.
 void clutter_along(Mesh& mesh, const Side& side, float clutter, RandomStream& random) {
   for (float x = -0.5F * side.length + 1.2F; x < 0.5F * side.length - 1.2F; x += 1.9F) {
     if (!random.chance(0.55F * clutter)) continue;
@@ -124,7 +124,7 @@ void add_workplaces(Building& building, double x_from, double x_to, double y, do
   }
 }
 
-/// 26 x 18 m with two double rows of racks in the center and a lane of about 60 m round them.
+/// 26 x 18 m with two double rows of racks in the center and a lane of about 60 m around them.
 Building build_hall(const SceneConfig& config, RandomStream& random) {
   constexpr float kHalfX = 13.0F;
   constexpr float kHalfY = 9.0F;
@@ -174,7 +174,7 @@ Building build_corridor(const SceneConfig& config, RandomStream& random) {
   return corridor;
 }
 
-/// An aisle of 3 m between two racks of 27 m that look the same in every bay.
+/// An aisle of 3 m between two racks of 27 m with identical bays.
 Building build_aisle(const SceneConfig& config, RandomStream& random) {
   constexpr float kHalfX = 17.0F;
   constexpr float kHalfY = 6.0F;

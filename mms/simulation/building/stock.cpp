@@ -37,7 +37,7 @@ Material cardboard(RandomStream& random) {
           random.seed()};
 }
 
-/// Cartons in layers, with some of the uppermost missing.
+/// Cartons in layers; some of the top layer are missing.
 void add_cartons(Mesh& mesh, const Eigen::Isometry3f& T, float height, RandomStream& random) {
   const int nx = 2 + static_cast<int>(random.below(2));
   const int ny = 1 + static_cast<int>(random.below(2));
@@ -101,7 +101,7 @@ void add_crate(Mesh& mesh, const Eigen::Isometry3f& T, float height, RandomStrea
   add_box(mesh, T * at(0.0F, 0.0F, kPalletHeight + half), {0.58F, 0.39F, half}, mesh.add(planks));
 }
 
-/// What stands in one half of a bay.
+/// Load of one half of a bay.
 void add_shelf_load(Mesh& mesh, const Eigen::Isometry3f& T, RandomStream& random) {
   if (random.chance(0.12F)) return;
   const float yaw = random.between(-0.03F, 0.03F) + (random.chance(0.5F) ? kPi : 0.0F);

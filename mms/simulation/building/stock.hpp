@@ -7,8 +7,8 @@
 
 namespace mms {
 
-/// Things that stand about in a warehouse. All are added with the origin of `T` on the floor in
-/// their center and z up; x is along their length [m].
+/// Goods and furniture of a warehouse. The origin of `T` is the center of the base on the floor, z
+/// up, x along the length [m].
 
 /// A wooden pallet of 1.2 x 0.8 x 0.14 m.
 void add_pallet(Mesh& mesh, const Eigen::Isometry3f& T, RandomStream& random);
@@ -17,11 +17,11 @@ void add_pallet(Mesh& mesh, const Eigen::Isometry3f& T, RandomStream& random);
 void add_carton(Mesh& mesh, const Eigen::Isometry3f& T, const Eigen::Vector3f& size,
                 RandomStream& random);
 
-/// A pallet with cartons, sacks, drums or a crate on it, up to `height` over the floor.
+/// A pallet loaded with cartons, sacks, drums or a crate, up to `height` above the floor.
 void add_loaded_pallet(Mesh& mesh, const Eigen::Isometry3f& T, float height, RandomStream& random);
 
 /// A storage rack of `bays` x 2.7 m, 1.1 m deep, its long side along x, with loads on `levels`.
-/// With `equal_loads` every bay looks alike.
+/// With `equal_loads` all bays are identical.
 void add_rack(Mesh& mesh, const Eigen::Isometry3f& T, int bays, int levels, bool equal_loads,
               RandomStream& random);
 

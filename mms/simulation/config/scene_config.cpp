@@ -111,35 +111,34 @@ void SceneConfig::visit(ConfigVisitor& v) {
   v.integer({"seed", "", "of building, stock, people, their paths and the noise"}, seed,
             {0.0, 1e9});
   v.number({"duration", "s", "duration of the recording"}, duration, {0.1, 1e5});
-  v.integer({"frames", "", "how many of its frames are played; 0: all"}, frames, {0.0, 1e6});
-  v.number({"hz", "1/s", "frame rate; 0: the sensor's own"}, hz, {0.0, 1000.0});
+  v.integer({"frames", "", "number of played frames; 0: all"}, frames, {0.0, 1e6});
+  v.number({"hz", "1/s", "frame rate; 0: that of the sensor"}, hz, {0.0, 1000.0});
   v.choice({"sensor", "", "sensor preset"}, sensor, sensor_names());
-  v.integer({"width", "px", "image width, the height in proportion; 0: the sensor's own"}, width,
+  v.integer({"width", "px", "image width, with proportional height; 0: that of the sensor"}, width,
             {0.0, 4096.0});
   v.boolean({"noise", "", "whether the sensors are noisy"}, noise);
-  v.number({"exposure", "s", "of the camera; 0: its own"}, exposure, {0.0, 0.1});
-  v.integer({"blur_samples", "", "instants an exposure is made of; 1: no motion blur"},
-            blur_samples, {1.0, 64.0});
-  v.enumeration({"layout", "", "what is built"}, layout, kLayouts);
-  v.enumeration({"trajectory", "", "how the sensor moves through the scene", "ride"}, trajectory,
-                kTrajectories);
+  v.number({"exposure", "s", "of the camera; 0: that of the preset"}, exposure, {0.0, 0.1});
+  v.integer({"blur_samples", "", "renderings per exposure; 1: no motion blur"}, blur_samples,
+            {1.0, 64.0});
+  v.enumeration({"layout", "", "building"}, layout, kLayouts);
+  v.enumeration({"trajectory", "", "trajectory of the sensor", "ride"}, trajectory, kTrajectories);
   v.number({"speed", "m/s", "of the sensor"}, speed, {0.01, 5.0});
-  v.number({"camera_height", "m", "over the floor"}, camera_height, {0.2, 2.5});
+  v.number({"camera_height", "m", "above the floor"}, camera_height, {0.2, 2.5});
   v.number({"clutter", "", "density of pallets and signs"}, clutter, {0.0, 1.0});
-  v.integer({"crossing", "", "persons who walk to and fro across the sensor's path"}, crossing,
+  v.integer({"crossing", "", "persons who cross the sensor's path repeatedly"}, crossing,
             {0.0, 40.0});
-  v.number({"crossing_from", "m", "nearest of their places ahead of the sensor's start"},
+  v.number({"crossing_from", "m", "nearest of their positions, ahead of the sensor's start"},
            crossing_from, {0.5, 50.0});
-  v.number({"crossing_beyond", "m", "farthest of their places ahead of the sensor's end"},
+  v.number({"crossing_beyond", "m", "farthest of their positions, beyond the sensor's end"},
            crossing_beyond, {0.0, 50.0});
   v.integer({"leading", "", "persons who walk ahead of the sensor"}, leading, {0.0, 8.0});
-  v.integer({"oncoming", "", "persons who come towards it"}, oncoming, {0.0, 20.0});
+  v.integer({"oncoming", "", "persons who walk towards it"}, oncoming, {0.0, 20.0});
   v.integer({"working", "", "persons who work at a rack"}, working, {0.0, 8.0});
-  v.integer({"agvs", "", "vehicles, of the five kinds in turn"}, agvs, {0.0, 20.0});
-  v.number({"pause_share", "", "share of time that walkers and vehicles stand"}, pause_share,
+  v.integer({"agvs", "", "vehicles, alternating between the five kinds"}, agvs, {0.0, 20.0});
+  v.number({"pause_share", "", "share of time that walkers and vehicles pause"}, pause_share,
            {0.0, 0.9});
   v.number({"pause", "s", "mean length of a pause"}, pause, {0.5, 60.0});
-  v.group({"mask_errors", "", "how the masks fall short of the exact ones"}, mask_errors);
+  v.group({"mask_errors", "", "errors of the masks"}, mask_errors);
 }
 
 std::span<const std::string_view> scene_names() {
@@ -156,7 +155,7 @@ SceneConfig scene_config(std::string_view name) {
   std::string known;
   for (const std::string_view scene : kScenes)
     known += (known.empty() ? "" : ", ") + std::string(scene);
-  throw DataError(std::string(name), "there is no such scene", "scenes are " + known);
+  throw DataError(std::string(name), "no such scene", "scenes: " + known);
 }
 
 }  // namespace mms

@@ -9,28 +9,28 @@
 
 namespace mms {
 
-/// What an object is doing at one instant, as far as its body shows it.
+/// Motion state of an object at one instant, from which its pose is computed.
 struct Activity {
-  double seconds = 0.0;    ///< time, for what moves by itself (a scanner's head, a worker's arms)
-  double travelled = 0.0;  ///< way along the floor since time 0, for legs and wheels [m]
-  double speed = 0.0;      ///< how fast it walks or drives just now [m/s]
+  double seconds = 0.0;    ///< time, for autonomous motion (a scanner's head, a worker's arms)
+  double travelled = 0.0;  ///< path length since time 0, for legs and wheels [m]
+  double speed = 0.0;      ///< present speed [m/s]
 };
 
-/// A person or an AGV: rigid parts that move against each other. Object frame: origin on the floor
-/// below the center, x forward, z up.
+/// A person or an AGV: rigid parts with joints. Object frame: origin on the floor below the center,
+/// x forward, z up.
 class ArticulatedModel {
  public:
   virtual ~ArticulatedModel() = default;
 
   virtual ObjectClass object_class() const = 0;
 
-  /// What it is, for truth files: "person", "forklift", ...
+  /// Kind of object for ground-truth files: "person", "forklift", ...
   virtual std::string kind() const = 0;
 
-  /// Shapes of the parts, each in its own frame; they never change.
+  /// Shapes of the parts, each in its own frame; constant.
   virtual const std::vector<Mesh>& parts() const = 0;
 
-  /// T_object_part of every part; continuous in everything that `activity` says.
+  /// T_object_part of every part; continuous in all of `activity`.
   virtual std::vector<Eigen::Isometry3f> pose(const Activity& activity) const = 0;
 };
 

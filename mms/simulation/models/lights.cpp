@@ -6,9 +6,10 @@
 namespace mms {
 namespace {
 
-/// What is computed without shadows counts only this share, as some of it is hidden somewhere.
+/// Share of light computed without shadows, because some of it is occluded.
 constexpr float kUnshadowedShare = 0.5F;
-constexpr float kReference2 = 9.0F;  // squared distance at which a lamp's colour is its light [m^2]
+constexpr float kReference2 =
+    9.0F;  // squared distance at which a lamp's irradiance is its color [m^2]
 
 }  // namespace
 

@@ -8,13 +8,13 @@
 namespace mms {
 namespace {
 
-/// Noise with features of `size` [m], gone where a pixel covers more than one of them.
+/// Noise with features of `size` [m], which fades out if a pixel covers more than one of them.
 float stains(std::uint32_t seed, float u, float v, float size, float footprint) {
   const float visible = 1.0F - footprint / size;
   return visible <= 0.0F ? 0.0F : visible * value_noise(seed, u / size, v / size);
 }
 
-/// Uniform in [0, 1); u and v are whole numbers.
+/// Uniform in [0, 1); u and v are integers.
 float random_of_cell(std::uint32_t seed, float u, float v) {
   const auto cell = [](float value) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
@@ -22,7 +22,7 @@ float random_of_cell(std::uint32_t seed, float u, float v) {
   return uniform_of(hash_of(seed, cell(u) * 7919 + cell(v)));
 }
 
-/// 1 on a joint of half-width `half` around multiples of `period`, blurred to the footprint.
+/// 1 on a joint of half-width `half` at multiples of `period`, blurred by the footprint.
 float joint(float value, float period, float half, float footprint) {
   const float off = std::abs(value - period * std::round(value / period));
   return std::clamp((half - off) / std::max(footprint, 1e-3F) + 0.5F, 0.0F, 1.0F);
@@ -88,7 +88,7 @@ Eigen::Vector3f concrete(const Material& m, float u, float v, float footprint) {
   return tone * (1.0F - 0.5F * gap) * (1.0F - dark) * m.color;
 }
 
-/// 1 in a rectangle about (u0, v0), with edges as soft as the footprint.
+/// 1 in a rectangle about (u0, v0), with edges blurred by the footprint.
 float patch(float u, float v, float u0, float v0, float half_u, float half_v, float footprint) {
   const float soft = std::max(footprint, 1e-3F);
   const auto inside = [&](float off, float half) {
@@ -110,7 +110,7 @@ Eigen::Vector3f cardboard(const Material& m, float u, float v, float footprint) 
   const float dv = v - cv * m.scale;
   const auto chance = [&](std::uint32_t what) { return random_of_cell(m.seed + what, cu, cv); };
   mix({0.72F, 0.60F, 0.42F}, 0.8F * patch(0.0F, dv, 0.0F, 0.5F * m.scale, 1.0F, 0.025F, footprint));
-  if (chance(2) < 0.6F) {  // a print of bars, like a logo with text below
+  if (chance(2) < 0.6F) {  // a print of bars, such as a logo with text
     const float u0 = m.scale * (0.25F + 0.3F * chance(3));
     const float v0 = m.scale * 0.72F;
     const float half = m.scale * (0.10F + 0.08F * chance(4));

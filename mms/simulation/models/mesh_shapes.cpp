@@ -14,7 +14,7 @@ std::uint32_t add_vertex(Mesh& mesh, const Eigen::Isometry3f& T, const Eigen::Ve
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
 
-/// Flat quadrilateral, corners counter-clockwise seen from outside; uv grows along its sides.
+/// Flat quadrilateral, corners counter-clockwise from outside; uv along its sides.
 void add_quad(Mesh& mesh, const Eigen::Isometry3f& T, const std::array<Eigen::Vector3f, 4>& corners,
               const Eigen::Vector2f& uv, std::uint32_t material) {
   const Eigen::Vector3f u = corners[1] - corners[0];
@@ -30,7 +30,7 @@ void add_quad(Mesh& mesh, const Eigen::Isometry3f& T, const std::array<Eigen::Ve
   mesh.triangles.push_back({{a, c, d}, material});
 }
 
-/// Flat face over an outline that is star-shaped about `center`.
+/// Flat face with an outline that is star-shaped about `center`.
 void add_fan(Mesh& mesh, const Eigen::Isometry3f& T, const std::vector<Eigen::Vector3f>& outline,
              const Eigen::Vector3f& center, const Eigen::Vector3f& normal, std::uint32_t material) {
   const Eigen::Vector3f u = normal.unitOrthogonal();
@@ -55,7 +55,7 @@ float angle_of(int segment, int segments) {
          static_cast<float>(segments);
 }
 
-/// Triangles between neighbouring rows of (segments + 1) vertices each, from `first` on.
+/// Triangles between adjacent rows of (segments + 1) vertices each, starting at `first`.
 void add_skin(Mesh& mesh, std::uint32_t first, int rows, int segments, std::uint32_t material) {
   const auto stride = static_cast<std::uint32_t>(segments + 1);
   for (int row = 0; row + 1 < rows; ++row) {

@@ -4,16 +4,16 @@
 
 namespace mms {
 
-/// Two bones in a row, each with its origin at its upper joint, -z along the bone and x in front.
+/// Two consecutive bones, each with its origin at its upper joint, -z along the bone and x forward.
 struct BentLimb {
   Eigen::Isometry3f upper;
   Eigen::Isometry3f lower;
 };
 
-/// Bends a limb of two bones of `upper` and `lower` length [m] so that it starts at `root` and ends
-/// at `end`, or as near as it reaches. The joint between lies in the plane through both that
-/// contains `front`: before the straight line (a knee), or behind it when `knee` is false (an
-/// elbow). `front` must not be along the limb.
+/// Inverse kinematics of two bones of `upper` and `lower` length [m] from `root` to `end`, or as
+/// close as they reach. The joint lies in the plane that contains `front`: in front of the
+/// straight line (a knee), or behind it if `knee` is false (an elbow). `front` must not be parallel
+/// to the limb.
 BentLimb bend_limb(const Eigen::Vector3f& root, const Eigen::Vector3f& end,
                    const Eigen::Vector3f& front, float upper, float lower, bool knee);
 

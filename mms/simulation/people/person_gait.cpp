@@ -14,24 +14,24 @@ namespace {
 
 constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
 constexpr float kStance = 0.62F;    ///< share of a stride during which a foot is on the floor
-constexpr float kInFront = 0.46F;   ///< where a foot lands, in steps before the hips
-constexpr float kFullSpeed = 0.4F;  ///< from here on steps have their full length [m/s]
+constexpr float kInFront = 0.46F;   ///< landing position of a foot ahead of the hips [steps]
+constexpr float kFullSpeed = 0.4F;  ///< from this speed on steps have full length [m/s]
 
 float smooth(float t) {
   t = std::clamp(t, 0.0F, 1.0F);
   return t * t * (3.0F - 2.0F * t);
 }
 
-/// Way of a foot against the hips at `cycle` in [0, 1) of its stride, in steps.
+/// Position of a foot relative to the hips at `cycle` in [0, 1) of its stride [steps].
 float foot_ahead(float cycle) {
   const float behind = kInFront - 2.0F * kStance;
   if (cycle < kStance) return kInFront - 2.0F * cycle;
   const float t = (cycle - kStance) / (1.0F - kStance);
-  const float slope = -2.0F * (1.0F - kStance);  // it leaves and lands without a jerk
+  const float slope = -2.0F * (1.0F - kStance);  // continuous velocity at lift-off and landing
   return behind + smooth(t) * (kInFront - behind) + t * (1.0F - t) * (1.0F - 2.0F * t) * slope;
 }
 
-/// How far the toes point down [rad]: up at the heel strike, down while the heel lifts.
+/// Downward pitch of the toes [rad]: negative at the heel strike, positive while the heel lifts.
 float foot_pitch(float cycle) {
   struct Key {
     float cycle, pitch;
@@ -48,14 +48,14 @@ float foot_pitch(float cycle) {
   return kKeys[i].pitch + share * (kKeys[i + 1].pitch - kKeys[i].pitch);
 }
 
-/// How far the sole is above the floor during the swing [m].
+/// Height of the sole above the floor during the swing [m].
 float foot_clearance(float cycle) {
   if (cycle < kStance) return 0.0F;
   const float t = (cycle - kStance) / (1.0F - kStance);
   return 0.035F * std::pow(std::sin(std::numbers::pi_v<float> * t), 2.0F);
 }
 
-/// Frame of a shoe pitched about its ball or its heel, its lowest point `clearance` above the
+/// Frame of a shoe rotated about its ball or its heel, its lowest point `clearance` above the
 /// floor.
 Eigen::Isometry3f foot_frame(const PersonProportions& body, float x, float y, float pitch,
                              float clearance) {
@@ -74,7 +74,7 @@ Eigen::Isometry3f foot_frame(const PersonProportions& body, float x, float y, fl
   return T;
 }
 
-/// The smaller of the values, rounded off where they meet.
+/// Smooth minimum.
 template <std::size_t N>
 float soft_min(const std::array<float, N>& values) {
   constexpr float kRound = 0.005F;  // [m]
@@ -84,7 +84,7 @@ float soft_min(const std::array<float, N>& values) {
   return least - kRound * std::log(sum);
 }
 
-/// Highest place of the pelvis from where the leg reaches its foot.
+/// Largest height of the pelvis at which the leg reaches its foot.
 float reach_of(const PersonProportions& body, const Eigen::Isometry3f& T_pelvis, float side,
                const Eigen::Vector3f& ankle) {
   const Eigen::Vector3f hip = T_pelvis.linear() * Eigen::Vector3f(0.0F, side * body.hip_y, 0.0F);
@@ -94,7 +94,7 @@ float reach_of(const PersonProportions& body, const Eigen::Isometry3f& T_pelvis,
   return ankle.z() - hip.z() + std::sqrt(std::max(0.01F, reach * reach - flat));
 }
 
-/// Pelvis over the feet, apart from its height: it sways to the leg that bears it and turns.
+/// Pelvis above the feet, without height: it sways to the stance leg and rotates.
 Eigen::Isometry3f swaying_pelvis(const PersonProportions& body, const Gait& gait, double seconds,
                                  std::uint32_t seed) {
   const float idle = 1.0F - gait.amount;

@@ -8,19 +8,20 @@
 
 namespace mms {
 
-/// Length of one step over the length of the leg.
+/// Ratio of step length and leg length.
 inline constexpr float kStepOverLeg = 0.75F;
 
-/// Lower half of a walking or standing person in the object frame. Index 0 is left, 1 right.
+/// Lower body of a walking or standing person in the object frame. Index 0 is left, 1 right.
 struct Gait {
   float amount = 0.0F;  ///< 0 standing, 1 walking
-  float phase = 0.0F;   ///< of the left foot in a stride of two steps, 0 at its heel strike [rad]
+  float phase =
+      0.0F;  ///< phase of the left foot in a stride of two steps, 0 at its heel strike [rad]
   Eigen::Isometry3f T_object_pelvis;
   std::array<Eigen::Isometry3f, 2> T_object_foot;  ///< frames of the shoes, at the ankles
 };
 
-/// Feet that stand still on the floor while their leg bears the body and swing forward above it
-/// otherwise; hips as high as the legs that bear them allow.
+/// Computes the lower body: the stance foot is static on the floor, the other one swings forward
+/// above it; the hips are as high as the stance legs allow.
 Gait gait_of(const PersonProportions& body, const Activity& activity, std::uint32_t seed);
 
 }  // namespace mms

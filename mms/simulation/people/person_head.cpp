@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-// All lengths here are those of a body of 1.75 m; the head's origin is the base of the neck.
+// All lengths are for a height of 1.75 m; the origin is the base of the neck.
 constexpr float kChin = 0.058F;
 constexpr float kTop = 0.287F;
 
@@ -18,7 +18,7 @@ Material plain(const Eigen::Vector3f& color, float gloss) {
   return material;
 }
 
-/// Everything on the head is built for a body of 1.75 m and scaled at the end.
+/// All parts of the head are built for a height of 1.75 m and scaled at the end.
 struct HeadMaterials {
   std::uint32_t skin, hair, white, dark, lips, hat;
 };

@@ -7,9 +7,9 @@
 namespace mms {
 namespace {
 
-// Radii and offsets are shares of the body's height, those of hand and shoe lengths for 1.75 m.
+// Radii and offsets are shares of the height; lengths of hand and shoe are for 1.75 m.
 
-/// Limb along -z: `keys` has z as a share of `length`, from -1 below to 0 above.
+/// Limb along -z: z of `keys` is a share of `length`, from -1 at the lower to 0 at the upper end.
 std::vector<Ring> limb(std::vector<Ring> keys, float length, float height, float build) {
   for (Ring& key : keys) {
     key.z *= length;
@@ -31,7 +31,7 @@ void add_hand(Mesh& mesh, float wrist, float scale, float side, std::uint32_t ma
   for (int i = 0; i < 4; ++i) {
     const float x = -0.028F + 0.0195F * static_cast<float>(i);
     const float tip = -0.165F - (i == 1 || i == 2 ? 0.012F : 0.0F);
-    const float bent = -0.022F * side;  // fingers curl to the palm
+    const float bent = -0.022F * side;  // curled fingers
     const std::vector<Ring> finger = {{tip, 0.0075F, 0.0075F, x, bent},
                                       {-0.13F, 0.0085F, 0.0085F, x, 0.3F * bent},
                                       {-0.085F, 0.0095F, 0.010F, x}};
@@ -109,7 +109,7 @@ Mesh make_shank(const PersonStyle& style, const PersonProportions& body) {
                                   {-0.3F, 0.034F, 0.033F, -0.005F},
                                   {0.0F, 0.034F, 0.033F, 0.001F}},
                                  body.shank, body.height, std::sqrt(body.build));
-  rings.erase(rings.begin(), rings.begin() + 3);  // a hem, flat below
+  rings.erase(rings.begin(), rings.begin() + 3);  // a hem, flat at its lower end
   add_loft(mesh, at(0, 0, 0), rings, trousers, 14);
   return mesh;
 }

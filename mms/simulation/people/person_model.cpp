@@ -77,9 +77,9 @@ class Person : public ArticulatedModel {
 void check(const std::string& what, float value, float low, float high) {
   if (value >= low && value <= high) return;
   throw Error("person style",
-              what + " = " + std::to_string(value) + " is not in [" + std::to_string(low) + ", " +
+              what + " = " + std::to_string(value) + " is outside [" + std::to_string(low) + ", " +
                   std::to_string(high) + "]",
-              "take one of random_person_style");
+              "use random_person_style");
 }
 
 }  // namespace

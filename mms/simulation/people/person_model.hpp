@@ -16,7 +16,7 @@ struct PersonPart {
     kHead,
     kLeftUpperArm,
     kRightUpperArm,
-    kLeftForearm,  ///< with the hand
+    kLeftForearm,  ///< including the hand
     kRightForearm,
     kLeftThigh,
     kRightThigh,
@@ -24,13 +24,13 @@ struct PersonPart {
     kRightShank,
     kLeftShoe,
     kRightShoe,
-    kCarriedBox,  ///< only of those who carry one
+    kCarriedBox,  ///< only if carries_box
   };
 };
 
-/// A person who walks when its activity has a speed and stands, or works, otherwise. Steps are as
-/// long as the legs ask for: 0.75 of their length from heel to heel.
-/// @throws Error when the height is not in [1.2, 2.2] m or the build not in [0.7, 1.5].
+/// A person who walks if its activity has a speed, and otherwise stands or works. A step is 0.75 of
+/// the leg length.
+/// @throws Error if the height is outside [1.2, 2.2] m or the build outside [0.7, 1.5].
 std::unique_ptr<ArticulatedModel> make_person(const PersonStyle& style);
 
 }  // namespace mms

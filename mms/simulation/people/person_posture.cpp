@@ -9,7 +9,7 @@
 namespace mms {
 namespace {
 
-/// Clock of one person: all start at another place of their habits.
+/// Phases of a person's periodic motions, which differ between persons.
 struct Habit {
   float seconds;
 
@@ -19,12 +19,12 @@ struct Habit {
   float wave(float rate) const { return std::sin(rate * seconds); }
 };
 
-/// How high the hands of a worker are: 0 at the lowest shelf, 1 at the highest.
+/// Height of a worker's hands: 0 at the lowest shelf, 1 at the highest.
 float shelf(const Habit& habit) {
   return 0.5F + 0.42F * habit.wave(0.95F) + 0.08F * habit.wave(2.3F);
 }
 
-/// How far a person works just now, 0 to 1: not while walking, not with full hands.
+/// Degree of working, 0 to 1: not while walking or carrying.
 float working(const PersonStyle& style, const Gait& gait) {
   return style.working && !style.carries_box ? 1.0F - gait.amount : 0.0F;
 }
@@ -42,10 +42,10 @@ Eigen::Isometry3f torso_turn(const PersonStyle& style, const Gait& gait, const H
          turned(lean, Eigen::Vector3f::UnitY());
 }
 
-/// Wrist of an arm that hangs and swings, seen from its shoulder in the frame of the torso.
+/// Wrist of a swinging arm, relative to its shoulder in the frame of the torso.
 Eigen::Vector3f swinging_wrist(const PersonProportions& body, const Gait& gait, const Habit& habit,
                                float side) {
-  const float wave = -side * std::cos(gait.phase);  // against the leg of the same side
+  const float wave = -side * std::cos(gait.phase);  // opposite to the leg of the same side
   const float swing = gait.amount * (-0.03F + 0.40F * wave) + 0.02F * habit.wave(0.8F);
   const float elbow = 0.22F + gait.amount * (0.16F + 0.20F * wave);
   const float spread = side * (0.10F + 0.01F * habit.wave(1.1F));
@@ -55,7 +55,7 @@ Eigen::Vector3f swinging_wrist(const PersonProportions& body, const Gait& gait, 
   return T.translation() - Eigen::Vector3f(0.0F, 0.02F * side, 0.0F);
 }
 
-/// Wrist of one who puts things on shelves, seen from the waist without the torso's lean.
+/// Wrist of a worker at shelves, relative to the waist without the torso's inclination.
 Eigen::Vector3f working_wrist(const PersonProportions& body, const Habit& habit, float side) {
   const float high = shelf(habit) + 0.06F * side * habit.wave(1.7F);
   const float ahead = 0.275F - 0.06F * high + 0.015F * habit.wave(1.9F + 0.2F * side);
@@ -78,7 +78,7 @@ Eigen::Isometry3f head_turn(const PersonStyle& style, const Gait& gait, const Ha
   return turned(yaw, Eigen::Vector3f::UnitZ()) * turned(pitch, Eigen::Vector3f::UnitY());
 }
 
-/// What lies before an arm: forwards, for raised arms upwards, so that elbows hang.
+/// Forward direction of an arm: up for raised arms, so that elbows point down.
 Eigen::Vector3f before_arm(const PersonStyle& style, const Gait& gait, float side) {
   const float raised = style.carries_box ? 0.5F : working(style, gait);
   return Eigen::Vector3f(1.0F - 0.4F * raised, -side * (0.1F + 0.4F * raised),

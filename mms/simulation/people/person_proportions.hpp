@@ -7,17 +7,17 @@ namespace mms {
 /// Lengths of a body [m], as shares of its height after anthropometric tables.
 struct PersonProportions {
   float height;
-  float scale;  ///< against a body of 1.75 m
+  float scale;  ///< relative to a height of 1.75 m
   float build;  ///< of widths
 
   float ankle;         ///< from the floor to the ankle joint
   float shank;         ///< ankle to knee
   float thigh;         ///< knee to hip
   float hip_y;         ///< from the center to a hip joint
-  float waist;         ///< from the hips to where the torso turns
+  float waist;         ///< from the hips to the joint of the torso
   float shoulder_y;    ///< from the center to a shoulder
   float shoulder_z;    ///< from the waist to the shoulders
-  float neck;          ///< from the waist to where the head turns
+  float neck;          ///< from the waist to the joint of the head
   float upper_arm;     ///< shoulder to elbow
   float forearm;       ///< elbow to wrist
   float heel;          ///< from the ankle back to the heel
@@ -46,7 +46,7 @@ struct PersonProportions {
 
   float leg() const { return thigh + shank; }
 
-  /// Height of the hips of one who stands: knees all but straight.
+  /// Height of the hips of a standing person, with almost straight knees.
   float standing_hip() const { return ankle + 0.994F * leg(); }
 };
 

@@ -19,7 +19,7 @@ Ring ring_of(const Shape& s) {
   return {s[0], std::max(s[1], 5e-4F), std::max(s[2], 5e-4F), s[3], s[4]};
 }
 
-/// Change per z at key `i`, from its neighbours.
+/// Slope with respect to z at key `i`, from its neighbors.
 Shape slope_at(const std::vector<Ring>& keys, std::size_t i) {
   const Ring& below = keys[i == 0 ? 0 : i - 1];
   const Ring& above = keys[std::min(i + 1, keys.size() - 1)];

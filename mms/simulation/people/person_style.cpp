@@ -9,7 +9,7 @@ namespace {
 
 using Color = Eigen::Vector3f;
 
-/// Independent random values, one for each `what`.
+/// Independent random values, one per `what`.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : seed_(hash_of(seed, 0x70657273)) {}
@@ -19,7 +19,7 @@ class Dice {
   }
   bool chance(std::uint64_t what, float share) const { return between(what, 0, 1) < share; }
 
-  /// One of `colors`, a little lighter or darker.
+  /// One of `colors`, slightly lighter or darker.
   template <std::size_t N>
   Color color(std::uint64_t what, const std::array<Color, N>& colors) const {
     const auto index = static_cast<std::size_t>(between(what, 0.0F, static_cast<float>(N) - 1e-3F));

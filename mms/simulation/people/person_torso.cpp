@@ -21,7 +21,7 @@ bool between(float value, float low, float high) {
   return value > low && value < high;
 }
 
-/// Where a vest is open: at the arms and in a V below the chin.
+/// Openings of a vest: at the arms and in a V below the chin.
 bool outside_vest(float z, float angle, float height) {
   const float across = std::abs(std::sin(angle));
   const bool front = std::cos(angle) > 0.0F;
@@ -30,14 +30,14 @@ bool outside_vest(float z, float angle, float height) {
   return z > 0.150F * height && across > 0.93F;
 }
 
-/// Two bands around the belly and one over each shoulder.
+/// Two bands around the torso and one over each shoulder.
 bool on_band(float z, float angle, float height) {
   const float share = z / height;
   if (between(share, -0.040F, -0.014F) || between(share, 0.052F, 0.078F)) return true;
   return share > 0.078F && between(std::abs(std::sin(angle)), 0.52F, 0.78F);
 }
 
-/// The shirt is open a little way below the chin.
+/// The shirt is open slightly below the chin.
 bool collar(float z, float angle, float height) {
   return std::cos(angle) > 0.0F && std::abs(std::sin(angle)) < 9.0F * (z / height - 0.197F);
 }

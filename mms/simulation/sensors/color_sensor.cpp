@@ -13,10 +13,11 @@ namespace mms {
 namespace {
 
 constexpr std::size_t kRowsAtOnce = 16;
-constexpr float kGlare = 8.0F;  // radiances count up to here, so that one pixel cannot blind many
+constexpr float kGlare =
+    8.0F;  // limit of radiance, so that the lens blur of one pixel cannot saturate many
 
-/// sRGB curve (IEC 61966-2-1) as grey levels of 255, tabled over the root of the light, where it
-/// is nearly straight: off by less than 0.04 grey levels without interpolation.
+/// sRGB curve (IEC 61966-2-1) in gray levels of 255, tabulated over the square root of the light,
+/// where it is almost linear: error below 0.04 gray levels without interpolation.
 class SrgbTable {
  public:
   SrgbTable() {
@@ -40,7 +41,7 @@ class SrgbTable {
   std::array<float, kSize> grey_{};
 };
 
-/// Half of a Gaussian of sum 1, from its centre outwards, without weights below 1/1000 of the
+/// Half of a Gaussian of sum 1, from its center outwards, without weights below 1/1000 of the
 /// first.
 std::vector<float> gaussian(double sigma) {
   const double reach = std::clamp(sigma, 0.0, 20.0) * std::sqrt(2.0 * std::log(1000.0));
@@ -55,7 +56,7 @@ std::vector<float> gaussian(double sigma) {
   return half;
 }
 
-/// to += weight * from, with radiances cut to [0, kGlare]; no number counts as 0.
+/// to += weight * from, with radiances clamped to [0, kGlare]; NaN counts as 0.
 void add_row(const float* from, float weight, std::vector<float>& to, std::size_t offset) {
   float* out = to.data() + offset;
   const std::size_t count = to.size() - 2 * offset;
@@ -64,7 +65,7 @@ void add_row(const float* from, float weight, std::vector<float>& to, std::size_
   }
 }
 
-/// Blurred rows of a picture, one after the other; each thread has its own.
+/// Blurred rows of an image in sequence; one instance per thread.
 class Lens {
  public:
   Lens(const Image<Eigen::Vector3f>& radiance, const std::vector<float>& weights)
@@ -74,7 +75,7 @@ class Lens {
         column_(3 * static_cast<std::size_t>(radiance.width()) + 2 * margin_),
         row_(3 * static_cast<std::size_t>(radiance.width())) {}
 
-  /// Channels of row `y`, three a pixel; good until the next call.
+  /// Channels of row `y`, three per pixel; valid until the next call.
   float* blurred(int y) {
     std::fill(column_.begin(), column_.end(), 0.0F);
     const int reach = static_cast<int>(weights_.size()) - 1;
@@ -111,12 +112,12 @@ class Lens {
 
   const Image<Eigen::Vector3f>& radiance_;
   const std::vector<float>& weights_;
-  std::size_t margin_;         // channels beyond the border on each side
+  std::size_t margin_;         // channels beyond the boundary on each side
   std::vector<float> column_;  // blurred along the columns, with margins
-  std::vector<float> row_;     // blurred both ways
+  std::vector<float> row_;     // blurred in both directions
 };
 
-/// Darkens row `y` towards the corners and cuts it to [0, 1].
+/// Darkens row `y` towards the corners and clamps it to [0, 1].
 void vignette(float* channels, int y, int width, int height, float share) {
   const float cx = 0.5F * static_cast<float>(width - 1);
   const float cy = 0.5F * static_cast<float>(height - 1);
@@ -132,14 +133,14 @@ void vignette(float* channels, int y, int width, int height, float share) {
   }
 }
 
-/// Nearly normal, mean 0 and variance 1, from the low 21 bits: the sum of three uniforms.
+/// Approximately normal, mean 0 and variance 1, from the low 21 bits: the sum of three uniforms.
 float normal_of_21_bits(std::uint64_t bits) {
   const auto sum = static_cast<int>((bits & 127U) + ((bits >> 7) & 127U) + ((bits >> 14) & 127U));
   constexpr float kInverseSigma = 2.0F / 128.0F;  // a uniform of 128 values has variance 128^2 / 12
   return (static_cast<float>(sum) - 190.5F) * kInverseSigma;
 }
 
-/// Grey levels with noise from light in [0, 1]; `stream` and the pixel's number make the hash.
+/// Noisy gray levels from light in [0, 1]; `stream` and the pixel index determine the hash.
 void expose_row(const float* light, const ColorSensor& sensor, std::uint64_t stream, int width,
                 Rgb* out) {
   static const SrgbTable srgb;

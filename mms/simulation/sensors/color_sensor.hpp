@@ -8,22 +8,24 @@
 
 namespace mms {
 
-/// What a colour camera does to light.
+/// Model of a color camera.
 struct ColorSensor {
   CameraIntrinsics intrinsics;
-  double exposure = 0.008;  ///< [s]; whoever renders the radiances averages over it
-  double read_noise = 1.0;  ///< one sigma in the dark [grey levels of 255 in the finished picture]
-  double shot_noise = 1.5;  ///< one sigma at full white, growing with the root of the light
+  double exposure = 0.008;  ///< [s]; the renderer averages the radiances over it
+  double read_noise =
+      1.0;  ///< standard deviation in the dark [gray levels of 255 in the final image]
+  double shot_noise =
+      1.5;  ///< standard deviation at full white, proportional to the root of the light
   double vignetting =
-      0.25;               ///< share of light lost in the corners, growing with the radius squared
-  double softness = 0.5;  ///< one sigma of the lens' blur [px]
+      0.25;  ///< share of light lost in the corners, proportional to the squared radius
+  double softness = 0.5;  ///< standard deviation of the lens blur [px]
   int jpeg_quality = 92;  ///< of recordings
 };
 
-/// Picture of linear radiances (1 is what becomes white), of any size: lens blur, vignetting about
-/// the centre, sRGB curve (IEC 61966-2-1), then noise with
-/// sigma^2 = read_noise^2 + shot_noise^2 * light. Radiances that are no numbers are black. `key`
-/// makes the frame's noise; the same bits for any number of threads.
+/// Image from linear radiances (1 becomes white) of any size: lens blur, vignetting about the
+/// center, sRGB curve (IEC 61966-2-1), then noise with sigma^2 = read_noise^2 + shot_noise^2 *
+/// light. NaN radiances are black. `key` determines the noise; bitwise equal for any number of
+/// threads.
 Image<Rgb> develop(const Image<Eigen::Vector3f>& radiance, const ColorSensor& sensor,
                    std::uint64_t key);
 

@@ -13,12 +13,12 @@ namespace mms {
 namespace {
 
 constexpr std::size_t kRowsAtOnce = 16;
-constexpr float kJump = 0.06F;      // of inverse depth, relative, that makes a boundary
-constexpr float kMaxGrowth = 4.0F;  // of sigma with the angle
+constexpr float kJump = 0.06F;      // relative jump of inverse depth at a boundary
+constexpr float kMaxGrowth = 4.0F;  // largest factor of sigma at grazing angles
 constexpr int kMaxReach = 8;        // [px]
 
-/// Inverse depths [1/m] with a margin of NaN, which compares as no jump; 0 for nothing seen. On a
-/// plane they are linear in the pixel, so that a jump differs from a slope.
+/// Inverse depths [1/m] with a margin of NaN, which never compares as a jump; 0 without surface. On
+/// a plane they are linear in the pixel, which distinguishes jumps from slopes.
 class InverseDepth {
  public:
   InverseDepth(const Image<float>& depth, int margin)
@@ -44,9 +44,9 @@ class InverseDepth {
   Image<float> image_;
 };
 
-/// For every pixel of a row the inverse depth beyond the widest jump among those `step` away, where
-/// that is wider than what `beyond` holds already.
-void look_across(const float* here, std::ptrdiff_t step, int width, float* beyond) {
+/// For every pixel of a row the inverse depth across the largest jump among those `step` away, if
+/// it is larger than the one in `beyond`.
+void find_jumps(const float* here, std::ptrdiff_t step, int width, float* beyond) {
   for (int x = 0; x < width; ++x) {
     const float d = here[x];
     const float other = here[x + step];
@@ -58,31 +58,30 @@ void look_across(const float* here, std::ptrdiff_t step, int width, float* beyon
   }
 }
 
-/// Inverse depths across the boundary for the pixels of row `y`: their own where there is no
-/// boundary.
+/// Inverse depths across the boundary for the pixels of row `y`: their own away from boundaries.
 void find_boundaries(const InverseDepth& inverse, int y, int reach, std::vector<float>& beyond) {
   const float* here = inverse.row(y);
   const int width = static_cast<int>(beyond.size());
   std::copy(here, here + width, beyond.begin());
   for (std::ptrdiff_t distance = 1; distance <= reach; ++distance) {
     for (const std::ptrdiff_t way : {std::ptrdiff_t{1}, inverse.stride()}) {
-      look_across(here, distance * way, width, beyond.data());
-      look_across(here, -distance * way, width, beyond.data());
+      find_jumps(here, distance * way, width, beyond.data());
+      find_jumps(here, -distance * way, width, beyond.data());
     }
   }
 }
 
-/// A pixel's exact surface.
+/// Exact surface at a pixel.
 struct Surface {
   float z = 0.0F;  // [m]
   float beyond =
-      0.0F;  // depth across the boundary [m], infinite for nothing there; z away from boundaries
+      0.0F;  // depth across the boundary [m], infinite without surface; z away from boundaries
   float cosine = 0.0F;
   float reflectance = 0.0F;
   float gloss = 0.0F;
 };
 
-/// A DepthSensor in single precision, with what follows from it.
+/// A DepthSensor in single precision, with derived values.
 class Measurement {
  public:
   explicit Measurement(const DepthSensor& sensor)
@@ -97,7 +96,7 @@ class Measurement {
         boundary_lost_(static_cast<float>(sensor.boundary_lost)),
         boundary_mixed_(static_cast<float>(sensor.boundary_mixed)) {}
 
-  /// Depth measured, 0 for none; `hash` decides.
+  /// Measured depth, 0 for no return; deterministic for a `hash`.
   float operator()(const Surface& s, std::uint64_t hash) const {
     if (!in_range(s.z) || uniform_of(hash) < lost(s)) return 0.0F;
     float z = s.z;
@@ -120,7 +119,7 @@ class Measurement {
     return noise_.sigma(z) * std::min(growth, kMaxGrowth);
   }
 
-  /// Chance that too little light returns.
+  /// Probability that too little light returns.
   float lost(const Surface& s) const {
     const float grazing = (3.0F * lost_cosine_ - s.cosine) / (2.0F * lost_cosine_);
     const float needed = darkness_ * s.z * s.z;
@@ -147,7 +146,7 @@ class Measurement {
   float boundary_mixed_;
 };
 
-/// `value`, or 0 where it is no number or negative.
+/// `value`, or 0 if NaN or negative.
 float sane(float value) {
   return value > 0.0F ? value : 0.0F;
 }

@@ -12,14 +12,13 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Turns a second of a rosette's two prisms: about 120 and, the other way, 80, as in Livox's
-/// Mid-40, which makes 20 petals in 0.1 s; incommensurate with each other and with any period by
-/// irrational parts.
+/// Rotations per second of the two prisms of a rosette: about 120 and -80, as in Livox's Mid-40,
+/// which gives 20 petals in 0.1 s; irrational offsets make the pattern non-repeating.
 constexpr double kFirstPrism = 7294.0 / 60.0 + 0.01 * std::numbers::sqrt2;
 constexpr double kSecondPrism = -4664.0 / 60.0 + 0.01 * std::numbers::sqrt3;
 
-constexpr float kReference = 0.8F;     // reflectance that data sheets give the range for
-constexpr float kLeastCosine = 0.02F;  // a surface seen along itself returns nothing
+constexpr float kReference = 0.8F;   // reflectance for which data sheets specify the range
+constexpr float kMinCosine = 0.02F;  // no return at a smaller cosine
 
 Eigen::Vector3f direction_at(double azimuth, double elevation) {
   return Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
@@ -75,8 +74,8 @@ std::vector<Beam> rosette(const LidarSensor& sensor, int index, double period) {
   return shots;
 }
 
-/// Chance that a shot returns too little light.
-float chance_of_loss(float range, float cosine, float reflectance, float gloss, float max_range) {
+/// Probability that a shot returns too little light.
+float loss_probability(float range, float cosine, float reflectance, float gloss, float max_range) {
   const float share = range / max_range;
   const float needed = kReference * share * share;
   const float weak = needed > 0.0F ? 1.5F - reflectance * cosine / needed : 0.0F;
@@ -96,9 +95,9 @@ float measured_range(float range, float cosine, float reflectance, float gloss,
   const auto nearest = static_cast<float>(sensor.min_range);
   const auto farthest = static_cast<float>(sensor.max_range);
   const auto in_range = [&](float r) { return r >= nearest && r <= farthest; };
-  if (!in_range(range) || !(cosine >= kLeastCosine) || !(reflectance > 0.0F)) return 0.0F;
-  const float loss = chance_of_loss(range, std::min(cosine, 1.0F), reflectance,
-                                    gloss > 0.0F ? gloss : 0.0F, farthest);
+  if (!in_range(range) || !(cosine >= kMinCosine) || !(reflectance > 0.0F)) return 0.0F;
+  const float loss = loss_probability(range, std::min(cosine, 1.0F), reflectance,
+                                      gloss > 0.0F ? gloss : 0.0F, farthest);
   if (uniform_of(hash_of(hash, 1)) < loss) return 0.0F;
   const float measured = range + static_cast<float>(sensor.noise) * normal_of(hash_of(hash, 2));
   return in_range(measured) ? measured : 0.0F;

@@ -11,19 +11,20 @@
 namespace mms {
 namespace {
 
-constexpr float kWave = 24.0F;      // length over which the retreat varies [px of 640]
-constexpr int kFramesOfShape = 4;   // over which the boundary's shape changes
-constexpr double kThinnest = 5.0;   // objects narrower than this many retreats lose less
+constexpr float kWave = 24.0F;     // wavelength of the erosion's variation [px of 640]
+constexpr int kFramesOfShape = 4;  // frames during which the boundary's shape changes
+constexpr double kMinWidth =
+    5.0;  // objects narrower than this multiple of the erosion are eroded less
 constexpr float kSpillMin = 4.0F;   // [px of 640]
 constexpr float kSpillMax = 10.0F;  // [px of 640]
 enum Kind : std::uint64_t { kMissed = 1, kLostPart, kSpill, kBoundary };
 
-/// What became of a pixel of the window around an object.
+/// State of a pixel in the window around an object.
 enum State : std::uint8_t { kFree, kOwn, kEroded, kCutOff, kOthers };
 
-/// Hash of the spell that frame `index` is in, if any. Time is divided into blocks with one spell
-/// each, anywhere but on the last frame, so `share` of the frames are in spells of `mean` frames
-/// on average and any frame is evaluated without those before it.
+/// Hash of the error period that contains frame `index`, if any. Time is divided into blocks with
+/// one period each, anywhere but on the last frame, so that `share` of the frames are in periods of
+/// `mean` frames on average, and any frame is evaluated without the previous ones.
 std::optional<std::uint64_t> spell_at(double share, double mean, std::uint64_t key, int index) {
   share = std::min(share, 0.95);
   if (!(share > 0.0)) return std::nullopt;
@@ -44,7 +45,7 @@ std::optional<std::uint64_t> spell_at(double share, double mean, std::uint64_t k
   return inside >= 0 && inside < length ? std::optional(hash) : std::nullopt;
 }
 
-/// Pixels from (x0, y0) to before (x1, y1).
+/// Pixels in [x0, x1) x [y0, y1).
 struct Box {
   int x0 = 1 << 30;
   int y0 = 1 << 30;
@@ -68,18 +69,18 @@ std::array<Box, 256> boxes_of(const Image<std::uint8_t>& instances) {
   return boxes;
 }
 
-/// One object's mask in a window of the image, and what goes wrong with it.
+/// Mask of one object in a window of the image, with errors.
 class ObjectMask {
  public:
   ObjectMask(const Image<std::uint8_t>& instances, std::uint8_t id, const Box& box,
              const MaskErrorConfig& config)
       : box_(box), scale_(static_cast<float>(instances.width()) / 640.0F) {
-    const double wanted = config.erosion * static_cast<double>(scale_);
-    const double limit = box.shorter_side() / kThinnest;
-    const double strength = wanted > limit ? limit / wanted : 1.0;
-    retreat_ = static_cast<float>(strength * wanted);
+    const double full_erosion = config.erosion * static_cast<double>(scale_);
+    const double limit = box.shorter_side() / kMinWidth;
+    const double strength = full_erosion > limit ? limit / full_erosion : 1.0;
+    erosion_ = static_cast<float>(strength * full_erosion);
     jitter_ = static_cast<float>(strength * config.boundary_jitter) * scale_;
-    const int margin = static_cast<int>(std::ceil(retreat_ + 1.5F * kSpillMax * scale_)) + 1;
+    const int margin = static_cast<int>(std::ceil(erosion_ + 1.5F * kSpillMax * scale_)) + 1;
     x0_ = std::max(box.x0 - margin, 0);
     y0_ = std::max(box.y0 - margin, 0);
     state_ = Image<std::uint8_t>(std::min(box.x1 + margin, instances.width()) - x0_,
@@ -92,10 +93,10 @@ class ObjectMask {
     }
   }
 
-  /// Takes a ragged band off the boundary; its shape changes over some frames.
+  /// Erodes the boundary irregularly; its shape changes over several frames.
   void erode(std::uint64_t key, int index) {
-    if (!(retreat_ + jitter_ > 0.0F)) return;
-    const int limit = static_cast<int>(std::ceil(retreat_ + jitter_)) + 1;
+    if (!(erosion_ + jitter_ > 0.0F)) return;
+    const int limit = static_cast<int>(std::ceil(erosion_ + jitter_)) + 1;
     const Image<int> rows = rows_to_boundary(limit);
     const auto shape = static_cast<std::uint64_t>(index / kFramesOfShape);
     const std::array seeds{hash_of(key, shape), hash_of(key, shape + 1)};
@@ -106,12 +107,12 @@ class ObjectMask {
         const float inside = distance_to_boundary(rows, x, y, limit);
         if (inside >= static_cast<float>(limit)) continue;
         const float noise = (1.0F - share) * wave(seeds[0], x, y) + share * wave(seeds[1], x, y);
-        if (inside < retreat_ + jitter_ * noise) state_(x, y) = kEroded;
+        if (inside < erosion_ + jitter_ * noise) state_(x, y) = kEroded;
       }
     }
   }
 
-  /// Cuts off what lies beyond a line: the lower part, one side, or any part.
+  /// Removes the part beyond a line: the lower part, one side, or any part.
   void cut(std::uint64_t hash) {
     constexpr float kPi = std::numbers::pi_v<float>;
     const float way = uniform_of(hash_of(hash, 11));
@@ -135,7 +136,7 @@ class ObjectMask {
     }
   }
 
-  /// Sweeps the mask to one side, over the eroded boundary and some pixels of what stands behind.
+  /// Shifts the mask to one side, over the eroded boundary and some background pixels.
   void spill(std::uint64_t hash) {
     const float angle = 2.0F * std::numbers::pi_v<float> * uniform_of(hash_of(hash, 21));
     const float reach =
@@ -144,7 +145,7 @@ class ObjectMask {
     for (int y = 0; y < state_.height(); ++y) {
       for (int x = 0; x < state_.width(); ++x) {
         if (before(x, y) != kFree && before(x, y) != kEroded) continue;
-        const float far = retreat_ + reach * (1.0F + 0.5F * wave(hash, x, y));
+        const float far = erosion_ + reach * (1.0F + 0.5F * wave(hash, x, y));
         if (near_own(before, x, y, std::cos(angle), std::sin(angle), far)) state_(x, y) = kOwn;
       }
     }
@@ -166,8 +167,8 @@ class ObjectMask {
     return value_noise(static_cast<std::uint32_t>(seed >> 32), u, v);
   }
 
-  /// Rows from each pixel to the nearest one that is not the object's, at most `limit` + 1. Beyond
-  /// the image the object goes on.
+  /// Rows from each pixel to the nearest one outside the object, at most `limit` + 1. Beyond the
+  /// image the object is continued.
   Image<int> rows_to_boundary(int limit) const {
     Image<int> rows(state_.width(), state_.height());
     for (int x = 0; x < state_.width(); ++x) {
@@ -183,8 +184,8 @@ class ObjectMask {
     return rows;
   }
 
-  /// Distance [px] of a pixel's centre to the boundary, which is half a pixel before the nearest
-  /// pixel that is not the object's; `limit` or more for far.
+  /// Distance [px] of a pixel's center to the boundary, which is half a pixel before the nearest
+  /// pixel outside the object; at least `limit` if farther.
   float distance_to_boundary(const Image<int>& rows, int x, int y, int limit) const {
     int nearest2 = (limit + 1) * (limit + 1);
     const int last = std::min(x + limit, state_.width() - 1);
@@ -206,15 +207,15 @@ class ObjectMask {
   }
 
   Box box_;
-  float scale_;           // pixels for one of a 640 px wide image
-  float retreat_ = 0.0F;  // [px]
+  float scale_;           // factor for images wider than 640 px
+  float erosion_ = 0.0F;  // [px]
   float jitter_ = 0.0F;   // [px]
   int x0_ = 0;            // left column of the window
   int y0_ = 0;            // top row of the window
   Image<std::uint8_t> state_;
 };
 
-/// Writes what a network finds of one object.
+/// Writes the erroneous mask of one object.
 void segment(const Image<std::uint8_t>& instances, std::uint8_t id, const Box& box,
              std::uint8_t label, const MaskErrorConfig& config, std::uint64_t key, int index,
              Image<std::uint8_t>& labels) {
@@ -229,7 +230,7 @@ void segment(const Image<std::uint8_t>& instances, std::uint8_t id, const Box& b
   mask.write(labels, label);
 }
 
-/// Labels of a network without fault.
+/// Labels without errors.
 Image<std::uint8_t> exact_masks(const Image<std::uint8_t>& instances,
                                 std::span<const ObjectClass> classes) {
   std::array<std::uint8_t, 256> labels{};
@@ -244,19 +245,18 @@ Image<std::uint8_t> exact_masks(const Image<std::uint8_t>& instances,
 }  // namespace
 
 void MaskErrorConfig::visit(ConfigVisitor& v) {
-  v.boolean({"enabled", "", "give masks as a network finds them instead of exact ones"}, enabled);
-  v.number({"missed", "", "share of an object's frames without any mask"}, missed, {0.0, 0.9});
-  v.number({"spell", "frames", "mean length of the spells that masks fail for"}, spell,
-           {1.0, 1000.0});
-  v.number({"erosion", "px", "mean retreat of the boundary, for images 640 px wide"}, erosion,
+  v.boolean({"enabled", "", "give masks with errors instead of exact ones"}, enabled);
+  v.number({"missed", "", "share of an object's frames without mask"}, missed, {0.0, 0.9});
+  v.number({"spell", "frames", "mean duration of each error"}, spell, {1.0, 1000.0});
+  v.number({"erosion", "px", "mean erosion of the boundary, for images 640 px wide"}, erosion,
            {0.0, 50.0});
-  v.number({"boundary_jitter", "px", "how much the retreat varies, for images 640 px wide",
-            "raggedness"},
-           boundary_jitter, {0.0, 50.0});
+  v.number(
+      {"boundary_jitter", "px", "variation of the erosion, for images 640 px wide", "raggedness"},
+      boundary_jitter, {0.0, 50.0});
   v.number({"lost_parts", "", "share of an object's frames in which its mask lacks a part"},
            lost_parts, {0.0, 0.9});
-  v.number({"spill", "", "share of an object's frames in which its mask covers background too"},
-           spill, {0.0, 0.9});
+  v.number({"spill", "", "share of an object's frames in which its mask covers background"}, spill,
+           {0.0, 0.9});
 }
 
 Image<std::uint8_t> imperfect_masks(const Image<std::uint8_t>& instances,

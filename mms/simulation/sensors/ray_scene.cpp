@@ -35,7 +35,7 @@ void check(RTCDevice device) {
       code == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory" : "is the CPU x86-64 or ARM64?");
 }
 
-/// Builds on one thread: with more, the tree and so the winner of a tie would depend on chance.
+/// Builds on one thread: with more, the tree and the winner of a tie would be random.
 void commit(RTCScene scene) {
   tbb::task_arena arena(1);
   arena.execute([&] { rtcJoinCommitScene(scene); });
@@ -67,7 +67,7 @@ RTCIntersectContext coherent_context() {
   return context;
 }
 
-/// Fills one lane of a packet.
+/// Sets one lane of a packet.
 void load(const Ray& ray, RTCRay8& packet, std::size_t lane) {
   packet.org_x[lane] = ray.origin.x();
   packet.org_y[lane] = ray.origin.y();
@@ -83,7 +83,7 @@ void load(const Ray& ray, RTCRay8& packet, std::size_t lane) {
   packet.flags[lane] = 0;
 }
 
-/// Loads up to a packet's worth of rays; lanes without one are switched off.
+/// Loads up to one packet of rays; unused lanes are disabled.
 std::size_t load(std::span<const Ray> rays, RTCRay8& packet, int* valid) {
   const std::size_t count = std::min(kPacket, rays.size());
   for (std::size_t lane = 0; lane < kPacket; ++lane) {
@@ -99,7 +99,7 @@ struct RayScene::Impl {
   Device device{rtcNewDevice(nullptr)};
   Scene all;
   std::vector<Scene> shapes;        ///< of the fixed mesh, which is built only once, and the parts
-  std::vector<Geometry> instances;  ///< one a part, with geometry id 1 + part in `all`
+  std::vector<Geometry> instances;  ///< one per part, with geometry id 1 + part in `all`
 
   Scene new_scene() const {
     Scene scene(rtcNewScene(device.get()));

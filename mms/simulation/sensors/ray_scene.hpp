@@ -11,8 +11,8 @@
 
 namespace mms {
 
-/// Half-line in the world frame. Distances along it count in lengths of `direction`, which need not
-/// be of unit length: a direction with z = 1 in the camera frame makes them depths.
+/// Ray in the world frame. Distances are in lengths of `direction`, which need not be a unit
+/// vector: with z = 1 in the camera frame they are depths.
 struct Ray {
   Eigen::Vector3f origin;  ///< [m]
   Eigen::Vector3f direction;
@@ -32,13 +32,12 @@ struct RayHit {
   bool valid() const { return part != kNothing; }
 };
 
-/// Triangles that rays can be shot at: one fixed mesh and rigid parts that move (Embree behind one
-/// file). Rays may be cast from many threads; placing parts excludes casting. The same rays at the
-/// same parts give the same hits for any number of threads.
+/// Triangles for ray casting: one fixed mesh and rigid moving parts (wraps Embree). `cast` is
+/// thread-safe, but not concurrent with `place`. Results do not depend on the number of threads.
 class RayScene {
  public:
-  /// The meshes are copied.
-  /// @throws Error when Embree finds no memory or no usable instruction set.
+  /// Copies the meshes.
+  /// @throws Error if Embree lacks memory or a supported instruction set.
   RayScene(const Mesh& fixed, std::span<const Mesh* const> parts);
   ~RayScene();
   RayScene(const RayScene&) = delete;
@@ -46,17 +45,17 @@ class RayScene {
 
   std::size_t part_count() const;
 
-  /// Moves all parts, in their order.
+  /// Sets the poses of all parts, in order.
   void place(std::span<const Eigen::Isometry3f> T_world_part);
 
   /// First hit of every ray.
   void cast(std::span<const Ray> rays, std::span<RayHit> hits) const;
 
-  /// First hit of every ray among parts [first, last) alone, as if nothing else were there.
+  /// First hit of every ray with parts [first, last) alone.
   void cast_at_parts(std::span<const Ray> rays, std::size_t first, std::size_t last,
                      std::span<RayHit> hits) const;
 
-  /// Whether anything lies on each ray before its reach.
+  /// Whether each ray hits anything within its reach.
   void blocked(std::span<const Ray> rays, std::span<std::uint8_t> result) const;
 
  private:

@@ -12,14 +12,14 @@
 namespace mms {
 namespace {
 
-constexpr std::size_t kRun = 64;  // pixels that are traced together, a multiple of Embree's packets
-constexpr float kShadowStep = 2e-3F;  // how far shadow rays start from the surface [m]
+constexpr std::size_t kRun = 64;      // pixels traced together, a multiple of Embree's packet size
+constexpr float kShadowStep = 2e-3F;  // offset of shadow rays from the surface [m]
 
 Ray ray_of(const RayTable& table, std::size_t i, const Eigen::Isometry3f& T_world_camera) {
   return {T_world_camera.translation(), T_world_camera.linear() * table.rays[i]};
 }
 
-/// Highlight of a lamp on a glossy surface (Blinn and Phong).
+/// Specular highlight of a lamp (Blinn-Phong).
 float highlight(const SurfacePoint& point, const Eigen::Vector3f& to_eye,
                 const Eigen::Vector3f& to_lamp) {
   const Eigen::Vector3f half = (to_eye + to_lamp.normalized()).normalized();
@@ -29,7 +29,7 @@ float highlight(const SurfacePoint& point, const Eigen::Vector3f& to_eye,
   return 2.5F * point.material->gloss * c8 * c8 * c8;
 }
 
-/// A run of pixels on its way through casting, shadows and shading.
+/// State of a run of pixels during casting, shadows and shading.
 struct Run {
   std::array<Ray, kRun> rays;
   std::array<RayHit, kRun> hits;
@@ -39,7 +39,7 @@ struct Run {
   std::array<std::uint8_t, kRun> shadowed;
 };
 
-/// Takes away the light of lamp number `lamp` where something stands before it.
+/// Removes the light of lamp number `lamp` at occluded points.
 void cast_shadows(const RayScene& scene, std::size_t lamp, std::size_t count, Run& run) {
   for (std::size_t i = 0; i < count; ++i) {
     Ray& ray = run.shadow_rays[i];
@@ -81,7 +81,7 @@ Eigen::Vector3f shade(const Run& run, std::size_t i, float pixel_angle) {
       mirrored += highlight(point, to_eye, lamp.to_lamp) * lamp.irradiance;
     }
   }
-  // Colours of materials are as seen on a screen; light adds up in linear space.
+  // Material colors are in display space; light is added in linear space.
   return color.cwiseMax(0.0F).cwiseProduct(color.cwiseMax(0.0F)).cwiseProduct(light) + mirrored;
 }
 
@@ -103,7 +103,7 @@ void light_run(const RayScene& scene, const Lights& lights, std::size_t count, R
   for (std::size_t lamp = 0; lamp < kShadowLamps; ++lamp) cast_shadows(scene, lamp, count, run);
 }
 
-ExactView blank_view(const RayTable& table) {
+ExactView empty_view(const RayTable& table) {
   ExactView view;
   view.depth = {table.width, table.height, std::numeric_limits<float>::infinity()};
   view.cosine = {table.width, table.height};
@@ -166,7 +166,7 @@ RayTable ray_table(const CameraIntrinsics& camera) {
 void render(const RayScene& scene, const SurfaceLookup& surfaces, const Lights& lights,
             const std::vector<std::uint8_t>& object_of_part, const RayTable& table,
             const Eigen::Isometry3f& T_world_camera, const RenderTarget& target) {
-  if (target.view != nullptr) *target.view = blank_view(table);
+  if (target.view != nullptr) *target.view = empty_view(table);
   parallel_chunks(table.rays.size(), 16 * kRun, [&](std::size_t begin, std::size_t end) {
     Run run;
     for (std::size_t first = begin; first < end; first += kRun) {

@@ -14,7 +14,7 @@
 
 namespace mms {
 
-/// A point on a surface, all that shading and sensors need to know of it.
+/// A surface point with the properties needed for shading and sensors.
 struct SurfacePoint {
   Eigen::Vector3f position;     ///< world frame [m]
   Eigen::Vector3f face_normal;  ///< of the triangle, towards the ray's origin
@@ -23,7 +23,7 @@ struct SurfacePoint {
   const Material* material = nullptr;
 };
 
-/// What the rays of a scene meet. The meshes have to outlive it.
+/// Properties of the surfaces that rays hit. The meshes must outlive it.
 class SurfaceLookup {
  public:
   SurfaceLookup(const Mesh& fixed, std::vector<const Mesh*> parts);
@@ -38,27 +38,26 @@ class SurfaceLookup {
   std::vector<Eigen::Isometry3f> T_;
 };
 
-/// A camera's rays: pixel i looks along `rays[i]` (z = 1) in the camera frame.
+/// Rays of a camera: pixel i has the direction `rays[i]` (z = 1) in the camera frame.
 struct RayTable {
   int width = 0;
   int height = 0;
-  float pixel_angle = 0.002F;  ///< what a pixel covers at 1 m [m]
+  float pixel_angle = 0.002F;  ///< size of a pixel at a distance of 1 m [m]
   std::vector<Eigen::Vector3f> rays;
 };
 
-/// @throws DataError when the intrinsics make no camera.
+/// @throws DataError if the intrinsics are invalid.
 RayTable ray_table(const CameraIntrinsics& camera);
 
-/// What is wanted of a look at a scene; both images of the table's size.
+/// Outputs of a rendering; both images have the table's size.
 struct RenderTarget {
   ExactView* view = nullptr;                   ///< is overwritten
-  Image<Eigen::Vector3f>* radiance = nullptr;  ///< `weight` of the light is added: 1 is what a
-                                               ///< white surface sends under good light
+  Image<Eigen::Vector3f>* radiance = nullptr;  ///< `weight` of the light is added: 1 is the
+                                               ///< radiance of a white surface under good light
   float weight = 1.0F;
 };
 
-/// Looks at the scene from a camera; `object_of_part[i]` is 1 + id of the object that moving part i
-/// belongs to.
+/// Renders the scene from a camera; `object_of_part[i]` is 1 + id of the object of moving part i.
 void render(const RayScene& scene, const SurfaceLookup& surfaces, const Lights& lights,
             const std::vector<std::uint8_t>& object_of_part, const RayTable& table,
             const Eigen::Isometry3f& T_world_camera, const RenderTarget& target);

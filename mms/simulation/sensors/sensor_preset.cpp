@@ -13,7 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::array<std::string_view, 6> kNames{"l515",    "d435",    "kinect",
                                                  "lidar16", "lidar64", "livox"};
 
-/// 640x480 camera of focal length `f` [px] with an optical centre slightly off the center.
+/// 640x480 camera of focal length `f` [px] with a principal point slightly off the center.
 CameraIntrinsics vga_camera(double f, double cx, double cy, std::array<double, 5> distortion) {
   return {
       .fx = f, .fy = f, .cx = cx, .cy = cy, .width = 640, .height = 480, .distortion = distortion};
@@ -21,7 +21,7 @@ CameraIntrinsics vga_camera(double f, double cx, double cy, std::array<double, 5
 
 /// Intel RealSense LiDAR Camera L515, product brief and data sheet: depth 0.25 to 9 m,
 /// standard deviation 2.5 mm at 1 m and 15.5 mm at 9 m on a 95 % reflective target, 3.9 m on a 15 %
-/// one, units of 0.25 mm; colour 69 x 42 degrees, which is f = 605 px at 640x480.
+/// one, units of 0.25 mm; color 69 x 42 degrees, which is f = 605 px at 640x480.
 SensorPreset l515() {
   SensorPreset head;
   head.color.intrinsics = vga_camera(605.0, 321.4, 243.2, {0.08, -0.19, 0.0006, -0.0004, 0.0});
@@ -33,7 +33,7 @@ SensorPreset l515() {
   depth.quantisation = DepthQuantisation::kDepth;
   depth.step = 0.00025;
   depth.lost_cosine = 0.08;
-  depth.lost_darkness = 0.5;  // half of a 15 % target lost at 4 m, hardly any of a 95 % one at 9 m
+  depth.lost_darkness = 0.5;  // half of a 15 % target lost at 4 m, almost none of a 95 % one at 9 m
   depth.boundary_lost = 0.3;
   depth.boundary_mixed = 0.25;
   depth.boundary_reach = 1;
@@ -58,7 +58,7 @@ SensorPreset d435() {
   depth.quantisation = DepthQuantisation::kDisparity;
   depth.step = 1.0 / (32.0 * 447.0 * 0.050);
   depth.lost_cosine = 0.06;
-  depth.lost_darkness = 0.02;  // passive light and a projector: darkness matters little
+  depth.lost_darkness = 0.02;  // passive light and a projector: brightness has little effect
   depth.boundary_lost = 0.35;
   depth.boundary_mixed = 0.35;
   depth.boundary_reach = 4;  // half of a matching window
@@ -87,7 +87,7 @@ SensorPreset kinect() {
   return head;
 }
 
-/// LiDAR 10 cm above the camera and 3 cm behind it, turned a little as by hand.
+/// LiDAR 10 cm above and 3 cm behind the camera, with a small rotation.
 Eigen::Isometry3d mount() {
   Eigen::Matrix3d axes;  // x right, y down, z forward of x forward, y left, z up
   axes << 0, -1, 0, 0, 0, -1, 1, 0, 0;
@@ -125,9 +125,9 @@ SensorPreset lidar16() {
   return lidar_head(lidar);
 }
 
-/// Velodyne HDL-64E S2 data sheet: +2 to -24.8 degrees, 1.3 million points/s (2083 columns at
-/// 10 Hz), 120 m for 80 % and 50 m for 10 % reflectivity, accuracy below 2 cm. Its two blocks of
-/// rings are taken as one evenly spaced.
+/// Velodyne HDL-64E S2 data sheet: +2 to -24.8 degrees, 1.3 million points/s (2083 columns at 10
+/// Hz), 120 m for 80 % and 50 m for 10 % reflectivity, accuracy below 2 cm. Its two blocks of rings
+/// are modeled as one with even spacing.
 SensorPreset lidar64() {
   LidarSensor lidar;
   lidar.rings = 64;
@@ -171,7 +171,7 @@ SensorPreset sensor_preset(std::string_view name) {
     known += (i == 0 ? "" : ", ") + std::string(kNames[i]);
   }
   throw DataError("sensor", "'" + std::string(name) + "' is none of " + known,
-                  "choose one of these");
+                  "choose one of them");
 }
 
 }  // namespace mms

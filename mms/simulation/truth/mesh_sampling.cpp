@@ -15,7 +15,7 @@ Rgb color_of(const Material& material, const Eigen::Vector2f& uv, float footprin
           static_cast<std::uint8_t>(color.z())};
 }
 
-/// The corner with the widest angle first, so that the sides from it span a grid.
+/// The corner with the largest angle first, so that its sides span a grid.
 std::array<const Vertex*, 3> widest_first(const Mesh& mesh, const Triangle& triangle) {
   std::array<const Vertex*, 3> corners{};
   for (std::size_t i = 0; i < 3; ++i) corners[i] = &mesh.vertices[triangle.corners[i]];
@@ -31,7 +31,7 @@ std::array<const Vertex*, 3> widest_first(const Mesh& mesh, const Triangle& tria
   return corners;
 }
 
-/// Takes the centers of cells of at most spacing x spacing along two sides.
+/// Adds the centers of grid cells of at most spacing x spacing along two sides.
 void sample_triangle(const Mesh& mesh, const Triangle& triangle, float spacing, TruthCloud& cloud) {
   const auto [a, b, c] = widest_first(mesh, triangle);
   const Eigen::Vector3f ab = b->position - a->position;

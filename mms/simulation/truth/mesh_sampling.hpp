@@ -7,9 +7,8 @@
 
 namespace mms {
 
-/// Points on all triangles, on a grid so fine that no place of the surface is farther than
-/// `spacing` [m] from one, with normals and colours, label 0. `T` takes the mesh's frame to the
-/// cloud's.
+/// Points on all triangles, on a grid with a largest distance of `spacing` [m], with normals and
+/// colors, label 0. `T` is the transform from the mesh's frame to the cloud's.
 TruthCloud sample(const Mesh& mesh, const Eigen::Isometry3d& T, double spacing);
 
 }  // namespace mms

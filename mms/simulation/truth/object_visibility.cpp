@@ -8,8 +8,8 @@
 namespace mms {
 namespace {
 
-constexpr float kNearest = 0.05F;      // points nearer to the image plane have no pixel [m]
-constexpr double kMostSamples = 1500;  // rays that an object's occlusion is measured with
+constexpr float kMinDepth = 0.05F;    // points nearer to the image plane have no pixel [m]
+constexpr double kMaxSamples = 1500;  // rays for measuring an object's occlusion
 
 /// Bounds of the actor's parts in the object's own frame.
 Eigen::AlignedBox3d body_box(const Stage& stage, std::size_t actor) {
@@ -22,14 +22,14 @@ Eigen::AlignedBox3d body_box(const Stage& stage, std::size_t actor) {
   return box.cast<double>();
 }
 
-/// Pixel of a point, without distortion where the lens model does not hold.
+/// Pixel of a point, without distortion outside the range of the lens model.
 Eigen::Vector2d pixel_of(const CameraModel& camera, const Eigen::Vector3d& point) {
   if (camera.in_lens_range(point)) return camera.project(point);
   const CameraIntrinsics& k = camera.intrinsics();
   return {k.fx * point.x() / point.z() + k.cx, k.fy * point.y() / point.z() + k.cy};
 }
 
-/// Bounds of the actor's projection; what lies behind the camera is left out.
+/// Bounds of the actor's projection, without the part behind the camera.
 Eigen::AlignedBox2d projected_box(const Stage& stage, std::size_t actor, const CameraModel& camera,
                                   const Eigen::Isometry3f& T_camera_building) {
   Eigen::AlignedBox2d box;
@@ -37,13 +37,13 @@ Eigen::AlignedBox2d projected_box(const Stage& stage, std::size_t actor, const C
     const Eigen::Isometry3f T = T_camera_building * stage.T_building_part(i);
     for (const Vertex& vertex : stage.part(i).vertices) {
       const Eigen::Vector3f point = T * vertex.position;
-      if (point.z() > kNearest) box.extend(pixel_of(camera, point.cast<double>()));
+      if (point.z() > kMinDepth) box.extend(pixel_of(camera, point.cast<double>()));
     }
   }
   return box;
 }
 
-/// As a rectangle over whole pixels' areas.
+/// As a rectangle of whole pixels.
 PixelBox rectangle(const Eigen::AlignedBox2d& box) {
   if (box.isEmpty()) return {};
   const Eigen::Vector2d size = box.sizes() + Eigen::Vector2d(1.0, 1.0);
@@ -67,12 +67,12 @@ void measure_pixels(const ExactView& view, const Eigen::AlignedBox2d& where, Obj
   object.visible = rectangle(box);
 }
 
-/// Share of the object's pixels in `where` that show something else.
+/// Share of the object's pixels in `where` that show another object.
 double occlusion(const Stage& stage, const ExactView& view, const CameraModel& camera,
                  const Eigen::Isometry3d& T_building_camera, const Eigen::AlignedBox2d& where,
                  int id) {
   if (where.isEmpty()) return 0.0;
-  const int step = std::max(1, static_cast<int>(std::sqrt(where.volume() / kMostSamples)));
+  const int step = std::max(1, static_cast<int>(std::sqrt(where.volume() / kMaxSamples)));
   std::vector<Ray> rays;
   std::vector<std::uint8_t> seen;
   const Eigen::Isometry3f T = T_building_camera.cast<float>();

@@ -10,9 +10,9 @@
 
 namespace mms {
 
-/// Every actor of the stage, as it is set now, with its tight box and how much of it the camera
-/// that took `view` sees. Boxes and velocities are in the building's frame; velocity and `moving`
-/// are left at zero, as a stage knows no motion.
+/// All actors of the stage at its present time, with bounding boxes and visibility in `view`. Boxes
+/// and velocities are in the building's frame; velocity and `moving` are zero, as a stage has no
+/// velocities.
 std::vector<ObjectTruth> visible_objects(const Stage& stage, const ExactView& view,
                                          const CameraIntrinsics& camera,
                                          const Eigen::Isometry3d& T_building_camera);

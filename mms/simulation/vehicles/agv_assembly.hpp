@@ -9,22 +9,21 @@
 
 namespace mms {
 
-/// A vehicle put together from parts that move against each other.
+/// A vehicle assembled from moving parts.
 class AgvAssembly {
  public:
   static constexpr std::size_t kBody = static_cast<std::size_t>(-1);
 
-  /// T_parent_part of a part that moves.
+  /// T_parent_part of a moving part.
   using Joint = std::function<Eigen::Isometry3f(const Activity&)>;
 
-  /// Adds a part that hangs on part `parent`, or stands in the object frame for kBody; returns its
-  /// index.
+  /// Adds a part attached to `parent`, or to the object frame for kBody; returns its index.
   std::size_t add(Mesh mesh, std::size_t parent, Joint joint);
 
-  /// ... that is fixed there.
+  /// Adds a fixed part.
   std::size_t add(Mesh mesh, std::size_t parent, const Eigen::Isometry3f& T_parent_part);
 
-  /// The vehicle.
+  /// Returns the vehicle.
   std::unique_ptr<ArticulatedModel> finish(const std::string& kind);
 
  private:

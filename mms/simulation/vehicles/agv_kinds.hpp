@@ -7,7 +7,7 @@
 
 namespace mms {
 
-/// Makers of the single kinds; see AgvKind.
+/// Constructors of the kinds; see AgvKind.
 std::unique_ptr<ArticulatedModel> make_grabbing_agv(std::uint64_t seed);
 std::unique_ptr<ArticulatedModel> make_forklift(std::uint64_t seed);
 std::unique_ptr<ArticulatedModel> make_scanning_agv(std::uint64_t seed);

@@ -7,14 +7,14 @@
 
 namespace mms {
 
-/// Takes z to y: cylinders across the vehicle.
+/// Rotates z to y: cylinders across the vehicle.
 Eigen::Isometry3f across();
 
-/// A box that begins at `low` and ends at `high` [m].
+/// A box from `low` to `high` [m].
 void add_block(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
                std::uint32_t material);
 
-/// A body with bevelled upper and vertical edges: flat box of the same extent, `bevel` [m] cut off.
+/// A body with beveled upper and vertical edges: a box with `bevel` [m] cut off.
 void add_bevelled(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f& high, float bevel,
                   std::uint32_t material);
 
@@ -22,14 +22,14 @@ void add_bevelled(Mesh& mesh, const Eigen::Vector3f& low, const Eigen::Vector3f&
 void add_bar(Mesh& mesh, const Eigen::Vector3f& from, const Eigen::Vector3f& to, float radius,
              std::uint32_t material, int segments = 10);
 
-/// Adds a wheel that rolls on the floor, its axle at (x, y).
+/// Adds a rolling wheel with its axle at (x, y).
 void add_wheel(AgvAssembly& agv, const AgvStyle& style, float x, float y, float radius, float width,
                const Material& hub);
 
-/// Adds a beacon on a socket with its foot at `T`.
+/// Adds a beacon on a socket with its base at `T`.
 void add_lamp(Mesh& mesh, const Eigen::Isometry3f& T, const AgvStyle& style, float size);
 
-/// Adds a lidar with its foot at `T`: housing, window, lid.
+/// Adds a LiDAR with its base at `T`: housing, window, lid.
 void add_lidar(Mesh& mesh, const Eigen::Isometry3f& T, const AgvStyle& style, float radius,
                float height);
 

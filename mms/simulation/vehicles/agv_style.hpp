@@ -6,26 +6,26 @@
 
 namespace mms {
 
-/// Colours and random choices of one vehicle.
+/// Colors and random choices of one vehicle.
 class AgvStyle {
  public:
   explicit AgvStyle(std::uint64_t seed);
 
-  /// Uniform between `low` and `high`; another value for every `what`.
+  /// Uniform between `low` and `high`; independent for every `what`.
   float between(std::uint64_t what, float low, float high) const;
 
-  /// Yes for `share` of all seeds.
+  /// True for `share` of all seeds.
   bool chance(std::uint64_t what, float share) const;
 
-  /// Sine of time with a period of about `period` [s]; another beginning for every `what`.
+  /// Sine of time with a period of about `period` [s]; its phase depends on `what`.
   float wave(std::uint64_t what, float period, double seconds) const;
 
-  /// Joint at `T` that swings about `axis` by `center` +- `amplitude` [rad] as wave() says.
+  /// Joint at `T` that rotates about `axis` by `center` +- `amplitude` [rad], as wave().
   AgvAssembly::Joint swing(std::uint64_t what, float period, const Eigen::Vector3f& axis,
                            float center, float amplitude, const Eigen::Isometry3f& T) const;
 
   Material paint() const;  ///< of the body
-  Material trim() const;   ///< of what stands out from it
+  Material trim() const;   ///< of attached parts
   Material dark() const;   ///< frames, bumpers, housings
   Material rubber() const;
   Material steel() const;

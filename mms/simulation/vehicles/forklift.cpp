@@ -9,7 +9,7 @@ namespace {
 constexpr float kMast = 0.42F;     ///< x of the mast in the frame of the body [m]
 constexpr float kCenter = -0.23F;  ///< x of that frame in the object frame [m]
 
-/// Body with counterweight and, on half of them, a seat below an overhead guard.
+/// Body with counterweight; half of them have a seat below an overhead guard.
 Mesh make_body(const AgvStyle& style, bool guard, float top) {
   Mesh mesh;
   const std::uint32_t paint = mesh.add(style.paint());

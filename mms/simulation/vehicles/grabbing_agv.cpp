@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-/// Low platform with bumpers, scanners, a control cabinet and a bin for what the arm picks.
+/// Low platform with bumpers, scanners, a control cabinet and a bin for picked goods.
 Mesh make_base(const AgvStyle& style) {
   Mesh mesh;
   const std::uint32_t paint = mesh.add(style.paint());
@@ -22,7 +22,7 @@ Mesh make_base(const AgvStyle& style) {
     add_lidar(mesh, at(side * 0.52F, side * 0.30F, 0.47F), style, 0.055F, 0.11F);
   }
   add_block(mesh, {-0.25F, -0.388F, 0.25F}, {0.10F, 0.388F, 0.38F}, mesh.add(style.sticker()));
-  // The bin: four thin walls about cartons.
+  // The bin: four thin walls around cartons.
   const std::array<std::array<float, 4>, 4> walls = {{{-0.52F, -0.08F, -0.32F, -0.30F},
                                                       {-0.52F, -0.08F, 0.30F, 0.32F},
                                                       {-0.52F, -0.50F, -0.32F, 0.32F},
@@ -37,7 +37,7 @@ Mesh make_base(const AgvStyle& style) {
   return mesh;
 }
 
-/// Thick joint across the arm with a link of `length` [m] upwards from it.
+/// Thick transverse joint with a link of `length` [m] upwards.
 Mesh make_link(const AgvStyle& style, float length, float radius, bool bright) {
   Mesh mesh;
   const std::uint32_t paint = mesh.add(bright ? style.trim() : style.paint());

@@ -36,7 +36,7 @@ Mesh make_body(const AgvStyle& style) {
   return mesh;
 }
 
-/// Laser scanner of the square kind: a block with a dark slit all round the front.
+/// Square laser scanner: a block with a dark slit around the front.
 Mesh make_laser(const AgvStyle& style) {
   Mesh mesh;
   Material shell = style.chance(71, 0.5F) ? style.trim() : style.paint();

@@ -51,7 +51,7 @@ Mesh make_column(const AgvStyle& style, float height) {
   return mesh;
 }
 
-/// Head that looks about: a wide box with two lenses.
+/// Rotating head: a wide box with two lenses.
 Mesh make_head(const AgvStyle& style) {
   Mesh mesh;
   const std::uint32_t dark = mesh.add(style.dark());

@@ -57,7 +57,7 @@ Mesh make_load(const AgvStyle& style) {
   return mesh;
 }
 
-/// Rollers run forwards and back in turn; the angle of all of them [rad].
+/// Rollers run alternately forward and backward; their angle [rad].
 float roller_angle(const AgvStyle& style, double seconds) {
   return 6.0F * style.wave(80, 12.0F, seconds);
 }
@@ -76,7 +76,7 @@ std::unique_ptr<ArticulatedModel> make_transport_agv(std::uint64_t seed) {
              Eigen::AngleAxisf(roller_angle(style, activity.seconds), Eigen::Vector3f::UnitY());
     });
   }
-  // A load rides to and fro on them, without slipping.
+  // A load moves with them without slipping.
   if (style.chance(81, 0.65F)) {
     agv.add(make_load(style), AgvAssembly::kBody, [style](const Activity& activity) {
       return at(kRoller * roller_angle(style, activity.seconds), 0, kDeck + 0.001F);

@@ -13,18 +13,18 @@ namespace mms {
 namespace {
 
 constexpr double kRobotRadius = 0.5;    // [m]
-constexpr double kPersonRadius = 0.24;  // they brush past each other [m]
+constexpr double kPersonRadius = 0.24;  // they pass closely [m]
 constexpr double kAgvRadius = 1.0;      // [m]
 constexpr int kTries = 100;
 
-/// A stretch of a lane: a place on it and the way it goes there.
+/// A position on a lane and its direction there.
 struct Station {
   Eigen::Vector2d position;
   Eigen::Vector2d along;
   Eigen::Vector2d across() const { return {-along.y(), along.x()}; }
 };
 
-/// The lane's center, measured in metres from where the sensor starts.
+/// The lane's center line, parameterized by the distance [m] from the sensor's start.
 class Lane {
  public:
   Lane(const Building& building, const Motion& robot)
@@ -73,7 +73,7 @@ class Lane {
   double begin_ = 0.0;
 };
 
-/// Casts actors one by one and keeps their ways apart.
+/// Places actors one by one without collisions of their trajectories.
 class Casting {
  public:
   Casting(const SceneConfig& config, const Building& building, const Motion& robot, double seconds)
@@ -100,7 +100,7 @@ class Casting {
     return static_cast<double>(random_.between(static_cast<float>(from), static_cast<float>(to)));
   }
 
-  /// How far the sensor gets on the lane.
+  /// Path length of the sensor on the lane.
   double reach() const { return robot_.travelled(seconds_); }
 
   Route walk(double speed) {
@@ -115,7 +115,7 @@ class Casting {
     return route;
   }
 
-  /// To and fro across the lane, at the i-th of `count` places the sensor comes by.
+  /// Repeated crossing of the lane at the i-th of `count` positions along the sensor's path.
   Motion crossing(int i, int count) {
     const double stretch = std::max(0.0, reach() + config_.crossing_beyond - config_.crossing_from);
     const double spacing = stretch / count;
@@ -131,7 +131,7 @@ class Casting {
     return drive(route, seconds_);
   }
 
-  /// The lane's corners moved sideways, from the sensor's start on.
+  /// The lane's corners with a lateral offset, from the sensor's start on.
   std::vector<Eigen::Vector2d> lane_corners(double aside) const {
     std::vector<Eigen::Vector2d> corners;
     const std::vector<Eigen::Vector2d>& center = lane_.corners();
@@ -172,8 +172,7 @@ class Casting {
     return drive(route, seconds_);
   }
 
-  /// Vehicles in turn: one that comes towards the sensor, one ahead of it, one that crosses, one
-  /// parked beside the lane.
+  /// Vehicles alternate: towards the sensor, ahead of it, crossing, parked beside the lane.
   Motion vehicle(int i) {
     if (i % 4 == 1) return leading_vehicle();
     if (i % 4 == 2) return crossing(i, std::max(4, config_.agvs));

@@ -10,7 +10,7 @@
 
 namespace mms {
 
-/// A person or AGV on its way.
+/// A person or AGV with its trajectory.
 struct Actor {
   std::unique_ptr<ArticulatedModel> model;
   Motion motion;
@@ -20,8 +20,8 @@ struct Actor {
   }
 };
 
-/// Everybody a scene asks for, on ways that keep clear of the sensor's robot and of each other. Who
-/// finds no such way is left out.
+/// All actors of a scene, on trajectories that keep clear of the sensor's robot and of each other.
+/// Actors without such a trajectory are omitted.
 std::vector<Actor> cast_actors(const SceneConfig& config, const Building& building,
                                const Motion& robot, double seconds);
 

@@ -8,12 +8,12 @@
 namespace mms {
 namespace {
 
-constexpr double kPitch = 0.06;         // how far it looks down [rad]
+constexpr double kPitch = 0.06;         // downward pitch [rad]
 constexpr double kShakeAngle = 0.003;   // [rad]
 constexpr double kShakeHeight = 0.002;  // [m]
 
-/// Where a camera that stands still looks down the lane: far enough from the wall ahead to have
-/// people cross before it, near enough to see it.
+/// Position of a static camera from the end of the lane: far enough for people to cross in front of
+/// it, near enough to see the wall.
 constexpr double kStillFromEnd = 8.0;  // [m]
 
 Motion still_robot(const Building& building) {
@@ -34,7 +34,7 @@ Motion robot_motion(const SceneConfig& config, const Building& building, double 
   return drive(route, seconds);
 }
 
-/// Smooth noise of about unit size that changes a few times a second.
+/// Smooth noise of about unit size with a frequency of a few Hz.
 double shake(std::uint64_t seed, double seconds) {
   double sum = 0.0;
   for (std::uint64_t i = 0; i < 4; ++i) {

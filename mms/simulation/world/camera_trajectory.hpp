@@ -9,17 +9,17 @@
 
 namespace mms {
 
-/// The way of the camera: a robot that follows the lane, and a camera on it that looks ahead, from
-/// side to side, and shakes a little.
+/// Trajectory of the camera: on a robot that follows the lane, facing forward, with a slow pan and
+/// slight vibration.
 class CameraMotion {
  public:
-  /// @param seconds  how long the trajectory lasts
+  /// @param seconds  duration of the trajectory
   CameraMotion(const SceneConfig& config, const Building& building, double seconds);
 
   /// Pose of the optical frame (x right, y down, z forward) in the building's frame.
   Eigen::Isometry3d T_building_camera(double seconds) const;
 
-  /// The robot that carries it.
+  /// The robot that carries the camera.
   const Motion& robot() const { return robot_; }
 
  private:

@@ -10,7 +10,7 @@
 namespace mms {
 namespace {
 
-/// Beams within one slice of time see everybody at the slice's center; a walker's legs move less
+/// Beams within one slice of time see the scene at the slice's center; a walker's legs move less
 /// than 1 cm in that time.
 constexpr double kSlice = 0.005;  // [s]
 

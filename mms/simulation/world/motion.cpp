@@ -35,7 +35,7 @@ Motion::Place Motion::place(double seconds) const {
 }
 
 const MotionKnot& Motion::knot(std::size_t index) const {
-  // Two copies of the end knots on either side make it stand still there.
+  // Two copies of the end knots on either side make the velocity zero there.
   return knots_[std::clamp<std::size_t>(index, 2, knots_.size() + 1) - 2];
 }
 

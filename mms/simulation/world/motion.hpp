@@ -7,23 +7,23 @@
 
 namespace mms {
 
-/// State of something that moves over the floor.
+/// State of an object moving on the floor.
 struct MotionKnot {
   Eigen::Vector2d position{0.0, 0.0};  ///< [m]
   double yaw = 0.0;                    ///< [rad], not wrapped
-  double travelled = 0.0;              ///< way since time 0 [m]
+  double travelled = 0.0;              ///< path length since time 0 [m]
 };
 
-/// A way over the floor as a function of time: uniform cubic B-splines through the knots' values,
-/// so position, heading and their derivatives are smooth and exact at any time. Before the first
-/// knot and after the last it stands still.
+/// A planar trajectory as a function of time: uniform cubic B-splines through the knots' values, so
+/// that position, heading and their derivatives are smooth and exact at any time. Static before the
+/// first and after the last knot.
 class Motion {
  public:
   /// @param knots    at least one, at the times 0, interval, 2 interval, ...
   /// @param interval [s]
   Motion(std::vector<MotionKnot> knots, double interval);
 
-  /// Stands at one place for ever.
+  /// A static pose.
   static Motion still(const Eigen::Vector2d& position, double yaw);
 
   Eigen::Vector2d position(double seconds) const;
@@ -37,7 +37,7 @@ class Motion {
  private:
   using Weights = std::array<double, 4>;
   struct Place {
-    std::size_t first;  ///< of the four knots that matter; may lie beyond the ends
+    std::size_t first;  ///< index of the first of four relevant knots; may lie beyond the ends
     double u;           ///< in [0, 1]
   };
   Place place(double seconds) const;

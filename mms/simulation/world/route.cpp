@@ -9,14 +9,14 @@
 namespace mms {
 namespace {
 
-constexpr double kStep = 0.05;    // [s] of the drive
-constexpr int kStepsPerKnot = 4;  // so a knot every 0.2 s
+constexpr double kStep = 0.05;    // simulation step [s]
+constexpr int kStepsPerKnot = 4;  // one knot per 0.2 s
 
 double wrapped(double angle) {
   return std::remainder(angle, 2.0 * std::numbers::pi);
 }
 
-/// The corners in the order they are come by, once through.
+/// The corners in order of passage, once.
 std::vector<Eigen::Vector2d> unrolled(const Route& route) {
   std::vector<Eigen::Vector2d> way = route.corners;
   if (route.end == RouteEnd::kLoop) way.push_back(way.front());
@@ -32,7 +32,7 @@ double length_of(const std::vector<Eigen::Vector2d>& way) {
   return sum;
 }
 
-/// Point `distance` along the way; beyond the end it is the end.
+/// Point at `distance` along the path; clamped to its end.
 Eigen::Vector2d point_at(const std::vector<Eigen::Vector2d>& way, double distance) {
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Eigen::Vector2d step = way[i] - way[i - 1];
@@ -43,8 +43,7 @@ Eigen::Vector2d point_at(const std::vector<Eigen::Vector2d>& way, double distanc
   return way.back();
 }
 
-/// Whether it stands at that time: in every period of time it stands for about the share, at a
-/// moment that the seed decides.
+/// Whether it pauses at that time: once per period, for about the given share, at a random time.
 bool pauses(const Route& route, double seconds) {
   if (route.pause_share <= 0.0 || route.pause <= 0.0) return false;
   const double period = route.pause / route.pause_share;
@@ -57,7 +56,7 @@ bool pauses(const Route& route, double seconds) {
   return inside >= begin && inside < begin + length;
 }
 
-/// A driver that follows a point moving along the way ahead of it.
+/// A driver that follows a target point moving along the path ahead of it.
 class Driver {
  public:
   explicit Driver(const Route& route)
@@ -107,13 +106,13 @@ class Driver {
     knot_.yaw += std::clamp(0.25 * error, -most, most);
   }
 
-  void accelerate(double wanted) {
+  void accelerate(double target_speed) {
     const double most = route_.acceleration * kStep;
-    speed_ += std::clamp(wanted - speed_, -2.0 * most, most);
+    speed_ += std::clamp(target_speed - speed_, -2.0 * most, most);
   }
 
-  /// The target moves on as far as it moved, and more while it is too near: after a corner that
-  /// was cut, or where the way turns back.
+  /// The target moves as far as the driver, and further while it is too close: after a shortcut at
+  /// a corner, or where the path turns back.
   void advance(double moved, double distance) {
     const double lag = std::max(0.0, 1.0 - distance / route_.look_ahead);
     along_ += moved * (1.0 + 2.0 * lag);

@@ -11,8 +11,8 @@
 
 namespace mms {
 
-/// A building with actors in it, which can be looked at. Everything in the building's frame. Not
-/// thread-safe: it is set to one instant, then looked at.
+/// A building with actors, ready for rendering, in the building's frame. Not thread-safe: it is set
+/// to one instant and then rendered.
 class Stage {
  public:
   Stage(Building building, std::vector<Actor> actors);
@@ -22,18 +22,18 @@ class Stage {
   const Building& building() const { return building_; }
   const std::vector<Actor>& actors() const { return actors_; }
 
-  /// Moves everybody to where they are at that time [s].
+  /// Sets all actors to time `seconds` [s].
   void set(double seconds);
 
-  /// Moves actor i to `T_building_object[i]`, doing `activities[i]`.
+  /// Sets actor i to `T_building_object[i]` with `activities[i]`.
   void set(std::vector<Eigen::Isometry3d> T_building_object,
            const std::vector<Activity>& activities);
 
-  /// Looks from a camera.
+  /// Renders the view of a camera.
   void look(const RayTable& table, const Eigen::Isometry3d& T_building_camera,
             const RenderTarget& target) const;
 
-  /// What rays meet; 0 static, else 1 + id of the object a hit belongs to.
+  /// Geometry for ray casting; 0 static, else 1 + id of a hit's object.
   const RayScene& rays() const { return rays_; }
   SurfacePoint surface(const Ray& ray, const RayHit& hit) const { return surfaces_.at(ray, hit); }
   std::uint8_t object_of(const RayHit& hit) const;

@@ -16,14 +16,14 @@ Image<Rgb> mirrored(const Image<Rgb>& image) {
   return result;
 }
 
-/// Copies what of `scaled`, with its corner at (dx, dy), falls on the canvas.
+/// Copies the part of `scaled` at (dx, dy) that overlaps the canvas.
 void lay(const Image<Rgb>& scaled, int dx, int dy, Image<Rgb>& canvas) {
   const int width = std::min(canvas.width(), scaled.width() + dx);
   const int height = std::min(canvas.height(), scaled.height() + dy);
   for (int y = 0; y < height; ++y) std::copy_n(scaled.row(y - dy) - dx, width, canvas.row(y));
 }
 
-/// Offset of a picture on a canvas: 0 where it fits, else a random part is cut away before it.
+/// Offset of an image on a canvas: 0 if it fits, else random and negative, which crops it.
 int random_offset(int length, int canvas, RandomStream& random) {
   const int excess = length - canvas;
   if (excess <= 0) return 0;

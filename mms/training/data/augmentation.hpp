@@ -6,17 +6,17 @@
 
 namespace mms {
 
-/// Mirrors a picture perhaps, scales it by chance, and lays a random part of it, or the whole with
-/// padding, on a canvas of width x height [px] (large-scale jitter of the copy-paste paper).
-/// Objects of which less than `kMinObjectPixels` pixels are left are dropped.
+/// Randomly mirrors and scales an image and places a random crop, or the whole with padding, on a
+/// canvas of width x height [px] (large-scale jitter of the copy-paste paper). Drops objects with
+/// less than `kMinObjectPixels` remaining pixels.
 Sample jittered(const Sample& sample, int width, int height, const AugmentationConfig& config,
                 RandomStream& random);
 
-/// Changes of light and sensor: brightness, contrast, saturation, hue, motion blur, noise.
+/// Changes light and sensor: brightness, contrast, saturation, hue, motion blur, noise.
 void change_colors(Sample& sample, const AugmentationConfig& config, RandomStream& random);
 
-/// Pastes a random choice of `source`'s objects over `target` (both of one size), cuts them out of
-/// the masks below, and drops objects that are hidden but for a small rest.
+/// Pastes a random subset of `source`'s objects onto `target` (equal sizes), removes them from the
+/// masks below, and drops objects that are almost hidden.
 void paste_objects(Sample& target, const Sample& source, RandomStream& random);
 
 inline constexpr int kMinObjectPixels = 24;

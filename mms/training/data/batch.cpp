@@ -13,7 +13,7 @@ struct Canvas {
   int height = 0;  ///< [px]
 };
 
-/// The network's input, lying or upright; all images of a batch alike.
+/// Size of the network's input, landscape or portrait; equal for all images of a batch.
 Canvas canvas_of(const TrainingConfig& config, RandomStream& random) {
   const int wide = padded_length(config.network.long_side);
   const int high = padded_length(config.network.short_side);

@@ -9,13 +9,13 @@
 
 namespace mms {
 
-/// Images and what the network is to say of them.
+/// Images with their targets.
 struct Batch {
-  torch::Tensor images;  ///< (B, 3, H, W) float32, normalised
+  torch::Tensor images;  ///< (B, 3, H, W) float32, normalized
   std::vector<ImageTargets> targets;
 };
 
-/// Draws, augments and annotates the images of one step. The same number gives the same batch.
+/// Draws, augments and annotates the images of one step. Determined by the number.
 Batch make_batch(const SampleStore& store, const TrainingConfig& config, int number);
 
 }  // namespace mms

@@ -5,12 +5,12 @@
 namespace mms {
 namespace {
 
-constexpr std::size_t kAhead = 4;  // batches
+constexpr std::size_t kQueueCapacity = 4;  // prepared batches
 
 }  // namespace
 
 BatchLoader::BatchLoader(const SampleStore& store, const TrainingConfig& config, int first, int end)
-    : queue_(kAhead),
+    : queue_(kQueueCapacity),
       thread_([this, &store, config, first, end] { prepare(store, config, first, end); }) {}
 
 BatchLoader::~BatchLoader() {

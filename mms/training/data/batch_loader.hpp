@@ -8,16 +8,16 @@
 
 namespace mms {
 
-/// Prepares batches in a thread of its own, a few ahead of the training.
+/// Prepares batches in a separate thread, a few ahead of the training.
 class BatchLoader {
  public:
-  /// @param first, end  numbers of the batches, in [first, end)
+  /// @param first, end numbers of the batches, [first, end)
   BatchLoader(const SampleStore& store, const TrainingConfig& config, int first, int end);
   ~BatchLoader();
   BatchLoader(const BatchLoader&) = delete;
   BatchLoader& operator=(const BatchLoader&) = delete;
 
-  /// The next batch; nothing after the last one. Throws what the thread threw.
+  /// The next batch; nullopt after the last one. Rethrows exceptions of the thread.
   std::optional<Batch> next();
 
  private:

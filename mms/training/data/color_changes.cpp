@@ -7,7 +7,7 @@
 namespace mms {
 namespace {
 
-/// A colour's linear change: out = matrix * in + offset, per channel r, g, b.
+/// A linear change of color: out = matrix * in + offset, per channel r, g, b.
 struct ColorChange {
   std::array<std::array<float, 3>, 3> matrix{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   float offset = 0.0F;
@@ -15,7 +15,7 @@ struct ColorChange {
 
 constexpr std::array<float, 3> kLuma = {0.299F, 0.587F, 0.114F};
 
-/// Mixes every colour with its own grey; 0 leaves no colour.
+/// Mixes every color with its gray value; 0 removes all color.
 ColorChange saturated(float saturation) {
   ColorChange change;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -26,7 +26,7 @@ ColorChange saturated(float saturation) {
   return change;
 }
 
-/// Random light: exposure, contrast about mid grey, saturation, and a tint of each channel.
+/// Random light: exposure, contrast around mid-gray, saturation, and a tint of each channel.
 ColorChange random_light(RandomStream& random) {
   ColorChange change = saturated(random.between(0.4F, 1.6F));
   const float contrast = random.between(0.6F, 1.4F);
@@ -80,7 +80,7 @@ void blur_along(float angle, int length, Image<Rgb>& image) {
   }
 }
 
-/// Triangular noise of every sample: the sum of two uniform ones.
+/// Triangular noise on every sample: the sum of two uniform values.
 void add_noise(float spread, Image<Rgb>& image, RandomStream& random) {
   const auto noisy = [&](std::uint8_t value, std::uint32_t bits) {
     const float sum = static_cast<float>(bits & 0x3FFU) + static_cast<float>((bits >> 10) & 0x3FFU);
@@ -98,7 +98,7 @@ void add_noise(float spread, Image<Rgb>& image, RandomStream& random) {
 
 void change_colors(Sample& sample, const AugmentationConfig& config, RandomStream& random) {
   constexpr float kPi = 3.14159265F;
-  constexpr float kMostNoise = 30.0F;
+  constexpr float kMaxNoise = 30.0F;
   const auto chance = [&](double p) { return random.chance(static_cast<float>(p)); };
   if (chance(config.color)) apply(random_light(random), sample.image);
   if (chance(config.grey)) apply(saturated(0.0F), sample.image);
@@ -106,7 +106,7 @@ void change_colors(Sample& sample, const AugmentationConfig& config, RandomStrea
     const float length = random.between(2.0F, static_cast<float>(config.blur_length) + 1.0F);
     blur_along(random.between(0.0F, kPi), static_cast<int>(length), sample.image);
   }
-  if (chance(config.noise)) add_noise(random.between(0.0F, kMostNoise), sample.image, random);
+  if (chance(config.noise)) add_noise(random.between(0.0F, kMaxNoise), sample.image, random);
 }
 
 }  // namespace mms

@@ -7,11 +7,11 @@
 namespace mms {
 namespace {
 
-// The paper's 10 px and 300 px at 1024 px, at the size of our networks' inputs.
+// The paper's 10 px and 300 px at 1024 px, scaled to the size of our networks' inputs.
 constexpr int kMovedSide = 3;
 constexpr int kSmallRest = 30;
 
-/// Number of objects to take, and which: all choices of a number are equally likely.
+/// Random subset; all subsets of equal size are equally likely.
 std::vector<std::size_t> random_choice(std::size_t count, RandomStream& random) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -29,7 +29,7 @@ void paste_pixels(Sample& target, const Sample& source, const ObjectMask& object
   }
 }
 
-/// Removes what lies below `cover` from a mask.
+/// Removes the area of `cover` from a mask.
 void cut(ObjectMask& object, const ObjectMask& cover) {
   for (int y = 0; y < object.mask.height(); ++y) {
     for (int x = 0; x < object.mask.width(); ++x) {

@@ -61,7 +61,7 @@ void keep_containing(const std::string& name, const std::vector<std::string>& cl
   const auto found = std::find(classes.begin(), classes.end(), name);
   if (found == classes.end()) {
     throw ConfigError("data.containing", "'" + name + "' is none of the network's classes",
-                      "write one of those that it learns");
+                      "use one of its classes");
   }
   const int category = static_cast<int>(found - classes.begin());
   const auto lacks = [&](const DataImage& image) {
@@ -76,7 +76,8 @@ void keep_containing(const std::string& name, const std::vector<std::string>& cl
 std::vector<DataImage> list_images(const TrainingData& set,
                                    const std::vector<std::string>& classes) {
   if (set.annotations.empty() && set.images.empty()) {
-    throw ConfigError("data", "has a set with neither annotations nor images", "name one of them");
+    throw ConfigError("data", "has a set with neither annotations nor images",
+                      "set at least one of them");
   }
   std::vector<DataImage> images =
       set.annotations.empty() ? folder_images(set.images) : annotated_images(set, classes);
@@ -84,7 +85,7 @@ std::vector<DataImage> list_images(const TrainingData& set,
   if (set.limit > 0) images.resize(std::min(images.size(), static_cast<std::size_t>(set.limit)));
   if (images.empty()) {
     std::string what = "has no images";
-    if (!set.split.empty()) what += " of the split '" + set.split + "'";
+    if (!set.split.empty()) what += " in the split '" + set.split + "'";
     if (!set.containing.empty()) what += " with the class '" + set.containing + "'";
     throw DataError(set.annotations.empty() ? set.images : set.annotations, what);
   }
@@ -94,7 +95,7 @@ std::vector<DataImage> list_images(const TrainingData& set,
 void check_size(const DataImage& image, int width, int height) {
   if (image.width == 0 || (image.width == width && image.height == height)) return;
   throw DataError(image.path.string(),
-                  "is " + std::to_string(width) + "x" + std::to_string(height) + ", annotated is " +
+                  "is " + std::to_string(width) + "x" + std::to_string(height) + ", annotated as " +
                       std::to_string(image.width) + "x" + std::to_string(image.height));
 }
 

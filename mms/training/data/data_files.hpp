@@ -10,14 +10,14 @@
 
 namespace mms {
 
-/// An annotated object of a file, its class by index.
+/// An annotated object of a file, with class index.
 struct Annotated {
   int category = 0;
   bool crowd = false;
   Rle segmentation;
 };
 
-/// An image of a set, not yet read.
+/// An image of a set before it is read.
 struct DataImage {
   std::filesystem::path path;
   std::int64_t id = 0;  ///< in its annotation file
@@ -27,11 +27,11 @@ struct DataImage {
 };
 
 /// The images of a set with their objects of the given classes.
-/// @throws FileError, DataError when the annotations cannot be read, or no image is left.
+/// @throws FileError, DataError if the annotations cannot be read, or no image is left.
 std::vector<DataImage> list_images(const TrainingData& set,
                                    const std::vector<std::string>& classes);
 
-/// @throws DataError when an image is not of the size that its annotations are for.
+/// @throws DataError if an image differs from its annotated size.
 void check_size(const DataImage& image, int width, int height);
 
 }  // namespace mms

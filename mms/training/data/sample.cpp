@@ -16,7 +16,7 @@ void widen(Span& span, int value) {
   span = {std::min(span.first, value), std::max(span.last, value)};
 }
 
-/// Pixels of the canvas that a span of `length` source pixels from `first` can reach.
+/// Pixels of the canvas covered by `length` source pixels from `first`.
 Span reach(int first, int length, double scale, int offset, int limit) {
   const int low = static_cast<int>(std::floor(first * scale)) + offset;
   const int high = static_cast<int>(std::ceil((first + length) * scale)) + offset;

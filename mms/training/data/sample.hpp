@@ -10,14 +10,13 @@ namespace mms {
 /// An object of a training image.
 struct ObjectMask {
   int category = 0;          ///< index of its class
-  bool crowd = false;        ///< is neither to be found nor to be left out
+  bool crowd = false;        ///< ignored in the loss
   int x = 0;                 ///< left column of `mask` in the image [px]
   int y = 0;                 ///< top row of `mask` in the image [px]
-  Image<std::uint8_t> mask;  ///< cropped to the object: 1 on it
+  Image<std::uint8_t> mask;  ///< cropped to the object: 1 on the object
 };
 
-/// A picture and the objects in it. Beyond `width` x `height` (as much of the picture as is real)
-/// there is padding.
+/// An image with its objects. Beyond `width` x `height` it is padded.
 struct Sample {
   Image<Rgb> image;
   int width = 0;   ///< [px]
@@ -28,15 +27,15 @@ struct Sample {
 /// Number of pixels of a mask.
 int mask_area(const Image<std::uint8_t>& mask);
 
-/// The object with its mask cropped to what is left of it; nothing is left where the mask is empty.
+/// The object with its mask cropped to its non-zero part; empty if there is none.
 ObjectMask tightened(const ObjectMask& object);
 
-/// Scales a mask, mirrors it if wanted, moves it by (dx, dy) and cuts it to width x height.
+/// Scales a mask, optionally mirrors it, moves it by (dx, dy) and crops it to width x height.
 struct MaskPlacement {
   double scale = 1.0;
   bool flip = false;
-  int source_width = 0;  ///< of the picture before it was scaled [px]
-  int dx = 0;            ///< of the scaled picture's corner [px]
+  int source_width = 0;  ///< of the image before scaling [px]
+  int dx = 0;            ///< of the scaled image's corner [px]
   int dy = 0;
   int width = 0;  ///< of the canvas [px]
   int height = 0;

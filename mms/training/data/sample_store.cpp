@@ -14,7 +14,7 @@
 namespace mms {
 namespace {
 
-/// Cuts the mask out of the whole image's.
+/// Crops the mask from that of the whole image.
 ObjectMask object_of(const Annotated& annotated) {
   const Image<std::uint8_t> mask = decode_rle(annotated.segmentation);
   ObjectMask whole{annotated.category, annotated.crowd, 0, 0, mask};

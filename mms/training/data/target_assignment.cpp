@@ -6,7 +6,7 @@
 namespace mms {
 namespace {
 
-constexpr double kCentreShare = 0.2;  // of the box's sides: SOLO's sigma
+constexpr double kCentreShare = 0.2;  // share of the box's sides: SOLO's sigma
 constexpr int kStride = 4;            // of the mask features
 
 struct Centre {
@@ -29,7 +29,7 @@ Centre centre_of_mass(const ObjectMask& object) {
   return {object.x + sum_x / count, object.y + sum_y / count};
 }
 
-/// A quarter-size mask: 1 where at least half of the 4x4 pixels are the object's.
+/// A quarter-size mask: 1 if at least half of the 4x4 pixels are the object's.
 Image<std::uint8_t> quarter_mask(const ObjectMask& object, int width, int height) {
   Image<std::uint8_t> counts(width / kStride, height / kStride);
   for (int y = 0; y < object.mask.height(); ++y) {
@@ -48,7 +48,7 @@ struct CellSpan {
   int last = 0;  ///< inclusive
 };
 
-/// Cells of the middle part of a box's side, at most one beyond that of the centre.
+/// Cells of the central part of a box's side, at most one cell from that of the center.
 CellSpan central_cells(double centre, double side, int cells, int size) {
   const auto cell = [&](double v) { return static_cast<int>(v / size * cells); };
   const double half = 0.5 * kCentreShare * side;
@@ -57,7 +57,7 @@ CellSpan central_cells(double centre, double side, int cells, int size) {
           std::min({cells - 1, cell(centre + half), middle + 1})};
 }
 
-/// Marks the cells whose middle lies on a crowd.
+/// Marks the cells whose center lies on a crowd.
 void ignore_crowd(const ObjectMask& crowd, int grid, int width, int height,
                   std::vector<int>& categories) {
   for (int row = 0; row < grid; ++row) {
@@ -70,7 +70,7 @@ void ignore_crowd(const ObjectMask& crowd, int grid, int width, int height,
   }
 }
 
-/// Gives an object the cells of one level.
+/// Assigns the cells of one level to an object.
 void claim_cells(const ObjectMask& object, const Centre& centre, int grid, const Sample& sample,
                  int level, ImageTargets& targets) {
   const CellSpan columns = central_cells(centre.x, object.mask.width(), grid, sample.image.width());

@@ -8,10 +8,10 @@ namespace mms {
 namespace {
 
 constexpr double kAlpha = 0.25;
-constexpr double kSmallest = 1e-3;       // keeps empty masks from dividing by zero
-constexpr std::size_t kMostPairs = 200;  // of an image: bounds memory in crowds
+constexpr double kEpsilon = 1e-3;       // prevents division by zero for empty masks
+constexpr std::size_t kMaxPairs = 200;  // per image: bounds memory for crowds
 
-/// (B, C, S, S) of every level as one (B, cells, C).
+/// (B, C, S, S) of all levels as (B, cells, C).
 torch::Tensor cells_of(const std::array<torch::Tensor, HeadConfig::kLevels>& maps) {
   std::vector<torch::Tensor> levels;
   for (const torch::Tensor& map : maps) levels.push_back(map.to(torch::kFloat).flatten(2));
@@ -19,7 +19,7 @@ torch::Tensor cells_of(const std::array<torch::Tensor, HeadConfig::kLevels>& map
 }
 
 /// Classes of all cells of all images, (B, cells).
-torch::Tensor wanted_categories(const std::vector<ImageTargets>& targets) {
+torch::Tensor category_targets(const std::vector<ImageTargets>& targets) {
   std::vector<std::int64_t> all;
   for (const ImageTargets& image : targets) {
     for (const auto& level : image.categories) all.insert(all.end(), level.begin(), level.end());
@@ -28,7 +28,7 @@ torch::Tensor wanted_categories(const std::vector<ImageTargets>& targets) {
 }
 
 torch::Tensor category_loss(const torch::Tensor& logits, const std::vector<ImageTargets>& targets) {
-  const torch::Tensor wanted = wanted_categories(targets).to(logits.device());
+  const torch::Tensor wanted = category_targets(targets).to(logits.device());
   const torch::Tensor positive = wanted >= 0;
   const torch::Tensor one_hot =
       torch::one_hot(wanted.clamp_min(0), logits.size(2)) * positive.unsqueeze(2).to(torch::kLong);
@@ -37,17 +37,17 @@ torch::Tensor category_loss(const torch::Tensor& logits, const std::vector<Image
   return loss.sum() / (positive.sum() + 1);
 }
 
-/// At most `kMostPairs`, spread evenly.
-std::vector<ImageTargets::Pair> some_pairs(const std::vector<ImageTargets::Pair>& pairs) {
-  if (pairs.size() <= kMostPairs) return pairs;
+/// At most `kMaxPairs`, evenly spaced.
+std::vector<ImageTargets::Pair> limited_pairs(const std::vector<ImageTargets::Pair>& pairs) {
+  if (pairs.size() <= kMaxPairs) return pairs;
   std::vector<ImageTargets::Pair> some;
-  for (std::size_t i = 0; i < kMostPairs; ++i) {
-    some.push_back(pairs[i * pairs.size() / kMostPairs]);
+  for (std::size_t i = 0; i < kMaxPairs; ++i) {
+    some.push_back(pairs[i * pairs.size() / kMaxPairs]);
   }
   return some;
 }
 
-/// First cell of each level among all cells.
+/// Index of the first cell of each level.
 std::array<int, HeadConfig::kLevels> level_offsets(const ImageTargets& targets) {
   std::array<int, HeadConfig::kLevels> offsets{};
   int sum = 0;
@@ -74,7 +74,7 @@ torch::Tensor image_mask_loss(const torch::Tensor& kernels, const torch::Tensor&
   const auto offsets = level_offsets(targets);
   std::vector<std::int64_t> cells;
   std::vector<std::int64_t> objects;
-  for (const ImageTargets::Pair& pair : some_pairs(targets.pairs)) {
+  for (const ImageTargets::Pair& pair : limited_pairs(targets.pairs)) {
     cells.push_back(offsets[static_cast<std::size_t>(pair.level)] + pair.cell);
     objects.push_back(pair.object);
   }
@@ -90,8 +90,7 @@ torch::Tensor image_mask_loss(const torch::Tensor& kernels, const torch::Tensor&
 
 torch::Tensor dice_loss(const torch::Tensor& probability, const torch::Tensor& target) {
   const torch::Tensor common = (probability * target).sum(1);
-  const torch::Tensor squares =
-      probability.square().sum(1) + target.square().sum(1) + 2 * kSmallest;
+  const torch::Tensor squares = probability.square().sum(1) + target.square().sum(1) + 2 * kEpsilon;
   return 1 - 2 * common / squares;
 }
 
@@ -115,7 +114,7 @@ SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTar
     const auto image = static_cast<std::int64_t>(i);
     parts.push_back(image_mask_loss(kernels[image], features[image], targets[i]));
   }
-  // Without any object the loss is 0, but still a function of the network.
+  // Without objects the loss is 0, but remains a function of the network.
   loss.mask = parts.empty() ? 0 * (features.sum() + kernels.sum()) : torch::cat(parts).mean();
   return loss;
 }

@@ -16,13 +16,14 @@ torch::Tensor dice_loss(const torch::Tensor& probability, const torch::Tensor& t
 /// @param target  0 or 1, of the logits' shape
 torch::Tensor focal_loss(const torch::Tensor& logits, const torch::Tensor& target);
 
-/// The parts of SOLOv2's loss over a batch, before their weights.
+/// Unweighted parts of SOLOv2's loss for a batch.
 struct SoloLoss {
-  torch::Tensor category;  ///< focal, summed over the cells, divided by the positive ones plus 1
-  torch::Tensor mask;      ///< dice, mean over the pairs of cell and object
+  torch::Tensor category;  ///< focal loss, summed over the cells, divided by the number of positive
+                           ///< ones plus 1
+  torch::Tensor mask;      ///< dice loss, mean over the pairs of cell and object
 };
 
-/// @param targets  one of each image
+/// @param targets  one per image
 SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTargets>& targets);
 
 }  // namespace mms

@@ -9,9 +9,9 @@ int total_steps(const ScheduleConfig& schedule) {
 }
 
 double learning_rate_at(const ScheduleConfig& schedule, int step) {
-  constexpr double kFirst = 0.01;  // of the peak
+  constexpr double kFirst = 0.01;  // of the largest rate
   constexpr double kDrop = 0.1;
-  constexpr int kWarmUpPart = 4;  // the warm-up is at most one of so many parts
+  constexpr int kWarmUpPart = 4;  // the warm-up is at most 1 / kWarmUpPart of all steps
   double rate = schedule.learning_rate;
   const int warm_up = std::min(schedule.warm_up, total_steps(schedule) / kWarmUpPart);
   if (step < warm_up) {

@@ -4,14 +4,14 @@
 
 namespace mms {
 
-/// Number of steps until all images were seen.
+/// Number of steps for all images.
 int total_steps(const ScheduleConfig& schedule);
 
-/// Learning rate of a step, from 0: a linear warm-up, then a tenth after each drop.
+/// Learning rate of a step, from 0: linear warm-up, then a tenth after each drop.
 double learning_rate_at(const ScheduleConfig& schedule, int step);
 
-/// How much of the average is kept in a step: less in the first steps, so that it forgets the
-/// initial weights.
+/// Decay of the average in a step: smaller in the first steps, so that initial weights have no
+/// influence.
 double ema_decay_at(const ScheduleConfig& schedule, int step);
 
 }  // namespace mms

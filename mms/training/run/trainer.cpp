@@ -33,7 +33,7 @@ void prepare_backbones(network::SoloNetwork& network, const ScheduleConfig& sche
   }
 }
 
-/// Parameters that learn: those of the backbones, and all others.
+/// Parameters to train: those of the backbones, and all others.
 std::array<std::vector<torch::Tensor>, 2> parameter_groups(network::SoloNetwork& network) {
   std::array<std::vector<torch::Tensor>, 2> groups;
   for (const auto& item : network->named_parameters()) {
@@ -60,7 +60,7 @@ std::unique_ptr<torch::optim::Optimizer> make_optimizer(network::SoloNetwork& ne
                                                  .weight_decay(schedule.weight_decay));
 }
 
-/// Unlike zeroing them, this costs no pass over them, now and when the next ones are added.
+/// Saves memory traffic compared to setting them to zero.
 void forget_gradients(torch::nn::Module& network) {
   for (torch::Tensor& parameter : network.parameters()) parameter.mutable_grad() = torch::Tensor();
 }
@@ -109,7 +109,7 @@ StepResult Trainer::step(const Batch& batch) {
                              parts.mask.item<double>()};
   if (!std::isfinite(result.loss)) {
     throw DataError("step " + std::to_string(steps_), "the loss is not finite",
-                    "lower schedule.learning_rate; the last checkpoint is as it was");
+                    "lower schedule.learning_rate; the last checkpoint is unchanged");
   }
   loss.backward();
   torch::nn::utils::clip_grad_norm_(network_->parameters(), config_.schedule.clip_norm);
@@ -163,7 +163,7 @@ void Trainer::load(const std::filesystem::path& path) {
     archive.read(kStepsKey, steps);
     steps_ = static_cast<int>(steps.item<std::int64_t>());
   } catch (const c10::Error& error) {
-    throw DataError(path.string(), "is no checkpoint of this network",
+    throw DataError(path.string(), "is not a checkpoint of this network",
                     std::string("torch says: ") + error.what_without_backtrace());
   }
   network::put_channels_last(*network_);

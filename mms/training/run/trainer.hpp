@@ -11,23 +11,24 @@
 
 namespace mms {
 
-/// What one step did.
+/// Result of one step.
 struct StepResult {
   double loss = 0.0;  ///< the weighted sum
   double category_loss = 0.0;
   double mask_loss = 0.0;
 };
 
-/// A network being trained: its weights, their running average, the optimizer's memory.
+/// A network in training: weights, their moving average, state of the optimizer.
 class Trainer {
  public:
-  /// On the GPU where there is one and the config allows it.
+  /// Uses a GPU if available and enabled.
   explicit Trainer(const TrainingConfig& config);
 
-  /// Fills the network with weights that it starts from; those it lacks keep their random values.
+  /// Sets initial weights; missing ones keep their random values.
   void initialise(const Weights& weights, const std::string& where);
 
-  /// One step of the optimizer. @throws DataError when the loss is not finite.
+  /// One step of the optimizer.
+  /// @throws DataError if the loss is not finite.
   StepResult step(const Batch& batch);
 
   int steps() const { return steps_; }  ///< done so far
@@ -35,10 +36,11 @@ class Trainer {
   /// The averaged network, in evaluation mode.
   network::SoloNetwork& average() { return average_; }
 
-  /// Writes everything that `load` needs to go on as if nothing had happened. @throws FileError
+  /// Writes the complete state for `load`.
+  /// @throws FileError
   void save(const std::filesystem::path& path);
 
-  /// @throws DataError when the file is no checkpoint of this network.
+  /// @throws DataError if the file is not a checkpoint of this network.
   void load(const std::filesystem::path& path);
 
  private:

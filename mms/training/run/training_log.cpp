@@ -43,7 +43,7 @@ TrainingLog read_training_log(const std::filesystem::path& path) {
     for (const json& entry : root.at("aps")) log.aps.push_back(ap_point(entry));
     return log;
   } catch (const json::exception& error) {
-    throw DataError(path.string(), std::string("is no training log: ") + error.what());
+    throw DataError(path.string(), std::string("is not a training log: ") + error.what());
   }
 }
 

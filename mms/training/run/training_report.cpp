@@ -25,8 +25,7 @@ Column images_of(const std::vector<LossPoint>& points) {
 }
 
 std::string loss_plot(const std::vector<LossPoint>& points) {
-  SvgPlot plot(
-      {.title = "losses", .x_label = "images seen", .y_label = "loss", .y_from_zero = true});
+  SvgPlot plot({.title = "losses", .x_label = "images", .y_label = "loss", .y_from_zero = true});
   const Column images = images_of(points);
   plot.add_line("total", 0, images, column(points, &LossPoint::loss));
   plot.add_line("category (focal)", 1, images, column(points, &LossPoint::category_loss));
@@ -36,7 +35,7 @@ std::string loss_plot(const std::vector<LossPoint>& points) {
 
 std::string rate_plot(const std::vector<LossPoint>& points) {
   SvgPlot plot({.title = "learning rate",
-                .x_label = "images seen",
+                .x_label = "images",
                 .y_label = "learning rate",
                 .height = 180,
                 .y_from_zero = true});
@@ -53,7 +52,7 @@ std::string ap_plot(const std::vector<ApPoint>& points, double ApPoint::*member,
     images.push_back(point.images);
     values.push_back(point.*member);
   }
-  SvgPlot plot({.title = label, .x_label = "images seen", .y_label = label, .y_from_zero = true});
+  SvgPlot plot({.title = label, .x_label = "images", .y_label = label, .y_from_zero = true});
   int color = 0;
   for (const auto& [name, curve] : curves) plot.add_line(name, color++, curve.first, curve.second);
   return plot.render();
@@ -73,7 +72,7 @@ void write_training_report(const std::filesystem::path& path, const std::string&
   std::string page = "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
                      title + "</title><style>" + std::string(kReportStyle) +
                      "</style></head><body><h1>" + title + "</h1><p class=\"note\">" +
-                     std::to_string(images) + " images seen in " + std::to_string(minutes) +
+                     std::to_string(images) + " images in " + std::to_string(minutes) +
                      " minutes</p>";
   page += section("Losses", loss_plot(log.losses));
   page += section("Mask AP, averaged weights", ap_plot(log.aps, &ApPoint::ap, "AP"));

@@ -27,7 +27,7 @@ constexpr std::size_t kStepsPerPoint = 25;  // of the loss curve
 
 void check(const TrainingConfig& config) {
   if (config.data.empty()) {
-    throw ConfigError("data", "is empty", "name at least one set of images to learn from");
+    throw ConfigError("data", "is empty", "add at least one set of images");
   }
   if (config.network.classes != kObjectClassCount) {
     throw ConfigError("network.classes", "is " + std::to_string(config.network.classes) +
@@ -85,7 +85,7 @@ void TrainingRun::start_or_resume() {
   const fs::path checkpoint = folder_ / "checkpoint.pt";
   if (fs::exists(checkpoint)) {
     if (read_file(settings) != config_text_) {
-      throw ConfigError(folder_.string(), "has a training of other settings",
+      throw ConfigError(folder_.string(), "has a training with other settings",
                         "choose another folder, or compare with its config.yaml");
     }
     trainer_.load(checkpoint);
@@ -115,7 +115,7 @@ int TrainingRun::images_seen() const {
   return trainer_.steps() * config_.schedule.batch;
 }
 
-/// Whether the last step went over a multiple of so many images.
+/// Whether the last step passed a multiple of `images`.
 bool TrainingRun::every(int images) const {
   return images_seen() / images != (images_seen() - config_.schedule.batch) / images;
 }
@@ -178,7 +178,7 @@ bool TrainingRun::validate() {
           {images_seen(), set.name(), scores.name, scores.scores.ap, scores.scores.ap50});
     }
   }
-  // A training that had ended is measured once more when it is started again.
+  // A finished training is validated again if it is restarted.
   std::erase_if(log_.aps, [&](const ApPoint& point) { return point.images == images_seen(); });
   log_.aps.insert(log_.aps.end(), event.aps.begin(), event.aps.end());
   write_results();
@@ -189,7 +189,7 @@ void TrainingRun::checkpoint() {
   const auto now = std::chrono::steady_clock::now();
   log_.seconds += std::chrono::duration<double>(now - clock_).count();
   clock_ = now;
-  // The log first: what is beyond the checkpoint is cut off when the training goes on.
+  // The log first: entries beyond the checkpoint are removed when the training is continued.
   write_training_log(folder_ / "log.json", log_);
   trainer_.save(folder_ / "checkpoint.pt");
   write_training_report(report_path(), folder_.filename().string(), log_, config_text_);

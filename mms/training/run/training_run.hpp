@@ -12,31 +12,31 @@
 
 namespace mms {
 
-/// What a training tells while it runs.
+/// Progress of a training, for the callback.
 struct TrainingEvent {
   enum class Kind { kLoading, kStep, kValidation };
   Kind kind = Kind::kStep;
-  int done = 0;                ///< images read (kLoading) or seen
+  int done = 0;                ///< images read (kLoading) or used
   int total = 0;               ///< images
   int fresh = 0;               ///< of `done`, since this start
   LossPoint loss{};            ///< kStep: mean since the last event
   std::vector<ApPoint> aps{};  ///< kValidation
 };
 
-/// A whole training in a folder: checkpoint.pt and log.json to go on from, config.yaml,
+/// A training in a folder: checkpoint.pt and log.json for continuation, config.yaml,
 /// weights.safetensors (the average, after every validation) and report.html.
 class TrainingRun {
  public:
-  /// Goes on with the training that is in the folder, if there is one.
-  /// @param threads  of the network; 0: one a core
+  /// Continues the training in the folder, if there is one.
+  /// @param threads  of the network; 0: one per core
   /// @throws ConfigError, DataError, FileError for settings without data, a folder with a training
-  ///         of other settings, or files that cannot be read or written.
+  /// with other settings, or files that cannot be read or written.
   TrainingRun(const TrainingConfig& config, const std::filesystem::path& folder, int threads);
 
-  /// @param callback  false ends the training early, after a checkpoint
+  /// @param callback  returning false ends the training early, after a checkpoint
   void on_event(std::function<bool(const TrainingEvent&)> callback);
 
-  /// Trains to the end of the schedule; false when it ended early.
+  /// Trains to the end of the schedule; false if it ended early.
   bool train();
 
   std::filesystem::path weights_path() const { return folder_ / "weights.safetensors"; }
@@ -62,11 +62,11 @@ class TrainingRun {
   std::vector<ValidationSet> validation_;
   std::vector<StepResult> recent_;  ///< not yet logged
   std::function<bool(const TrainingEvent&)> callback_;
-  int first_image_ = 0;  ///< seen before this start
+  int first_image_ = 0;  ///< images before this start
   std::chrono::steady_clock::time_point clock_;
 };
 
-/// The classes that every training of this project has, in the order of ObjectClass.
+/// The classes of all trainings of this project, in the order of ObjectClass.
 std::vector<std::string> training_classes();
 
 }  // namespace mms

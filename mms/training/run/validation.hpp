@@ -10,20 +10,20 @@
 
 namespace mms {
 
-/// Finds the objects of a picture.
+/// Detects the objects of an image.
 using DetectFunction = std::function<std::vector<Detection>(const Image<Rgb>&)>;
 
-/// Images with truth, to measure a network on.
+/// Images with ground truth for validation.
 class ValidationSet {
  public:
-  /// Evenly spread images of a set, at most `most`.
-  /// @throws FileError, DataError when annotations or images cannot be read.
+  /// Evenly spaced images of a set, at most `most`.
+  /// @throws FileError, DataError if annotations or images cannot be read.
   ValidationSet(const TrainingData& set, const std::vector<std::string>& classes, int most);
 
   /// The annotation file's folder, and the split.
   const std::string& name() const { return name_; }
 
-  /// Mask AP of what `detect` finds; classes that have no object in the set are NaN.
+  /// Mask AP of `detect`; NaN for classes without objects in the set.
   SegmentationErrors measure(const DetectFunction& detect) const;
 
  private:

@@ -10,14 +10,14 @@ export type ConnectionState =
 export interface ConnectionEvents {
   message(message: Message): void;
   state(state: ConnectionState): void;
-  /** A message that could not be read; the connection goes on. */
+  /** A message could not be decoded; the connection continues. */
   fault(error: Error): void;
 }
 
 const kFirstDelay = 500;
 const kLongestDelay = 8000;
 
-/** A WebSocket that comes back by itself, later and later, until the server is there again. */
+/** A WebSocket that reconnects automatically with increasing delays. */
 export class Connection {
   private socket: WebSocket | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -40,12 +40,12 @@ export class Connection {
     this.socket = socket;
   }
 
-  /** Tries at once where it would wait: the network is back, or the user asks. */
+  /** Retries immediately: the network is available again, or the user requests it. */
   hurry(): void {
     if (this.socket === null) this.connect();
   }
 
-  /** False where nobody listens. */
+  /** False if there is no connection. */
   send(command: Command): boolean {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
     this.socket.send(JSON.stringify(command));
@@ -56,7 +56,7 @@ export class Connection {
     if (!(data instanceof ArrayBuffer)) return;
     try {
       const message = decodeMessage(data);
-      this.attempt = 0; // a server that accepts and drops us at once is still waited for longer and longer
+      this.attempt = 0; // also increases the delay for a server that accepts and closes immediately
       if (message) this.events.message(message);
     } catch (error) {
       this.events.fault(error instanceof Error ? error : new Error(String(error)));
@@ -72,7 +72,7 @@ export class Connection {
   }
 }
 
-/** Milliseconds before attempt `n`: doubling, with up to a fifth at random so that pages do not come all at once. */
+/** Milliseconds before attempt `n`: doubling, plus up to 20 % at random to spread reconnects. */
 export function backOff(n: number, random: () => number = Math.random): number {
   return Math.min(kLongestDelay, kFirstDelay * 2 ** n) * (1 + 0.2 * random());
 }

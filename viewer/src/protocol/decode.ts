@@ -18,7 +18,7 @@ import type {
 
 export const kProtocolVersion = 1;
 
-/** One message from the server; null where its type is unknown to this page. Throws ProtocolError. */
+/** Decodes one message from the server; null for an unknown type. Throws ProtocolError. */
 export function decodeMessage(data: ArrayBuffer): Message | null {
   const envelope = openEnvelope(data);
   const decode = kDecoders[String(envelope.header.type)];
@@ -83,7 +83,7 @@ function decodeSeries({ header, buffers }: Envelope): SeriesMessage {
 
 const kUnits: Unit[] = ['ms', 'ratio', 'count', 'cm'];
 
-/** The unit that was sent, or the one the name is known by. */
+/** The unit that was sent, or the default one of that name. */
 export function unit(sent: string | undefined, name: string): Unit {
   if (kUnits.includes(sent as Unit)) return sent as Unit;
   if (name === 'dynamic_share') return 'ratio';
@@ -197,7 +197,7 @@ function strings(value: unknown): string[] {
   return Array.isArray(value) ? value.filter((entry): entry is string => typeof entry === 'string') : [];
 }
 
-/** `value` where it is a list of numbers as long as `otherwise` (of any length where that is empty). */
+/** `value` if it is a list of numbers as long as `otherwise` (of any length if that is empty). */
 function numbers<T extends number[]>(value: unknown, otherwise: T): T {
   if (!Array.isArray(value) || !value.every((entry) => typeof entry === 'number')) return otherwise;
   return otherwise.length === 0 || value.length === otherwise.length ? (value as T) : otherwise;

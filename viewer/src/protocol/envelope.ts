@@ -1,4 +1,4 @@
-/** A message's outer form: u32 length, JSON of that length, then raw buffers at multiples of 4. */
+/** Envelope of a message: u32 length, JSON of that length, then raw buffers aligned to 4 bytes. */
 
 export type Buffer = Float32Array | Uint8Array | Uint16Array | Int16Array | Uint32Array;
 
@@ -7,7 +7,7 @@ export interface Envelope {
   buffers: Map<string, Buffer>;
 }
 
-/** What came is not a message of this protocol. */
+/** The data are not a message of this protocol. */
 export class ProtocolError extends Error {
   override name = 'ProtocolError';
 }
@@ -73,7 +73,7 @@ function sliceBuffers(data: ArrayBuffer, start: number, list: unknown): Map<stri
 
 function size(value: unknown): number {
   if (typeof value !== 'number' || !Number.isInteger(value) || value < 0) {
-    throw new ProtocolError(`a buffer's size is ${String(value)}, not a whole number`);
+    throw new ProtocolError(`a buffer's size is ${String(value)}, not an integer`);
   }
   return value;
 }

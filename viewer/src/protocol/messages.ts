@@ -1,4 +1,4 @@
-/** The messages of docs/viewer_protocol.md as the page uses them. Poses are T_world_camera, lengths metres. */
+/** The messages of docs/viewer_protocol.md as used in the page. Poses are T_world_camera, lengths in meters. */
 
 export type Vector3 = [number, number, number];
 /** x, y, z, w. */
@@ -18,19 +18,19 @@ export interface Hello {
   protocol: number;
   version: string;
   name: string;
-  /** What was run: a folder, a recording, a simulated scene. */
+  /** Input of the run: a folder, a recording, a simulated scene. */
   data: string;
-  /** Says whether a reconnect found the same run again; empty where the server does not tell. */
+  /** Unique id of the run, to detect it after a reconnect; empty if unknown. */
   run: string;
   live: boolean;
   image: Intrinsics | null;
-  /** How many frames the run has; null while it goes on. */
+  /** Number of frames of the run; null while it continues. */
   frames: number | null;
   hasTruth: boolean;
   classes: string[];
-  /** Why there are no images, masks and scans; empty where there are. */
+  /** Reason if there are no images, masks and scans; else empty. */
   picturesNote: string;
-  /** Up in the map's frame. */
+  /** Up direction in the map frame. */
   up: Vector3;
   files: string[];
 }
@@ -42,7 +42,7 @@ export interface TrajectoryMessage {
   poses: Float32Array;
   /** Milliseconds since the first frame. */
   stamps: Uint32Array | null;
-  /** Positions aligned to the estimate, NaN where there is none. */
+  /** Positions aligned to the estimate, NaN if unknown. */
   truth: Float32Array | null;
 }
 
@@ -53,15 +53,15 @@ export interface SeriesMessage {
   firstFrame: number;
   names: string[];
   units: Unit[];
-  /** A row a frame, a column a name. */
+  /** One row per frame, one column per name. */
   values: Float32Array;
 }
 
-/** Everything known of where the objects were: a row an object and frame, sorted by frame. */
+/** All known object positions: one row per object and frame, sorted by frame. */
 export interface TracksMessage {
   type: 'tracks';
   ids: number[];
-  /** Index into Hello.classes, for every id. */
+  /** Index into Hello.classes per id. */
   classes: number[];
   track: Uint32Array;
   frame: Uint32Array;
@@ -80,17 +80,17 @@ export interface SceneObject {
 }
 
 export interface Scan {
-  /** In the camera's frame. */
+  /** In the camera frame. */
   points: Float32Array;
   colors: Uint8Array | null;
-  /** 1 where the point belongs to something dynamic. */
+  /** 1 for dynamic points. */
   dynamic: Uint8Array | null;
 }
 
 export interface FrameMessage {
   type: 'frame';
   frame: number;
-  /** Nanoseconds; null where the server sends none. */
+  /** Nanoseconds; null if the server sends none. */
   stampNs: bigint | null;
   status: string;
   lost: boolean;
@@ -100,11 +100,11 @@ export interface FrameMessage {
   pose: Float32Array | null;
   truth: Float32Array | null;
   scan: Scan | null;
-  /** Scan, image and mask of this frame come in another message. */
+  /** Scan, image and mask of this frame follow in another message. */
   picturesPending: boolean;
   /** A JPEG. */
   image: Uint8Array | null;
-  /** A PNG, one byte a pixel: 0 static, 1 + class index. */
+  /** A PNG, one byte per pixel: 0 static, 1 + class index. */
   mask: Uint8Array | null;
 }
 
@@ -112,7 +112,7 @@ export interface FrameMessage {
 export interface MapMessage {
   type: 'map';
   chunk: string;
-  /** Distance between neighbouring points [m]. */
+  /** Distance between adjacent points [m]. */
   voxel: number;
   remove: boolean;
   points: Float32Array;
@@ -125,9 +125,9 @@ export interface StateMessage {
   frame: number;
   speed: number;
   ended: boolean;
-  /** Frames this client was too slow for. */
+  /** Frames that this client missed because it was too slow. */
   dropped: number;
-  /** The run's files, where there are others than before. */
+  /** The run's files, if they changed. */
   files: string[] | null;
 }
 
@@ -151,7 +151,7 @@ export type Command =
   | { type: 'step'; by: number }
   | { type: 'seek'; frame: number }
   | { type: 'speed'; value: number }
-  /** `budget`: points of the map that this page can draw. */
+  /** `budget`: number of map points that this page can draw. */
   | { type: 'want'; points: boolean; image: boolean; map: boolean; budget: number }
-  /** Where the user looks, in the map's frame: the map is refined there first. */
+  /** The user's focus in the map frame: the map is refined there first. */
   | { type: 'focus'; point: Vector3 };

@@ -3,9 +3,9 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { CameraMode } from '../state/settings';
 
 const kUp = new Vector3(0, 1, 0);
-/** Where the eye is and what it looks at while following: metres behind, above and ahead of the sensor. */
+/** Position and target of the camera in follow mode: meters behind, above and ahead of the sensor. */
 const kFollow = { behind: 4.6, above: 3.6, ahead: 2.6, below: 0.4 };
-/** Beyond this the follower jumps instead of flying [m]. */
+/** For larger distances the camera jumps instead of moving [m]. */
 const kJump = 6;
 const kGlide = 0.5;
 const kHair = 0.01;
@@ -16,7 +16,7 @@ interface View {
   target: Vector3;
 }
 
-/** The eye on the scene: orbits a point, follows the sensor, or looks down on the whole. The scene's y is up. */
+/** The scene's camera: orbits a point, follows the sensor, or shows the top view. The scene's y is up. */
 export class CameraRig {
   mode: CameraMode = 'orbit';
   private readonly perspective = new PerspectiveCamera(55, 1, 0.05, 600);
@@ -27,7 +27,7 @@ export class CameraRig {
   private width = 1;
   private height = 1;
   private glide: { from: View; passed: number } | null = null;
-  /** The user has moved the eye: the whole is no longer fitted into view by itself. */
+  /** The user has moved the camera: it is no longer fitted to the scene automatically. */
   private moved = false;
   /** The top view has x upwards on the screen. */
   private turned = false;
@@ -58,18 +58,18 @@ export class CameraRig {
     return this.mode === 'top' ? this.orthographic : this.perspective;
   }
 
-  /** Pixels that a metre covers at a distance of one metre, or anywhere in the top view. */
+  /** Pixels per meter at a distance of one meter, or anywhere in the top view. */
   get pixelsPerMetre(): number {
     if (this.mode === 'top') return (this.height * this.orthographic.zoom) / (2 * this.orthographic.top);
     return this.height / (2 * Math.tan((this.perspective.fov * Math.PI) / 360));
   }
 
-  /** What the eye looks at. */
+  /** Target of the camera. */
   get target(): Vector3 {
     return this.mode === 'top' ? this.above.target : this.around.target;
   }
 
-  /** From where on what is far fades into the background: beyond what the eye looks at [m]. */
+  /** Distance from which points fade into the background: beyond the target [m]. */
   get haze(): number {
     return this.mode === 'top' ? 1e4 : Math.max(30, 1.6 * this.perspective.position.distanceTo(this.around.target));
   }
@@ -93,21 +93,21 @@ export class CameraRig {
     if (!this.moved && this.mode !== 'follow') this.settle();
   }
 
-  /** What there is to see, in the scene's frame. */
+  /** Bounds of the scene, in the scene frame. */
   setBounds(bounds: Box3): void {
     if (bounds.isEmpty() || bounds.equals(this.bounds)) return;
     this.bounds.copy(bounds);
     if (!this.moved && this.mode !== 'follow') this.settle();
   }
 
-  /** Where the sensor is, and the direction it looks in. */
+  /** Position and direction of the sensor. */
   setSensor(at: Vector3, forward: Vector3, jump: boolean): void {
     this.sensor.at.copy(at);
     if (Math.hypot(forward.x, forward.z) > 0.1) this.sensor.yaw = Math.atan2(-forward.x, -forward.z);
     if (jump || this.anchor.at.distanceTo(at) > kJump) this.ease(1);
   }
 
-  /** Moves on by `seconds`; true while it is not at rest. */
+  /** Advances by `seconds`; true while it moves. */
   update(seconds: number): boolean {
     if (this.mode === 'top') return this.above.update();
     const followed = this.ease(1 - Math.exp(-seconds / kEase));
@@ -123,7 +123,7 @@ export class CameraRig {
     return true;
   }
 
-  /** Back to where the mode starts. */
+  /** Resets to the initial view of the mode. */
   reset(): void {
     this.moved = false;
     this.glide = this.mode === 'top' ? null : { from: this.view(), passed: 0 };
@@ -151,7 +151,7 @@ export class CameraRig {
     this.place(this.home());
   }
 
-  /** Where the mode starts: behind the sensor, or so far away that all is in view. */
+  /** Initial view of the mode: behind the sensor, or far enough to show the whole scene. */
   private home(): View {
     if (this.mode === 'follow') {
       const turn = new Quaternion().setFromAxisAngle(kUp, this.anchor.yaw);
@@ -168,7 +168,7 @@ export class CameraRig {
     return { eye: side.normalize().multiplyScalar(away).add(target), target };
   }
 
-  /** Lets the eye follow the sensor by a share of what it lags behind; true where that is noticeable. */
+  /** Moves the camera by a share of its distance to the sensor; true if noticeable. */
   private ease(share: number): boolean {
     const step = this.sensor.at.clone().sub(this.anchor.at).multiplyScalar(share);
     const turn = Math.atan2(Math.sin(this.sensor.yaw - this.anchor.yaw), Math.cos(this.sensor.yaw - this.anchor.yaw)) * share;
@@ -182,12 +182,12 @@ export class CameraRig {
     return step.length() > 1e-3 || Math.abs(turn) > 1e-3;
   }
 
-  /** From above, the longer side of the whole along the longer side of the picture. */
+  /** Top view with the longer side of the scene along the longer side of the image. */
   private lookDown(): void {
     const center = this.bounds.getCenter(new Vector3());
     const { x, z } = this.bounds.getSize(new Vector3());
     this.turned = x > z !== this.width > this.height;
-    // A hair off the vertical: the controls need to know which way is up on the screen.
+    // Slightly off the vertical: the controls require an up direction on the screen.
     const off = this.turned ? new Vector3(-kHair, 100, 0) : new Vector3(0, 100, kHair);
     this.orthographic.position.copy(center).add(off);
     this.orthographic.zoom = 1;

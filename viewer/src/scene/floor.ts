@@ -5,8 +5,8 @@ import { pointUniforms } from './point_material';
 const kBin = 0.05;
 
 /**
- * The height of the floor: the most frequent height below the sensor's start, which is at height 0. Null where too few
- * points lie below it.
+ * Height of the floor: the most frequent height below the sensor's start, which is at height 0. Null if too few points
+ * lie below it.
  */
 export function floorHeight(heights: Iterable<number>): number | null {
   const bins = new Map<number, number>();
@@ -48,7 +48,7 @@ const kFragment = /* glsl */ `
     gl_FragColor = vec4(color, alpha);
   }`;
 
-/** A grid of metres on the floor, bolder every five, in the scene's frame (y up). */
+/** A grid of meters on the floor, bold every five meters, in the scene frame (y up). */
 export function floorGrid(): Mesh {
   const plane = new PlaneGeometry(600, 600).rotateX(-Math.PI / 2);
   const material = new ShaderMaterial({

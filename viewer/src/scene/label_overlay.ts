@@ -1,7 +1,7 @@
 import { type Camera, Vector3 } from 'three';
 
 export interface Label {
-  /** In the scene's frame; the label stands above it. */
+  /** In the scene frame; the label is above it. */
   at: Vector3;
   text: string;
   color: string;
@@ -17,10 +17,10 @@ interface Rectangle {
 
 const kFont = '600 12px system-ui, "Segoe UI", Roboto, sans-serif';
 const kHeight = 20;
-/** How often a label moves up to make room before it is left out. */
+/** How often a label moves up to avoid others before it is omitted. */
 const kMoves = 4;
 
-/** Names beside things of the scene, drawn over it in a canvas of their own, near ones first, none over another. */
+/** Labels of objects, drawn over the scene on a separate canvas, near ones first, without overlap. */
 export class LabelOverlay {
   readonly canvas = document.createElement('canvas');
   private readonly context = this.canvas.getContext('2d') as CanvasRenderingContext2D;

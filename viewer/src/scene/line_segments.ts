@@ -3,20 +3,20 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 
-/** In steps of the depth buffer: some centimetres a few metres away. */
+/** In steps of the depth buffer: several centimeters at a distance of a few meters. */
 const kBehind = 2000;
 
 export interface LineLook {
   /** Width on the screen [px]. */
   width: number;
   opacity?: number;
-  /** Lies behind another line at the same place. */
+  /** Lies behind another line at the same position. */
   behind?: boolean;
 }
 
-/** Coloured pieces of line as wide as wanted, in buffers that grow: add to them, or clear and fill anew. */
+/** Colored line segments of any width, in growing buffers: append, or clear and fill again. */
 export class ColoredSegments {
-  /** Visible or not as its owner likes. */
+  /** Visibility is set by its owner. */
   readonly object = new Group();
   private readonly line: LineSegments2;
   private readonly geometry = new LineSegmentsGeometry();
@@ -59,7 +59,7 @@ export class ColoredSegments {
     color.toArray(colors, at + 3);
   }
 
-  /** Hands what was added to the graphics card. */
+  /** Uploads added segments to the GPU. */
   commit(): void {
     for (const buffer of [this.positions, this.colors]) {
       buffer.clearUpdateRanges();
@@ -70,7 +70,7 @@ export class ColoredSegments {
     this.show(this.used);
   }
 
-  /** Draws the first `count` pieces only. */
+  /** Draws only the first `count` segments. */
   show(count: number): void {
     this.geometry.instanceCount = Math.max(0, Math.min(count, this.used));
     this.line.visible = this.geometry.instanceCount > 0;
@@ -79,7 +79,7 @@ export class ColoredSegments {
   private reserve(count: number): void {
     if (count <= this.capacity) return;
     this.capacity = Math.max(count, 2 * this.capacity);
-    this.geometry.dispose(); // the copies of the old buffers on the graphics card
+    this.geometry.dispose(); // frees the old buffers on the GPU
     this.positions = this.enlarge(this.positions, 'instanceStart', 'instanceEnd');
     this.colors = this.enlarge(this.colors, 'instanceColorStart', 'instanceColorEnd');
     this.written = 0;

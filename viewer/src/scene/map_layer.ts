@@ -10,7 +10,7 @@ interface Chunk {
   voxel: number;
 }
 
-/** The static map: a cloud a cube of space, of which only as much is drawn as the picture needs. */
+/** The static map: one cloud per cube of space, drawn with as many points as the image needs. */
 export class MapLayer {
   readonly group = new Group();
   private readonly chunks = new Map<string, Chunk>();
@@ -33,7 +33,7 @@ export class MapLayer {
     for (const key of [...this.chunks.keys()]) this.drop(key);
   }
 
-  /** Decides how many points of each chunk to draw for this view; returns how many they are. */
+  /** Selects the number of points per chunk for this view; returns the total. */
   choose(camera: Camera, budget: number): number {
     this.frustum.setFromProjectionMatrix(
       this.matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse),
@@ -51,12 +51,12 @@ export class MapLayer {
     return counts.reduce((sum, count) => sum + count, 0);
   }
 
-  /** In the scene's frame. */
+  /** In the scene frame. */
   forEachSphere(use: (sphere: Sphere) => void): void {
     for (const chunk of this.chunks.values()) use(this.sphere(chunk));
   }
 
-  /** Some of the points, as they lie in memory, to measure the map by. */
+  /** A subset of the points in memory order, to measure the map. */
   forEachSample(every: number, use: (x: number, y: number, z: number) => void): void {
     for (const { points } of this.chunks.values()) {
       const positions = points.geometry.getAttribute('position').array;
@@ -64,7 +64,7 @@ export class MapLayer {
     }
   }
 
-  /** Fewer points are drawn larger, so that surfaces stay closed; a random sample needs more of it than all points. */
+  /** Fewer points are drawn larger, so that surfaces stay closed; a random sample needs larger ones. */
   private setSize({ points, count, voxel }: Chunk): void {
     const share = Math.min(1, points.geometry.drawRange.count / count);
     this.material.uniforms.size.value = Math.min(5, (1.9 - 0.5 * share) / Math.sqrt(share)) * voxel;

@@ -3,13 +3,13 @@ import type { SceneObject } from '../protocol/messages';
 import { ColoredSegments } from './line_segments';
 import { classColor, kColors } from './palette';
 
-const kMost = 512;
+const kMaxObjects = 512;
 /** The twelve edges of a cube, as pairs of its corners; bit k of a corner is its side along axis k. */
 const kEdges = [0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4, 6, 5, 7, 0, 4, 1, 5, 2, 6, 3, 7];
-/** Slower than this an object shows no arrow [m/s]. */
+/** Slower objects have no arrow [m/s]. */
 const kSlow = 0.15;
 
-/** A box an object, red for people and green for vehicles, with an arrow to where it will be in a second. */
+/** One box per object, red for people and green for vehicles, with an arrow to its position in one second. */
 export class ObjectLayer {
   readonly group = new Group();
   private readonly edges = new ColoredSegments({ width: 2.5 });
@@ -18,7 +18,7 @@ export class ObjectLayer {
 
   constructor() {
     const material = new MeshBasicMaterial({ transparent: true, opacity: 0.14, depthWrite: false });
-    this.faces = new InstancedMesh(new BoxGeometry(1, 1, 1), material, kMost);
+    this.faces = new InstancedMesh(new BoxGeometry(1, 1, 1), material, kMaxObjects);
     this.faces.instanceMatrix.setUsage(DynamicDrawUsage);
     this.faces.frustumCulled = false;
     this.faces.count = 0;
@@ -32,8 +32,8 @@ export class ObjectLayer {
 
   update(objects: SceneObject[]): void {
     this.edges.clear();
-    this.faces.count = Math.min(kMost, objects.length);
-    objects.slice(0, kMost).forEach((object, i) => this.place(object, i));
+    this.faces.count = Math.min(kMaxObjects, objects.length);
+    objects.slice(0, kMaxObjects).forEach((object, i) => this.place(object, i));
     this.faces.instanceMatrix.needsUpdate = true;
     if (this.faces.instanceColor) this.faces.instanceColor.needsUpdate = true;
     this.edges.commit();
@@ -73,7 +73,7 @@ const rotation = new Quaternion();
 const size = new Vector3();
 const kSmallest = new Vector3(1e-3, 1e-3, 1e-3);
 
-/** Pale where the object is not seen at the moment. */
+/** Pale if the object is unseen. */
 export function objectColor(object: SceneObject): Color {
   const color = new Color(classColor(object.class));
   return object.seen ? color : color.lerp(new Color(kColors.background), 0.55);

@@ -1,4 +1,4 @@
-/** The colours that mean something; style.css has the same ones for the page around the scene. */
+/** Colors with a meaning; style.css has the same for the page. */
 export const kColors = {
   background: '#0a0e14',
   person: '#ff4d5e',
@@ -12,7 +12,7 @@ export const kColors = {
   grid: '#2a3646',
 } as const;
 
-/** Red for people, green for vehicles of any name, amber for what the page does not know. */
+/** Red for people, green for all vehicles, amber for unknown classes. */
 export function classColor(name: string): string {
   if (name === 'person') return kColors.person;
   return ['vehicle', 'agv', 'car', 'truck', 'forklift', 'robot'].includes(name) ? kColors.vehicle : kColors.object;

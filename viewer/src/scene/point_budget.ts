@@ -1,6 +1,6 @@
-/** How many points a picture may have, learned from what pictures took so far. */
+/** Number of points per image, adapted to previous rendering times. */
 export class PointBudget {
-  /** `target` is how long a picture may take [ms]; it has `fewest` to `most` points, and `points` at first. */
+  /** `target`: time per image [ms]; `fewest` to `most` points, initially `points`. */
   constructor(
     private readonly target: number,
     private readonly fewest: number,
@@ -8,14 +8,17 @@ export class PointBudget {
     public points: number,
   ) {}
 
-  /** A picture of so many points took so long [ms]. At most doubles: one quick picture shall not make the next slow. */
+  /**
+   * Reports the time of an image with `points` points [ms]. The number at most doubles, so that the next image is not
+   * slow.
+   */
   learn(points: number, took: number): void {
     const wanted = (this.target * Math.max(points, this.fewest)) / Math.max(1, took);
     this.points = Math.min(this.most, 2 * this.points, Math.max(this.fewest, wanted));
   }
 }
 
-/** Whether pictures are drawn by the processor: then edges are not smoothed and pixels not doubled. */
+/** Whether the CPU renders: then without anti-aliasing and high resolution. */
 export function rendersInSoftware(): boolean {
   const context = document.createElement('canvas').getContext('webgl2');
   const info = context?.getExtension('WEBGL_debug_renderer_info');

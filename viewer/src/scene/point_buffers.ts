@@ -1,6 +1,6 @@
 import { BufferAttribute, BufferGeometry, Sphere, Vector3 } from 'three';
 
-/** Colours as four bytes a point, which graphics hardware wants aligned; grey where there are none. */
+/** Colors as four bytes per point, as GPUs require alignment; gray if there are none. */
 export function paddedColors(colors: ArrayLike<number> | null, count: number): Uint8Array {
   const padded = new Uint8Array(4 * count).fill(170);
   for (let i = 0; colors && i < count; ++i) {
@@ -38,7 +38,7 @@ function permutation(count: number): Uint32Array {
   return order;
 }
 
-/** `colors` has four bytes a point. */
+/** `colors` has four bytes per point. */
 export function pointGeometry(points: Float32Array, colors: Uint8Array): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(points, 3));

@@ -1,17 +1,17 @@
 import { Color, ShaderMaterial } from 'three';
 import { kColors } from './palette';
 
-/** Higher than anything [m]; shaders know no infinity. */
+/** Higher than any point [m]; shaders have no infinity. */
 export const kHigh = 1e6;
 
-/** Uniforms that all points of the scene share. */
+/** Uniforms shared by all points of the scene. */
 export const pointUniforms = {
-  /** Pixels a metre covers at a distance of one metre (perspective), or anywhere (orthographic). */
+  /** Pixels per meter at a distance of one meter (perspective), or anywhere (orthographic). */
   pixelsPerMetre: { value: 1000 },
   orthographic: { value: false },
-  /** Points higher than this in the scene's frame are not drawn [m]. */
+  /** Points above this height in the scene frame are not drawn [m]. */
   ceiling: { value: kHigh },
-  /** From this distance on what is far fades into the background [m]. */
+  /** Distance from which points fade into the background [m]. */
   haze: { value: 30 },
   background: { value: new Color(kColors.background).convertLinearToSRGB() },
 };
@@ -52,16 +52,16 @@ export interface PointLook {
   /** Smallest diameter on the screen [px]. */
   smallest?: number;
   tint?: string;
-  /** 0: the points' own colours, 1: the tint. */
+  /** 0: the points' colors, 1: the tint. */
   tintShare?: number;
   saturation?: number;
-  /** Drawn to its full height whatever the ceiling is. */
+  /** Drawn in full height regardless of the ceiling. */
   whole?: boolean;
-  /** By which share of the distance it is drawn nearer, to stand out from what is at the same place. */
+  /** Share of the distance by which it is drawn nearer, to be in front of points at the same position. */
   nearer?: number;
 }
 
-/** Points as discs of a size in metres, in sRGB as the sensor gave them. */
+/** Points as discs with a size in meters, in sRGB as recorded. */
 export function pointMaterial(look: PointLook): ShaderMaterial {
   return new ShaderMaterial({
     vertexShader: kVertex,

@@ -15,13 +15,13 @@ import { TrailLayer } from './trail_layer';
 import { TrajectoryLayer } from './trajectory_layer';
 import { upright } from './upright';
 
-/** What lies higher above the sensor than this is cut off, so that one can look into the room [m]. */
+/** Points higher above the sensor are hidden, to show the inside of rooms [m]. */
 const kCeiling = 1;
 
-/** The 3D panel: the layers of the scene, kept as the run and the settings say. */
+/** The 3D panel: the layers of the scene, updated from the run and the settings. */
 export class SceneView {
   private readonly stage: Stage;
-  /** The map's frame, turned so that its up is the scene's y. */
+  /** The map frame, rotated so that its up direction is the scene's y. */
   private readonly world = new Group();
   private readonly map = new MapLayer();
   private readonly sensor = new SensorLayer();
@@ -34,7 +34,7 @@ export class SceneView {
   private pending = false;
   private measured = false;
   private lastFrame = -1;
-  /** In the scene's frame. */
+  /** In the scene frame. */
   private ceiling = kHigh;
 
   constructor(
@@ -63,7 +63,7 @@ export class SceneView {
     this.listen();
   }
 
-  /** Back to where the camera mode starts. */
+  /** Resets to the initial view of the camera mode. */
   resetView(): void {
     this.stage.rig.reset();
     this.stage.invalidate();
@@ -73,7 +73,7 @@ export class SceneView {
     return this.stage.picture();
   }
 
-  /** What the user looks at, in the map's frame. */
+  /** The camera's target in the map frame. */
   get focus(): Triple {
     return this.world.worldToLocal(this.stage.rig.target.clone()).toArray();
   }
@@ -114,7 +114,7 @@ export class SceneView {
     this.stage.invalidate();
   }
 
-  /** Many messages, one picture: what they changed is taken over just before it is drawn. */
+  /** Changes of several messages are applied just before the next image is drawn. */
   private refresh(): void {
     this.pending = true;
     this.stage.invalidate();
@@ -155,7 +155,7 @@ export class SceneView {
     pointUniforms.ceiling.value = this.settings.shows('ceiling') ? kHigh : this.ceiling;
   }
 
-  /** How large the scene is and where its floor lies. */
+  /** Extent of the scene and height of its floor. */
   private measure(): void {
     this.measured = true;
     const bounds = new Box3();
@@ -192,12 +192,12 @@ export class SceneView {
   }
 }
 
-/** id, class and speed in words. */
+/** Label with id, class and speed. */
 export function labelText({ id, class: name, velocity, moving }: SceneObject): string {
   return `${className(name)} ${id} · ${moving ? `${Math.hypot(...velocity).toFixed(1)} m/s` : 'still'}`;
 }
 
-/** Half of what the box takes up along `up`. */
+/** Half of the box's extent along `up`. */
 function halfHeight({ size, orientation }: SceneObject, up: Vector3): number {
   const local = up.clone().applyQuaternion(new Quaternion().fromArray(orientation).invert());
   return 0.5 * (Math.abs(local.x) * size[0] + Math.abs(local.y) * size[1] + Math.abs(local.z) * size[2]);

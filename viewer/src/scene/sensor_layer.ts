@@ -5,10 +5,10 @@ import { kColors } from './palette';
 import { paddedColors, pointGeometry } from './point_buffers';
 import { pointMaterial } from './point_material';
 
-/** How far the drawn pyramid of sight reaches [m]. */
+/** Length of the drawn view frustum [m]. */
 const kReach = 0.7;
 
-/** What moves with the sensor: its pyramid of sight and the current scan, static points cyan and dynamic ones orange. */
+/** Sensor frustum and current scan, static points cyan and dynamic ones orange. */
 export class SensorLayer {
   readonly group = new Group();
   readonly scan = new Group();
@@ -55,7 +55,7 @@ export class SensorLayer {
   }
 }
 
-/** The picture's corners at the pyramid's end, in the camera's frame. */
+/** The image corners at the frustum's end, in the camera frame. */
 function imageCorners({ width, height, fx, fy, cx, cy }: Intrinsics): number[] {
   const corners = [[0, 0], [width, 0], [width, height], [0, height]];
   return corners.flatMap(([u, v]) => [((u - cx) / fx) * kReach, ((v - cy) / fy) * kReach, kReach]);

@@ -6,16 +6,16 @@ import { PointBudget, rendersInSoftware } from './point_budget';
 import { pointUniforms } from './point_material';
 
 export interface StageEvents {
-  /** Before a picture is drawn; `budget` is how many points of the map it may have, and the answer how many it has. */
+  /** Called before an image is drawn; `budget` is the allowed number of map points; returns the number drawn. */
   draw(budget: number): number;
-  /** After it. */
+  /** Called after it. */
   drawn(): void;
 }
 
-/** How long the scene has to be at rest before it is drawn in full [ms]. */
+/** How long the scene must be unchanged before it is drawn in full [ms]. */
 const kRest = 250;
 
-/** The canvas: draws when something changed, coarse while it moves, in full when it rests. */
+/** The canvas: draws after changes, coarsely during motion, in full at rest. */
 export class Stage {
   readonly scene = new Scene();
   readonly renderer: WebGLRenderer;
@@ -45,16 +45,16 @@ export class Stage {
     new ResizeObserver(() => this.resize()).observe(container);
   }
 
-  /** Something changed: draws a picture soon. */
+  /** Requests an image after a change. */
   invalidate(): void {
     if (this.requested) return;
     this.requested = true;
     requestAnimationFrame((now) => this.step(now));
   }
 
-  /** The scene with its labels. */
+  /** Draws the scene with its labels. */
   picture(): Promise<Blob | null> {
-    this.render(this.resting.points); // what was drawn before may be gone from the canvas
+    this.render(this.resting.points); // the canvas may have lost its previous content
     const canvas = document.createElement('canvas');
     const { width, height } = this.renderer.domElement;
     Object.assign(canvas, { width, height });
@@ -78,11 +78,11 @@ export class Stage {
   private renderWithin(budget: PointBudget): void {
     const start = performance.now();
     const points = this.render(budget.points);
-    // The browser asks for the next picture when it is done with this one.
+    // The browser requests the next image after this one is finished.
     requestAnimationFrame(() => budget.learn(points, performance.now() - start));
   }
 
-  /** Returns how many points of the map were drawn. */
+  /** Returns the number of map points drawn. */
   private render(budget: number): number {
     const { camera } = this.rig;
     camera.updateMatrixWorld();

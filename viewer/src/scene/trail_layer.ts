@@ -3,12 +3,12 @@ import { forEachTrailSegment, type Tracks } from '../state/tracks';
 import { ColoredSegments } from './line_segments';
 import { classColor, kColors } from './palette';
 
-/** Frames a trail lasts. */
+/** Length of a trail [frames]. */
 const kLength = 150;
 const background = new Color(kColors.background);
 const shade = new Color();
 
-/** Where the objects came from, fading with age. */
+/** Past trajectories of the objects, fading with age. */
 export class TrailLayer {
   private readonly lines = new ColoredSegments({ width: 2.5 });
   readonly object = this.lines.object;

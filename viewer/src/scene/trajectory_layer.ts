@@ -4,7 +4,7 @@ import type { Trajectory } from '../state/trajectory';
 import { ColoredSegments, type LineLook } from './line_segments';
 import { kColors } from './palette';
 
-/** The way so far in full colour, the rest of a finished run pale, and the truth beside it. */
+/** The past trajectory in full color, the rest of a finished run pale, and the ground truth. */
 export class TrajectoryLayer {
   readonly estimate = new Group();
   readonly truth: ColoredSegments['object'];
@@ -21,7 +21,7 @@ export class TrajectoryLayer {
     for (const way of [this.whole, this.passed, this.reference]) way.clear();
   }
 
-  /** Takes in what is new in the trajectory and shows the way up to a frame. */
+  /** Adds new poses and shows the trajectory up to a frame. */
   update(trajectory: Trajectory, frame: number): void {
     for (const way of [this.whole, this.passed]) way.extend(trajectory.poses.values, 7, trajectory.poses.length);
     this.reference.extend(trajectory.truth.values, 3, trajectory.truth.length);
@@ -31,13 +31,13 @@ export class TrajectoryLayer {
   }
 }
 
-/** A line through the rows of a table that grows; rows of NaN are left out. */
+/** A line through the rows of a growing table; rows with NaN are skipped. */
 class Way {
   readonly line: ColoredSegments;
   private readonly color: Color;
   private rows = 0;
   private last = -1;
-  /** The frame that a piece of the line leads to. */
+  /** Frame at the end of a line segment. */
   private ends: number[] = [];
 
   constructor(color: string, look: LineLook) {

@@ -1,4 +1,4 @@
-/** Calls whoever listens; `Events` maps a topic to what is said about it. */
+/** Calls listeners; `Events` maps a topic to its argument. */
 export class Emitter<Events extends Record<string, unknown>> {
   private readonly listeners = new Map<keyof Events, Set<(value: never) => void>>();
 

@@ -1,4 +1,4 @@
-/** Rows of `width` floats that grow at the end; rows never written are NaN. */
+/** Rows of `width` floats that grow at the end; unset rows are NaN. */
 export class Rows {
   private data: Float32Array;
   length = 0;
@@ -7,7 +7,7 @@ export class Rows {
     this.data = new Float32Array(width * 256).fill(NaN);
   }
 
-  /** All rows so far, one after the other; valid until the next write. */
+  /** All rows, concatenated; valid until the next write. */
   get values(): Float32Array {
     return this.data.subarray(0, this.length * this.width);
   }

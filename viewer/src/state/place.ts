@@ -1,7 +1,7 @@
 import type { Command } from '../protocol/messages';
 import type { Run } from './run';
 
-/** Where the user was in the run, and how fast: the server, which forgets it with the connection, is told anew. */
+/** The user's position and speed in the run, sent to the server after a reconnect. */
 export class Place {
   private frame = 0;
   private playing = true;
@@ -17,7 +17,7 @@ export class Place {
   }
 
   private restore(live: boolean): void {
-    if (live && this.playing) return; // it shows the newest
+    if (live && this.playing) return; // it shows the newest frame
     if (!this.playing) this.send({ type: 'pause' });
     if (this.speed !== 1) this.send({ type: 'speed', value: this.speed });
     this.send({ type: 'seek', frame: this.frame });

@@ -5,9 +5,9 @@ import { Tracks } from './tracks';
 import { Trajectory } from './trajectory';
 
 export type RunEvents = {
-  /** A run begins, or is told anew after a reconnect: everything known before is gone. */
+  /** A run begins, or is sent again after a reconnect: all earlier data are discarded. */
   hello: { hello: Hello; again: boolean };
-  /** The trajectory, the series or the tracks were told as a whole. */
+  /** The whole trajectory, series or tracks were received. */
   history: void;
   frame: FrameMessage;
   map: MapMessage;
@@ -17,23 +17,23 @@ export type RunEvents = {
 
 const kStopped: StateMessage = { type: 'state', playing: false, frame: 0, speed: 1, ended: false, dropped: 0, files: null };
 
-/** What the page knows of the run it shows: the sum of the messages that came. */
+/** State of the displayed run: the sum of the received messages. */
 export class Run extends Emitter<RunEvents> {
   hello: Hello | null = null;
   frame: FrameMessage | null = null;
   playback = kStopped;
-  /** A live run has ended: its results are there. */
+  /** A live run has ended: its results are available. */
   private over = false;
   trajectory = new Trajectory();
   series = new SeriesTable();
   tracks = new Tracks();
 
-  /** Frames still come from the sensor. */
+  /** Frames still arrive from the sensor. */
   get live(): boolean {
     return this.hello?.live === true && !this.over;
   }
 
-  /** How many frames there are to scrub through. */
+  /** Number of available frames. */
   get frames(): number {
     return Math.max(this.live ? 0 : (this.hello?.frames ?? 0), this.trajectory.frames);
   }

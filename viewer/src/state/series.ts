@@ -8,7 +8,7 @@ export interface Series {
   values: Rows;
 }
 
-/** What is plotted over the frames: a growing column a name. */
+/** Plotted values per frame: one growing column per name. */
 export class SeriesTable {
   readonly all: Series[] = [];
 

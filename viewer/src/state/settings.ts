@@ -23,7 +23,7 @@ type SettingEvents = { layer: Layer; camera: CameraMode };
 const kKey = 'mms-viewer';
 const kHiddenAtFirst: Layer[] = ['ceiling'];
 
-/** What the user chose to see; kept by the browser. */
+/** Display settings of the user, stored in the browser. */
 export class Settings extends Emitter<SettingEvents> {
   private readonly hidden: Set<Layer>;
   private mode: CameraMode = 'follow';
@@ -59,7 +59,7 @@ export class Settings extends Emitter<SettingEvents> {
     try {
       this.storage?.setItem(kKey, JSON.stringify({ hidden: [...this.hidden], camera: this.mode }));
     } catch {
-      // A full or forbidden storage only means that the choice is not kept.
+      // If storage is full or forbidden, the settings are not stored.
     }
   }
 }

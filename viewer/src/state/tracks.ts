@@ -1,18 +1,18 @@
 import type { SceneObject, TracksMessage } from '../protocol/messages';
 
-/** Where one object was, by frame. */
+/** Positions of one object by frame. */
 export interface Track {
   id: number;
   class: string;
   frames: number[];
-  /** x y z a frame. */
+  /** x y z per frame. */
   centers: number[];
 }
 
-/** Frames without sight of an object after which its way is interrupted. */
+/** Number of frames without observation after which the trajectory is interrupted. */
 const kGap = 30;
 
-/** The ways of all objects, as far as the page has heard of them. */
+/** Trajectories of all objects received so far. */
 export class Tracks {
   private readonly byId = new Map<number, Track>();
 

@@ -1,7 +1,7 @@
 import type { FrameMessage, TrajectoryMessage } from '../protocol/messages';
 import { Rows } from './growable';
 
-/** Poses T_world_camera by frame, with stamps and truth where known. */
+/** Poses T_world_camera by frame, with stamps and ground truth if known. */
 export class Trajectory {
   /** tx ty tz qx qy qz qw. */
   readonly poses = new Rows(7);
@@ -27,14 +27,14 @@ export class Trajectory {
     this.seconds.write(frame, [Number(stampNs - this.firstStampNs) / 1e9]);
   }
 
-  /** Seconds since the first frame; null where unknown. */
+  /** Seconds since the first frame; null if unknown. */
   time(frame: number): number | null {
     if (frame < 0 || frame >= this.seconds.length) return null;
     const seconds = this.seconds.row(frame)[0];
     return Number.isFinite(seconds) ? seconds : null;
   }
 
-  /** What passed between the first frame and this one, by the last stamp known before it. */
+  /** Time since the first frame, of the last known stamp up to this frame. */
   private elapsedNs(frame: number): bigint {
     for (let i = Math.min(frame, this.seconds.length - 1); i >= 0; --i) {
       const seconds = this.time(i);

@@ -4,12 +4,12 @@ import { h, setText } from './dom';
 
 export interface ChartLook {
   title: string;
-  /** A value as text, for the axis and the heading. */
+  /** Formats a value for the axis and the heading. */
   format(value: number | undefined): string;
-  /** Where a frame is on the axis below, and what is written there. */
+  /** Axis position and label of a frame. */
   position(frame: number): number;
   formatPosition(position: number): string;
-  /** Lines are stacked upon each other and filled. */
+  /** Stacked and filled lines. */
   stacked?: boolean;
   onSeek(frame: number): void;
 }
@@ -17,7 +17,7 @@ export interface ChartLook {
 const kAxis = '#7f8fa3';
 const kFont = '11px system-ui, "Segoe UI", Roboto, sans-serif';
 
-/** One plot over the frames, with a heading that tells the values at the playhead; a click seeks. */
+/** One plot over the frames, with the values at the playhead in the heading; a click seeks. */
 export class Chart {
   readonly root: HTMLElement;
   private readonly value = h('b');
@@ -45,7 +45,7 @@ export class Chart {
     this.setFrame(this.frame);
   }
 
-  /** Moves the playhead and tells the values there. */
+  /** Moves the playhead and shows the values there. */
   setFrame(frame: number): void {
     this.frame = frame;
     const values = this.lines.map(({ values: all }) => all[frame]);
@@ -100,7 +100,7 @@ export class Chart {
     };
   }
 
-  /** The top of the axis: rare peaks, such as the first frame's, do not flatten all the rest. */
+  /** Upper limit of the axis: rare peaks, such as that of the first frame, are cut off. */
   private highest(high: number): number {
     if (!this.look.stacked) return high;
     const totals = stack(this.lines.map(({ values }) => Array.from(values)))[0]?.filter(Number.isFinite) ?? [];
@@ -134,7 +134,7 @@ function axisRange(low: number, high: number): [number, number] {
   return [Math.min(0, low), high > 0 ? 1.08 * high : 1];
 }
 
-/** Round numbers need no decimals. */
+/** Integers need no decimals. */
 function axisText(text: string): string {
   return text.replace(/\.0(?= )/, '');
 }

@@ -6,15 +6,15 @@ export interface Line {
   values: Float32Array;
 }
 
-/** More columns than this are never plotted: a column then shows the largest value of its frames. */
+/** Largest number of plotted columns: a column then shows the maximum of its frames. */
 const kColumns = 1500;
 
-/** How many frames a column stands for. */
+/** Number of frames per column. */
 export function columnFrames(lines: Line[]): number {
   return Math.max(1, Math.ceil(Math.max(0, ...lines.map(({ values }) => values.length)) / kColumns));
 }
 
-/** Columns for uPlot: frames, and of each line the values; stacked ones as sums, the last line at the bottom. */
+/** Columns for uPlot: frames, and the values of each line; stacked ones as sums, the last line at the bottom. */
 export function plotData(lines: Line[], stacked: boolean): AlignedData {
   const frames = Math.max(0, ...lines.map(({ values }) => values.length));
   const step = columnFrames(lines);
@@ -24,7 +24,7 @@ export function plotData(lines: Line[], stacked: boolean): AlignedData {
   return [x, ...shown.map((column) => column.map((value) => (Number.isFinite(value) ? value : null)))];
 }
 
-/** Of every column the sum with those after it. */
+/** The sum of every column with the following ones. */
 export function stack(columns: number[][]): number[][] {
   const sums = columns.map((column) => [...column]);
   for (let i = sums.length - 2; i >= 0; --i) {
@@ -33,7 +33,7 @@ export function stack(columns: number[][]): number[][] {
   return sums;
 }
 
-/** NaN where there is none. */
+/** NaN if there is none. */
 function largest(values: Float32Array, from: number, to: number): number {
   let most = NaN;
   for (let i = from; i < Math.min(to, values.length); ++i) {

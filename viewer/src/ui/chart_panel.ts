@@ -15,7 +15,7 @@ const kColorOf: Record<string, string> = {
   error_cm: kColors.truth,
   drift_cm: kColors.trajectory,
 };
-/** Charts of a live run are drawn anew this often [ms]; only the playhead moves with every frame. */
+/** Update period of the charts of a live run [ms]; only the playhead moves with every frame. */
 const kRedraw = 300;
 
 interface Slot {
@@ -23,7 +23,7 @@ interface Slot {
   unit: Unit;
 }
 
-/** Milliseconds a stage, dynamic share, drift and error, objects: all over the frames. */
+/** Milliseconds per stage, dynamic share, drift and error, objects: all per frame. */
 export class ChartPanel {
   private readonly slots: Slot[];
   private readonly empty = h('p', { class: 'empty' }, 'Times, dynamic share, drift and objects appear here with the frames.');
@@ -61,12 +61,12 @@ export class ChartPanel {
     });
   }
 
-  /** Whether the axis is in seconds; in frames where their stamps are unknown. */
+  /** Whether the axis is in seconds; in frames if stamps are unknown. */
   private get timed(): boolean {
     return this.run.trajectory.time(this.run.series.frames - 1) !== null;
   }
 
-  /** Where the truth is known, how far the estimate is from it says more than how far it is from the start. */
+  /** With ground truth, the error is more informative than the distance from the start. */
   private shown(unit: Unit): Series[] {
     const all = this.run.series.of(unit);
     const error = all.filter(({ name }) => name === 'error_cm');

@@ -23,12 +23,12 @@ export function part<T extends HTMLElement = HTMLElement>(id: string): T {
   return element as T;
 }
 
-/** Sets the text only where it changes, so that nothing is laid out anew for nothing. */
+/** Sets the text only if it changes, to avoid layout. */
 export function setText(element: HTMLElement, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** Runs `action` at most once every `ms`, and once more at the end. */
+/** Runs `action` at most once per `ms`, and once more at the end. */
 export function throttled(ms: number, action: () => void): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   let due = false;

@@ -4,7 +4,7 @@ import { icon } from './icons';
 
 const kNames: Record<string, string> = {
   'static_map.ply': 'Static map',
-  'semantic_map.ply': 'Map with objects and their ways',
+  'semantic_map.ply': 'Map with object trajectories',
   'static_map.pcd': 'Static map',
   'trajectory.tum': 'Trajectory',
   'trajectory_kitti.txt': 'Trajectory, KITTI',
@@ -64,7 +64,7 @@ export class Downloads {
   }
 }
 
-/** Hands a file made in the page to the browser. */
+/** Downloads a file created in the page. */
 export function save(blob: Blob, name: string): void {
   const url = URL.createObjectURL(blob);
   h('a', { href: url, download: name }).click();

@@ -7,7 +7,7 @@ export function clock(seconds: number): string {
   return `${minutes}:${((tenths - minutes * 600) / 10).toFixed(1).padStart(4, '0')}`;
 }
 
-/** A value with its unit, as precise as it is worth. */
+/** A value with its unit and suitable precision. */
 export function quantity(value: number | undefined, unit: Unit): string {
   if (value === undefined || !Number.isFinite(value)) return '–';
   if (unit === 'ms') return `${value.toFixed(value < 10 ? 1 : 0)} ms`;
@@ -16,7 +16,7 @@ export function quantity(value: number | undefined, unit: Unit): string {
   return value < 100 ? `${value.toFixed(1)} cm` : `${(value / 100).toFixed(2)} m`;
 }
 
-/** A series' name in words: dynamic_share as "dynamic share". */
+/** Display name of a series: dynamic_share as "dynamic share". */
 export function words(name: string): string {
   return name.replace(/_(cm|ms)$/, '').replaceAll('_', ' ');
 }

@@ -5,7 +5,7 @@ import type { Settings } from '../state/settings';
 import { part, setText } from './dom';
 import { tintMask } from './mask_overlay';
 
-/** The camera image with the masks over it. */
+/** The camera image with masks. */
 export class ImagePanel {
   private readonly canvas = part<HTMLCanvasElement>('image');
   private readonly context = this.canvas.getContext('2d') as CanvasRenderingContext2D;
@@ -34,9 +34,9 @@ export class ImagePanel {
     this.draw();
   }
 
-  /** Decoding takes longer than a frame on a slow machine: what comes meanwhile is skipped but for the newest. */
+  /** Decoding may take longer than a frame on a slow machine: then only the newest image is decoded. */
   private show(frame: FrameMessage): void {
-    if (frame.picturesPending) return; // the last picture stays until the next is there
+    if (frame.picturesPending) return; // keeps the last image until the next one arrives
     if (!frame.image && !frame.mask) return this.clear();
     this.waiting = frame;
     if (!this.busy) void this.decodeWaiting();
@@ -76,7 +76,7 @@ export class ImagePanel {
   }
 }
 
-/** Null where there is nothing, or nothing that can be read. */
+/** Null if there is no readable image. */
 async function decode(bytes: Uint8Array | null, type: string): Promise<ImageBitmap | null> {
   if (!bytes || bytes.length === 0) return null;
   try {

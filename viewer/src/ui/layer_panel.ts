@@ -7,13 +7,13 @@ interface Row {
   layer: Layer;
   name: string;
   key: string;
-  /** Colours that the layer has in the scene: the panel is the legend as well. */
+  /** Colors of the layer in the scene: the panel is also the legend. */
   colors: string[];
   hint: string;
 }
 
 export const kRows: Row[] = [
-  { layer: 'map', name: 'Static map', key: 'M', colors: ['#8fa3b8'], hint: 'What stands still, in its own colours' },
+  { layer: 'map', name: 'Static map', key: 'M', colors: ['#8fa3b8'], hint: 'Static points in their colors' },
   {
     layer: 'scan',
     name: 'Current scan',
@@ -24,15 +24,15 @@ export const kRows: Row[] = [
   { layer: 'boxes', name: 'Objects', key: 'B', colors: [kColors.person, kColors.vehicle], hint: 'People red, vehicles green' },
   { layer: 'labels', name: 'Labels', key: 'L', colors: [], hint: 'Class, number and speed' },
   { layer: 'trails', name: 'Trails', key: 'R', colors: [kColors.person, kColors.vehicle], hint: 'Where objects came from' },
-  { layer: 'trajectory', name: 'Trajectory', key: 'T', colors: [kColors.trajectory], hint: 'The way of the sensor' },
+  { layer: 'trajectory', name: 'Trajectory', key: 'T', colors: [kColors.trajectory], hint: 'Trajectory of the sensor' },
   { layer: 'truth', name: 'Truth', key: 'G', colors: [kColors.truth], hint: 'Where the sensor really was' },
   { layer: 'camera', name: 'Sensor', key: 'C', colors: [kColors.camera], hint: 'Where the sensor looks' },
   { layer: 'masks', name: 'Image masks', key: 'K', colors: [kColors.person, kColors.vehicle], hint: 'What was found in the image' },
-  { layer: 'grid', name: 'Floor grid', key: 'F', colors: ['#4a5d75'], hint: 'A line a metre' },
-  { layer: 'ceiling', name: 'Upper part', key: 'U', colors: [], hint: 'Also what is more than 1 m above the sensor' },
+  { layer: 'grid', name: 'Floor grid', key: 'F', colors: ['#4a5d75'], hint: 'One line per meter' },
+  { layer: 'ceiling', name: 'Upper part', key: 'U', colors: [], hint: 'Also show points more than 1 m above the sensor' },
 ];
 
-/** A switch a layer. */
+/** One switch per layer. */
 export class LayerPanel {
   private readonly switches = new Map<Layer, HTMLElement>();
 

@@ -1,7 +1,7 @@
 const kFill = 105;
 const kEdge = 255;
 
-/** A mask (grey value 0: static, 1 + class index) in the classes' colours: pale inside, full along the edges. */
+/** A mask (gray value 0: static, 1 + class index) in the classes' colors: pale inside, opaque at the boundary. */
 export function tintMask(mask: ImageBitmap, colors: string[]): HTMLCanvasElement {
   const { width, height } = mask;
   const canvas = document.createElement('canvas');
@@ -15,7 +15,7 @@ export function tintMask(mask: ImageBitmap, colors: string[]): HTMLCanvasElement
   return canvas;
 }
 
-/** Turns the grey values of RGBA pixels into colours in place. */
+/** Converts the gray values of RGBA pixels to colors in place. */
 export function tint(pixels: Uint8ClampedArray, width: number, height: number, colors: number[][]): void {
   const labels = Uint8Array.from({ length: width * height }, (_, i) => pixels[4 * i]);
   for (let i = 0; i < labels.length; ++i) {

@@ -2,10 +2,10 @@ import type { ConnectionState } from '../protocol/connection';
 import type { Run } from '../state/run';
 import { h, part, setText } from './dom';
 
-/** How long a toast stays [ms]. */
+/** Duration of a toast [ms]. */
 const kToast = 6000;
 
-/** Says how the connection is: a pill in the top bar, and a card over the scene where there is something to wait for. */
+/** State of the connection: in the top bar, and as a card over the scene while waiting. */
 export class Notice {
   private readonly card = part('notice');
   private readonly pill = part('connection');
@@ -60,7 +60,7 @@ export class Notice {
       const seconds = Math.max(0, Math.ceil((state.retryAt - Date.now()) / 1000));
       const next = seconds > 0 ? `Next try in ${seconds} s.` : 'Trying again.';
       return known
-        ? { title: 'Connection lost', text: `This is the last that came. ${next}` }
+        ? { title: 'Connection lost', text: `The last received frame is shown. ${next}` }
         : { title: 'mms does not answer', text: `Is "mms view" or "mms run --view" running at ${location.host}? ${next}` };
     }
     if (state.kind === 'connecting') {
@@ -68,7 +68,7 @@ export class Notice {
     }
     if (known) return null;
     if (run.hello && !run.hello.live && run.hello.frames === 0) {
-      return { title: 'This run has no frames', text: 'Its folder holds no trajectory.' };
+      return { title: 'This run has no frames', text: 'Its folder has no trajectory.' };
     }
     return { title: 'Waiting for the first frame', text: 'It appears here as soon as it is processed.' };
   }

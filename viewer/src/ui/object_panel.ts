@@ -4,7 +4,7 @@ import { className } from '../state/class_words';
 import type { Run } from '../state/run';
 import { h, part, setText, throttled } from './dom';
 
-/** The objects of the current frame: class and number, speed, distance from the sensor; the nearest first. */
+/** The objects of the current frame: class and number, speed, distance from the sensor; nearest first. */
 export class ObjectPanel {
   private readonly list = part('objects');
 
@@ -19,7 +19,7 @@ export class ObjectPanel {
     const objects = this.run.frame?.objects ?? [];
     setText(part('object-count'), objects.length ? String(objects.length) : '');
     if (objects.length === 0) {
-      const text = this.run.frame ? 'Nobody and no vehicle in this frame.' : '';
+      const text = this.run.frame ? 'No objects in this frame.' : '';
       this.list.replaceChildren(h('p', { class: 'empty' }, text));
       return;
     }
@@ -39,7 +39,7 @@ function row(object: SceneObject, away: number): HTMLElement {
   swatch.style.background = classColor(object.class);
   return h(
     'div',
-    { class: object.seen ? 'object' : 'object unseen', title: object.seen ? '' : 'Not seen at the moment' },
+    { class: object.seen ? 'object' : 'object unseen', title: object.seen ? '' : 'Unseen in this frame' },
     swatch,
     h('span', { class: 'object-name' }, `${className(object.class)} ${object.id}`),
     h('span', { class: 'number' }, object.moving ? `${Math.hypot(...object.velocity).toFixed(1)} m/s` : 'still'),

@@ -5,10 +5,10 @@ import { clock } from './format';
 import { icon } from './icons';
 
 const kSpeeds = [0.25, 0.5, 1, 2, 4, 8];
-/** Not more seeks than this while the handle is dragged [ms]. */
+/** Shortest time between two seeks while the handle is dragged [ms]. */
 const kSeekEvery = 60;
 
-/** Play, pause, step, scrub and speed; in a live run, back to what is new. */
+/** Play, pause, step, seek and speed; in a live run, return to the newest frame. */
 export class Player {
   private readonly toggleButton = h('button', { class: 'play', type: 'button', click: () => this.toggle() });
   private readonly range = h('input', {
@@ -23,7 +23,7 @@ export class Player {
   private readonly time = h('span', { class: 'time' });
   private readonly frames = h('span', { class: 'frames' });
   private readonly speed = h('select', { id: 'speed', title: 'Speed (+ and -)', 'aria-label': 'Speed' });
-  private readonly live = h('button', { class: 'live', type: 'button', title: 'Show what is new', click: () => this.goLive() }, 'Live');
+  private readonly live = h('button', { class: 'live', type: 'button', title: 'Show the newest frame', click: () => this.goLive() }, 'Live');
   private dragged: number | null = null;
   private readonly sendSeek = throttled(kSeekEvery, () => {
     if (this.dragged !== null) this.send({ type: 'seek', frame: this.dragged });
@@ -84,9 +84,9 @@ export class Player {
       h(
         'div',
         { class: 'buttons' },
-        button('back', 'One frame back (←)', -1),
+        button('back', 'Previous frame (←)', -1),
         this.toggleButton,
-        button('forward', 'One frame on (→)', 1),
+        button('forward', 'Next frame (→)', 1),
       ),
       this.range,
       h('div', { class: 'where' }, this.time, this.frames),
@@ -136,7 +136,7 @@ export class Player {
     const [name, title] = playing
       ? (['pause', 'Pause (space)'] as const)
       : ended
-        ? (['replay', 'Once more (space)'] as const)
+        ? (['replay', 'Replay (space)'] as const)
         : (['play', 'Play (space)'] as const);
     if (this.toggleButton.title === title) return;
     this.toggleButton.title = title;

@@ -10,7 +10,7 @@ interface Tile {
   root: HTMLElement;
 }
 
-/** The run in five numbers, over the scene. */
+/** Five numbers of the run, over the scene. */
 export class Readout {
   private readonly status = tile('tile status');
   private readonly objects = tile('tile');
@@ -38,11 +38,11 @@ export class Readout {
     fill(this.dynamic, quantity(this.value('dynamic_share'), 'ratio'), 'dynamic');
     const [error, drift] = [this.value('error_cm'), this.value('drift_cm')];
     this.error.root.hidden = (error ?? drift) === undefined;
-    fill(this.error, quantity(error ?? drift, 'cm'), error === undefined ? 'from the start' : 'off the truth');
+    fill(this.error, quantity(error ?? drift, 'cm'), error === undefined ? 'from the start' : 'position error');
     fill(this.time, quantity(this.total(), 'ms'), 'a frame');
   }
 
-  /** From the frame, or from the run's history where the frame does not say. */
+  /** From the frame, or else from the run's history. */
   private value(name: string): number | undefined {
     const { frame, series } = this.run;
     if (!frame) return undefined;
@@ -67,7 +67,7 @@ export class Readout {
   }
 }
 
-/** "2 people"; on narrow screens a dot in the colour of the class stands for the word. */
+/** "2 people"; on narrow screens a dot in the color of the class replaces the word. */
 function classCount(count: number, name: string): HTMLElement {
   const dot = h('i');
   dot.style.background = classColor(name);

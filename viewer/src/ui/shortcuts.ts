@@ -36,7 +36,7 @@ export function listenToKeys({ player, settings, picture, resetView }: Actions):
   });
 }
 
-/** Keys that the focused control needs itself are left to it; the slider's do the same as ours. */
+/** Ignores keys that the focused control uses; those of the slider have the same effect. */
 function isTyping({ target, key }: KeyboardEvent): boolean {
   if (target instanceof HTMLSelectElement) return true;
   return target instanceof HTMLButtonElement && key === ' ';

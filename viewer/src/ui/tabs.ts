@@ -8,7 +8,7 @@ const kTabs: [string, string, IconName][] = [
   ['layers', 'Layers', 'layers'],
 ];
 
-/** On narrow screens one panel at a time; style.css shows the one that #app[data-tab] names. */
+/** On narrow screens one panel at a time; style.css shows the one in #app[data-tab]. */
 export class Tabs {
   constructor(changed: () => void) {
     const app = part('app');

@@ -4,11 +4,11 @@ import { icon } from './icons';
 
 const kWords: Record<CameraMode, [string, string]> = {
   follow: ['Follow', 'Behind the sensor (1)'],
-  orbit: ['Orbit', 'All of it, from the side (2)'],
-  top: ['Top', 'All of it, from above (3)'],
+  orbit: ['Orbit', 'Whole scene, side view (2)'],
+  top: ['Top', 'Whole scene, top view (3)'],
 };
 
-/** Chooses where the scene is seen from. */
+/** Selects the camera mode of the scene. */
 export class ViewModes {
   private readonly buttons = new Map<CameraMode, HTMLElement>();
 
@@ -19,7 +19,7 @@ export class ViewModes {
       this.buttons.set(mode, button);
       part('view-modes').append(button);
     }
-    const title = 'Back to where the view starts (0)';
+    const title = 'Reset the view (0)';
     part('view-modes').append(h('button', { type: 'button', class: 'reset', title, 'aria-label': title, click: reset }, icon('home')));
     settings.on('camera', () => this.update(settings.camera));
     this.update(settings.camera);

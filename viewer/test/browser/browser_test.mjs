@@ -38,7 +38,7 @@ const image = () => countPixels(page, page.locator('#image'));
 const pill = () => page.textContent('#connection');
 
 async function pause() {
-  await page.getByTitle(/^(Pause|Play|Once more)/).waitFor();
+  await page.getByTitle(/^(Pause|Play|Replay)/).waitFor();
   if ((await page.locator('.play').getAttribute('title')).startsWith('Pause')) await page.locator('.play').click();
   await eventually('pausing', () => page.locator('.play').getAttribute('title'), (title) => !title.startsWith('Pause'));
 }
@@ -139,7 +139,7 @@ test('plays, steps, and plays again at the end', async () => {
   await page.locator('.play').click();
   const { last } = busiestFrame();
   await eventually('the last frame', frame, (number) => number === last);
-  await page.getByTitle(/^Once more/).waitFor();
+  await page.getByTitle(/^Replay/).waitFor();
 });
 
 test('saves the picture, the map and the trajectory', async () => {

@@ -172,7 +172,7 @@ describe('Settings', () => {
     return { kept, getItem: () => kept.text, setItem: (_: string, value: string) => void (kept.text = value) };
   };
 
-  it('keep the user's choice', () => {
+  it('keeps the choice of the user', () => {
     const one = storage(null);
     const settings = new Settings(one);
     expect(settings.shows('map')).toBe(true);

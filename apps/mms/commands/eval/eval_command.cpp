@@ -7,7 +7,7 @@
 namespace mms {
 
 void add_json_flag(CLI::App& command, bool& json) {
-  command.add_flag("--json", json, "print one JSON object in place of a table");
+  command.add_flag("--json", json, "print one JSON object instead of a table");
 }
 
 void print_metrics(const std::vector<MetricValue>& values, bool json) {
@@ -19,7 +19,7 @@ void print_metrics(const std::vector<MetricValue>& values, bool json) {
 }
 
 void add_eval_command(CLI::App& app) {
-  CLI::App* eval = app.add_subcommand("eval", "Measure results against truth");
+  CLI::App* eval = app.add_subcommand("eval", "Evaluate results against ground truth");
   eval->require_subcommand(1);
   add_eval_trajectory(*eval);
   add_eval_drift(*eval);

@@ -18,7 +18,7 @@ namespace mms {
 namespace {
 
 struct MapArguments {
-  std::string truth;  ///< PLY with labels, or the recording a ghost_points is seen by
+  std::string truth;  ///< PLY with labels, or the recording for the ghost points
   std::string map;
   bool json = false;
 };
@@ -27,7 +27,7 @@ void evaluate_cleanness(const MapArguments& arguments) {
   const PointCloudFile truth = read_ply(arguments.truth);
   if (truth.labels.empty() && !truth.points.empty()) {
     throw DataError(arguments.truth, "has no property 'label'",
-                    "a truth map labels its points: 0 static, else the object's id");
+                    "expected a label per point: 0 static, else the object's id");
   }
   std::vector<Eigen::Vector3f> fixed;
   std::vector<Eigen::Vector3f> dynamic;
@@ -37,8 +37,8 @@ void evaluate_cleanness(const MapArguments& arguments) {
   const MapError error = evaluate_map(fixed, dynamic, read_ply(arguments.map).points);
   if (!arguments.json) {
     fmt::print(
-        "truth: {} static and {} dynamic points; {} dynamic ones within 5 cm of a static "
-        "one left out\n",
+        "ground truth: {} static and {} dynamic points; {} dynamic ones within 5 cm of a static "
+        "one excluded\n",
         error.static_points, error.dynamic_points, error.ambiguous_points);
   }
   print_metrics(metric_values(error), arguments.json);
@@ -53,7 +53,7 @@ void evaluate_ghost_points_of(const MapArguments& arguments) {
   while (const auto frame = source->next()) {
     if (!frame->has_depth()) {
       throw DataError(arguments.truth, "has no depth images",
-                      "ghost points are counted in the view of a camera");
+                      "ghost points are counted in a camera's view");
     }
     room.add(frame->depth);
     camera = frame->calibration->camera;
@@ -68,10 +68,10 @@ void evaluate_ghost_points_of(const MapArguments& arguments) {
 
 void add_eval_map(CLI::App& eval) {
   const auto arguments = std::make_shared<MapArguments>();
-  CLI::App* command = eval.add_subcommand("map", "Cleanness SA, DA, AA, HA of a static map (5 cm)");
+  CLI::App* command = eval.add_subcommand("map", "Accuracy SA, DA, AA, HA of a static map (5 cm)");
   command
       ->add_option("TRUTH", arguments->truth,
-                   "PLY whose points have a label: 0 static, else the id of an object")
+                   "PLY with a label per point: 0 static, else the object's id")
       ->required();
   command->add_option("MAP", arguments->map, "PLY in the same world frame")->required();
   add_json_flag(*command, arguments->json);
@@ -82,8 +82,7 @@ namespace {
 
 void add_ghost_points(CLI::App& command, bool is_former_name) {
   const auto arguments = std::make_shared<MapArguments>();
-  command.add_option("DATA", arguments->truth, "recording of the camera that stood still")
-      ->required();
+  command.add_option("DATA", arguments->truth, "recording of a static camera")->required();
   command.add_option("MAP", arguments->map, "PLY of its static map")->required();
   add_json_flag(command, arguments->json);
   command.callback([arguments, is_former_name] {
@@ -95,10 +94,11 @@ void add_ghost_points(CLI::App& command, bool is_former_name) {
 }  // namespace
 
 void add_eval_ghost_points(CLI::App& eval) {
-  add_ghost_points(*eval.add_subcommand("ghost-points",
-                                        "Points that people and vehicles left in a static map, "
-                                        "seen by a camera that stood still"),
-                   false);
+  add_ghost_points(
+      *eval.add_subcommand(
+          "ghost-points",
+          "Count points of people and vehicles in a static map, in the view of a static camera"),
+      false);
   add_ghost_points(*eval.add_subcommand("residue", "Former name of ghost-points")->group(""), true);
 }
 

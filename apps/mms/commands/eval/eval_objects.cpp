@@ -15,7 +15,7 @@ namespace {
 
 struct ObjectArguments {
   std::string truth;   ///< simulated recording
-  std::string result;  ///< folder of a run
+  std::string result;  ///< result folder of a run
   bool json = false;
 };
 
@@ -27,8 +27,9 @@ void evaluate_objects(const ObjectArguments& arguments) {
   const Trajectory poses = read_trajectory_tum(truth / "groundtruth.txt");
   const auto T = align_truth(poses, read_trajectory_tum(result / "trajectory.tum"));
   if (!T) {
-    throw DataError((result / "trajectory.tum").string(), "has no pose within 0.02 s of a true one",
-                    "it has to be the result of a run on " + arguments.truth);
+    throw DataError((result / "trajectory.tum").string(),
+                    "has no pose within 0.02 s of a ground-truth pose",
+                    "expected the result of a run on " + arguments.truth);
   }
   print_metrics(metric_values(evaluate_tracking(objects, transformed(tracks, T->inverse()), poses)),
                 arguments.json);
@@ -39,14 +40,15 @@ void evaluate_objects(const ObjectArguments& arguments) {
 void add_eval_objects(CLI::App& eval) {
   const auto arguments = std::make_shared<ObjectArguments>();
   CLI::App* command = eval.add_subcommand(
-      "objects", "Tracked objects against true ones: identities, places, velocities (3 m to 8 m)");
+      "objects",
+      "Compare tracked with ground-truth objects: identities, positions, velocities (3 m to 8 m)");
   command
       ->add_option("TRUTH", arguments->truth,
                    "simulated recording, with objects_truth.json and groundtruth.txt")
       ->required();
   command
       ->add_option("RESULT", arguments->result,
-                   "folder of a run on it, with objects.json and trajectory.tum")
+                   "result folder of a run on it, with objects.json and trajectory.tum")
       ->required();
   add_json_flag(*command, arguments->json);
   command->callback([arguments] { evaluate_objects(*arguments); });

@@ -18,7 +18,7 @@ void add_eval_objects(CLI::App& eval);
 /// Adds the flag --json, which sets `json`.
 void add_json_flag(CLI::App& command, bool& json);
 
-/// A table on stdout, or one JSON object.
+/// Prints a table on stdout, or one JSON object.
 void print_metrics(const std::vector<MetricValue>& values, bool json);
 
 }  // namespace mms

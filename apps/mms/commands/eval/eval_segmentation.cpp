@@ -30,7 +30,7 @@ void evaluate(const SegmentationArguments& arguments) {
     fmt::print("{}\n", to_json(errors));
     return;
   }
-  fmt::print("{} images with {} objects; {} of {} results are of these images and classes\n",
+  fmt::print("{} images with {} objects; {} of {} results belong to these images and classes\n",
              errors.images, errors.objects, errors.results, results.size());
   fmt::print("{}", to_table(errors));
 }
@@ -40,12 +40,12 @@ void evaluate(const SegmentationArguments& arguments) {
 void add_eval_segmentation(CLI::App& eval) {
   const auto arguments = std::make_shared<SegmentationArguments>();
   CLI::App* command =
-      eval.add_subcommand("segmentation", "COCO's average precision and recall of masks");
-  command->add_option("COCO_GT", arguments->truth, "truth, COCO annotations")->required();
-  command->add_option("COCO_RESULTS", arguments->results, "masks found, COCO results")->required();
-  command->add_option("--category", arguments->category, "evaluate this class alone");
+      eval.add_subcommand("segmentation", "COCO average precision and recall of masks");
+  command->add_option("COCO_GT", arguments->truth, "ground truth, COCO annotations")->required();
+  command->add_option("COCO_RESULTS", arguments->results, "detections, COCO results")->required();
+  command->add_option("--category", arguments->category, "evaluate only this class");
   command->add_option("--split", arguments->split,
-                      "evaluate the images of this split alone, as \"holdout\"");
+                      "evaluate only the images of this split, such as \"holdout\"");
   add_json_flag(*command, arguments->json);
   command->callback([arguments] { evaluate(*arguments); });
 }

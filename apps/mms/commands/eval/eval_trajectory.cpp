@@ -37,10 +37,11 @@ std::string unit_name(DeltaUnit unit) {
 Matching matching_of(const TrajectoryArguments& arguments) {
   const bool by_index = is_kitti_trajectory(arguments.reference);
   if (by_index != is_kitti_trajectory(arguments.estimate)) {
-    throw DataError(arguments.estimate,
-                    "is of another form than " + arguments.reference +
-                        ": one has stamps (TUM, 8 numbers a line), the other has none (KITTI, 12)",
-                    "mms run writes both forms: trajectory.tum and trajectory_kitti.txt");
+    throw DataError(
+        arguments.estimate,
+        "has another format than " + arguments.reference +
+            ": one has stamps (TUM, 8 numbers per line), the other has none (KITTI, 12)",
+        "mms run writes both formats: trajectory.tum and trajectory_kitti.txt");
   }
   return by_index ? Matching::kByIndex : Matching::kByStamp;
 }
@@ -79,11 +80,12 @@ void add_options(CLI::App& command, TrajectoryArguments& arguments) {
           "largest difference of matched stamps [s]; KITTI files are matched frame by frame")
       ->check(CLI::Range(0.0, 60.0))
       ->capture_default_str();
-  CLI::Option* delta = command
-                           .add_option("--rpe-delta", arguments.rpe_delta,
-                                       "how far apart the poses of an RPE pair are (default: 1 s; "
-                                       "KITTI files: 10 m of path)")
-                           ->check(CLI::Range(1e-9, 1e9));
+  CLI::Option* delta =
+      command
+          .add_option(
+              "--rpe-delta", arguments.rpe_delta,
+              "distance between the poses of an RPE pair (default: 1 s; KITTI files: 10 m of path)")
+          ->check(CLI::Range(1e-9, 1e9));
   command.add_option("--rpe-unit", arguments.rpe_unit, "unit of --rpe-delta")
       ->check(CLI::IsMember({"s", "m", "frames"}))
       ->needs(delta);
@@ -94,8 +96,9 @@ void add_options(CLI::App& command, TrajectoryArguments& arguments) {
 void add_eval_trajectory(CLI::App& eval) {
   const auto arguments = std::make_shared<TrajectoryArguments>();
   CLI::App* command = eval.add_subcommand("trajectory", "ATE and RPE against a reference");
-  command->add_option("REFERENCE", arguments->reference, "truth, a TUM or KITTI file")->required();
-  command->add_option("ESTIMATE", arguments->estimate, "trajectory, a file of the same form")
+  command->add_option("REFERENCE", arguments->reference, "ground truth, a TUM or KITTI file")
+      ->required();
+  command->add_option("ESTIMATE", arguments->estimate, "trajectory, a file of the same format")
       ->required();
   add_options(*command, *arguments);
   add_json_flag(*command, arguments->json);
@@ -104,7 +107,7 @@ void add_eval_trajectory(CLI::App& eval) {
 
 void add_eval_drift(CLI::App& eval) {
   const auto arguments = std::make_shared<TrajectoryArguments>();
-  CLI::App* command = eval.add_subcommand("drift", "ATDE and MTDE of a sensor that stood still");
+  CLI::App* command = eval.add_subcommand("drift", "ATDE and MTDE of a static sensor");
   command->add_option("ESTIMATE", arguments->estimate, "trajectory, a TUM or KITTI file")
       ->required();
   add_json_flag(*command, arguments->json);

@@ -23,19 +23,21 @@ struct ImportArguments {
   bool half = false;
 };
 
-/// The names given, or COCO's where they fit, or numbers.
+/// The given names, or COCO's if their number fits, or numbers.
 std::vector<std::string> names_for(const NetworkConfig& config,
                                    const std::vector<std::string>& given) {
   const auto count = static_cast<std::size_t>(config.classes);
   if (!given.empty() && given.size() != count) {
-    throw DataError("--classes",
-                    fmt::format("names {} classes, the network has {}", given.size(), count));
+    throw DataError("--classes", fmt::format("has {} class names, the network has {} classes",
+                                             given.size(), count));
   }
   if (!given.empty()) return given;
   if (count == coco_classes().size()) return coco_classes();
-  throw DataError("--classes", fmt::format("is needed: the network has {} classes, and only the "
-                                           "names of COCO's {} are known",
-                                           count, coco_classes().size()));
+  throw DataError(
+      "--classes",
+      fmt::format(
+          "is required: the network has {} classes, and only the names of COCO's {} are known",
+          count, coco_classes().size()));
 }
 
 void import(const ImportArguments& arguments) {
@@ -60,12 +62,12 @@ void add_import_command(CLI::App& app) {
       app.add_subcommand("import", "Convert a SOLOv2 checkpoint of MMDetection, SOLO or AdelaiDet");
   command
       ->add_option("CHECKPOINT", arguments->checkpoint,
-                   "its state_dict as safetensors (docs/training.md shows how)")
+                   "its state_dict as safetensors (see docs/training.md)")
       ->required();
   command->add_option("-o,--output", arguments->output, "weights file to write")->required();
   command
       ->add_option("--classes", arguments->classes,
-                   "names of its classes, with commas (default: COCO's 80)")
+                   "comma-separated class names (default: COCO's 80)")
       ->delimiter(',');
   command->add_flag("--half", arguments->half, "write float16, half the size");
   command->callback([arguments] { import(*arguments); });

@@ -21,8 +21,8 @@ struct PictureFile {
   std::string stem = path.stem().string();
 };
 
-/// Lengthens stems that several pictures have, so that no picture's masks replace another's.
-void tell_apart(std::vector<PictureFile>& files) {
+/// Extends equal stems, so that output files do not overwrite each other.
+void make_stems_unique(std::vector<PictureFile>& files) {
   std::map<std::string, int> pictures;
   for (const PictureFile& file : files) ++pictures[file.stem];
   std::set<std::string> taken;
@@ -41,7 +41,7 @@ class PictureFiles final : public PictureSource {
  public:
   PictureFiles(std::vector<PictureFile> files, PictureWarning warning)
       : files_(std::move(files)), warning_(std::move(warning)) {
-    tell_apart(files_);
+    make_stems_unique(files_);
   }
 
   std::optional<Picture> next() override {
@@ -73,7 +73,7 @@ class RecordedPictures final : public PictureSource {
   std::optional<Picture> next() override {
     std::optional<Frame> frame = source_->next();
     if (!frame) return std::nullopt;
-    fs::path name = frame->name;  // perhaps a stamp: what is behind its dot stays
+    fs::path name = frame->name;  // possibly a stamp: keeps the part after its dot
     if (!is_picture(name)) name += ".png";
     return Picture{frame->index + 1, name.string(), name.stem().string(), std::move(frame->color)};
   }
@@ -98,7 +98,7 @@ std::unique_ptr<PictureSource> open_pictures(const std::string& where,
   if (fs::is_regular_file(where) && is_picture(where)) {
     return std::make_unique<PictureFiles>(std::vector<PictureFile>{{1, where}}, warning);
   }
-  try {  // recordings first: some have their depth images beside the pictures
+  try {  // recordings first: some have their depth images in the same folder
     return std::make_unique<RecordedPictures>(where, warning);
   } catch (const DataError&) {
     std::vector<PictureFile> files;
@@ -118,7 +118,7 @@ std::unique_ptr<PictureSource> open_annotated(const fs::path& annotations, const
   }
   if (files.empty()) {
     throw DataError(annotations.string(),
-                    split.empty() ? "has no images" : "has no images of the split '" + split + "'");
+                    split.empty() ? "has no images" : "has no images in the split '" + split + "'");
   }
   return std::make_unique<PictureFiles>(std::move(files), warning);
 }

@@ -19,7 +19,7 @@ namespace {
 struct TrainArguments {
   std::filesystem::path config;
   std::filesystem::path output;
-  int threads = 0;  ///< 0: one a core
+  int threads = 0;  ///< 0: one per core
 };
 
 void train(const TrainArguments& arguments) {
@@ -37,7 +37,7 @@ void train(const TrainArguments& arguments) {
   progress.finish();
   fmt::print("{}\n", finished ? "weights: " + run.weights_path().string() +
                                     "\nreport:  " + run.report_path().string()
-                              : "interrupted; the same command goes on from the last checkpoint");
+                              : "interrupted; the same command continues from the last checkpoint");
 }
 
 }  // namespace
@@ -47,11 +47,11 @@ void add_train_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("train", "Train the segmentation network");
   command
       ->add_option("-c,--config", arguments->config,
-                   "architecture, data and schedule (config/train/*.yaml are examples)")
+                   "architecture, data and schedule (examples: config/train/*.yaml)")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "folder for weights, checkpoints and report; a training that is there goes on")
+                   "folder for weights, checkpoints and report; an existing training is continued")
       ->required();
   add_threads_option(*command, arguments->threads);
   command->callback([arguments] { train(*arguments); });

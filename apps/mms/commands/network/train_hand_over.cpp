@@ -21,7 +21,7 @@ fs::path other_program() {
   return fs::read_symlink("/proc/self/exe", fault).parent_path() / kOther;
 }
 
-/// Becomes the other program with these arguments.
+/// Replaces the process by the other program with these arguments.
 void hand_over(std::vector<std::string> arguments) {
   const std::string program = other_program().string();
   std::vector<char*> list;
@@ -29,7 +29,7 @@ void hand_over(std::vector<std::string> arguments) {
   list.push_back(nullptr);
   execv(program.c_str(), list.data());
   throw Error(program, std::string("cannot be started: ") + std::strerror(errno),
-              "training needs it; it is part of builds with -DMMS_WITH_TORCH=ON");
+              "training requires it; it is part of builds with -DMMS_WITH_TORCH=ON");
 }
 
 }  // namespace

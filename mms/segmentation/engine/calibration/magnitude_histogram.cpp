@@ -29,7 +29,7 @@ void MagnitudeHistogram::add(const float* values, int count) {
 
 float MagnitudeHistogram::best_range(int levels) const {
   const double width = static_cast<double>(top_) / kBins;
-  // Of the bins from i on: their number, sum and sum of squares, in bins.
+  // Number, sum and sum of squares of the values in bins >= i, in units of bins.
   std::vector<std::array<double, 3>> above(kBins + 1, {0.0, 0.0, 0.0});
   for (std::size_t i = kBins; i-- > 0;) {
     const auto count = static_cast<double>(counts_[i]);
@@ -43,7 +43,7 @@ float MagnitudeHistogram::best_range(int levels) const {
     const auto range = static_cast<double>(cut);
     const double step = range / levels;
     const auto& [count, sum, squares] = above[cut];
-    // Zeros are stored exactly: the first bin does not count.
+    // Zeros are represented exactly, so the first bin does not count.
     const double inside = above[1][0] - std::max(count, 0.0);
     const double error =
         inside * step * step / 12.0 + (squares - 2.0 * range * sum + range * range * count);

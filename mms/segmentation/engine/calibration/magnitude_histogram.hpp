@@ -5,15 +5,15 @@
 
 namespace mms::engine {
 
-/// How often values of which magnitude occur; its bins widen as larger ones come.
+/// Histogram of magnitudes; its bins widen for larger values.
 class MagnitudeHistogram {
  public:
   MagnitudeHistogram() : counts_(kBins, 0) {}
 
   void add(const float* values, int count);
 
-  /// The magnitude at which values are best cut off to be stored in `levels` equal steps: that of
-  /// the smallest mean squared error, rounding and cutting together. Positive.
+  /// The clipping magnitude for `levels` equal steps with the least mean squared error of rounding
+  /// and clipping. Positive.
   float best_range(int levels) const;
 
  private:
@@ -22,7 +22,7 @@ class MagnitudeHistogram {
   void widen_to(float magnitude);
 
   std::vector<std::uint64_t> counts_;
-  float top_ = 0.0F;  ///< of the last bin
+  float top_ = 0.0F;  ///< upper bound of the last bin
 };
 
 }  // namespace mms::engine

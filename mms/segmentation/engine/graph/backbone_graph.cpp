@@ -5,7 +5,7 @@
 namespace mms::engine {
 namespace {
 
-constexpr int kSwitchBox = 5;  // [px]: SAC's switch looks at the mean of so many pixels
+constexpr int kSwitchBox = 5;  // [px]: SAC's switch uses the mean of this many pixels
 
 int blocks_of(int depth, int stage) {
   constexpr std::array<int, kBackboneStages> kDeep = {3, 4, 6, 3};
@@ -47,7 +47,7 @@ class ResidualBlock {
     return graph_.convolution(layer, x, residual);
   }
 
-  /// The second convolution, switchable atrous where the network has that.
+  /// The second convolution, switchable atrous if the network has SAC.
   ValueId second(int stride, ValueId x, ValueId residual) {
     if (!layers_.has(name_ + ".conv2.switch.weight")) return convolution(2, stride, x, residual);
     const std::string conv = name_ + ".conv2";

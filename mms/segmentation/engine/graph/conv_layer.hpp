@@ -6,8 +6,8 @@
 
 namespace mms::engine {
 
-/// A convolution as it runs: norm and standardisation are in its weights, padding keeps the size at
-/// stride 1.
+/// A convolution for inference: norm and standardization are folded into its weights; padding keeps
+/// the size at stride 1.
 struct ConvLayer {
   std::string name{};  ///< of its weight in the weights file
   int in = 0;          ///< channels

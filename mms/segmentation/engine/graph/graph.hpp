@@ -10,7 +10,7 @@
 
 namespace mms::engine {
 
-/// Of a map of one image; maps are dense with the channels last.
+/// Shape of a map of one image; maps are dense, channels last.
 struct Shape {
   int height = 0;
   int width = 0;
@@ -23,7 +23,7 @@ struct Shape {
 
 enum class Number { kFloat, kSigned8, kUnsigned8 };
 
-/// How a map's numbers are stored: value = stored * scale.
+/// Number format of a map: value = stored * scale.
 struct Format {
   Number number = Number::kFloat;
   float scale = 1.0F;
@@ -35,9 +35,9 @@ struct Format {
 /// Index of a value in its graph.
 using ValueId = int;
 
-/// A map between two operations.
+/// A map: result of one operation and input of others.
 struct Value {
-  std::string name;  ///< of what computes it, unique
+  std::string name;  ///< name of its operation, unique
   Shape shape;
   bool non_negative = false;
   bool keep_float = false;  ///< not to be quantized
@@ -49,20 +49,20 @@ struct Convolution {
   ConvLayerPtr layer;
 };
 
-/// The largest of kernel x kernel pixels.
+/// Maximum of kernel x kernel pixels.
 struct MaxPooling {
   int kernel = 1;
   int stride = 1;
   int padding = 0;
 };
 
-/// Scales x to the output's size, as libtorch without aligned corners. Inputs: x, and a map that is
-/// added, if any.
+/// Resizes x to the output's size, as libtorch with align_corners = false. Inputs: x, and
+/// optionally a map to add.
 struct Resizing {
   bool bilinear = false;
 };
 
-/// Lays the inputs' channels side by side.
+/// Concatenates the inputs' channels.
 struct Concatenation {};
 
 /// A map that does not depend on the image.
@@ -71,7 +71,7 @@ struct Constant {
 };
 
 /// y = scale (x + W mean(x) + b) + shift (+ residual) (ReLU): the global context of switchable
-/// atrous convolution with the batch norm that may follow. Inputs: x, and the residual if any.
+/// atrous convolution with the following batch norm, if any. Inputs: x, and the residual if any.
 struct GlobalContext {
   ConvLayerPtr layer;        ///< 1x1: W, b
   std::vector<float> scale;  ///< per channel
@@ -79,8 +79,8 @@ struct GlobalContext {
   bool relu = false;
 };
 
-/// One channel w . x + b, averaged over box x box pixels (mirrored at the borders) at every
-/// stride-th pixel, through a sigmoid or not: the switch of SAC, the weight of RFP's fusion.
+/// One channel w . x + b, averaged over box x box pixels (mirrored at the boundary) at every
+/// stride-th pixel, optionally with a sigmoid: the switch of SAC, the weight of RFP's fusion.
 struct Gate {
   std::vector<float> weight;
   float bias = 0.0F;
@@ -92,7 +92,7 @@ struct Gate {
 /// gate a + (1 - gate) b. Inputs: a, b, gate.
 struct Blending {};
 
-/// relu(W mean(x) + b) everywhere: the global branch of ASPP.
+/// relu(W mean(x) + b) at all pixels: the global branch of ASPP.
 struct GlobalBranch {
   ConvLayerPtr layer;
 };
@@ -104,7 +104,7 @@ struct GroupNorm {
   std::vector<float> beta;
 };
 
-/// The same numbers in the output's format.
+/// Converts to the output's format.
 struct Conversion {};
 
 using Operation = std::variant<Convolution, MaxPooling, Resizing, Concatenation, Constant,
@@ -130,11 +130,11 @@ struct GraphOutputs {
   }
 };
 
-/// A network for inputs of one size: operations in the order in which they run.
+/// A network for inputs of one size: operations in the order of execution.
 struct Graph {
   std::vector<Value> values;
   std::vector<Node> nodes;
-  ValueId input = 0;  ///< height x width x 3, normalised as `prepare_image` does
+  ValueId input = 0;  ///< height x width x 3, normalized by `prepare_image`
   GraphOutputs outputs;
 
   Value& value(ValueId id) { return values[static_cast<std::size_t>(id)]; }

@@ -8,7 +8,7 @@
 
 namespace mms::engine {
 
-/// Appends operations to a graph, and works out the shapes.
+/// Appends operations to a graph and computes their shapes.
 class GraphBuilder {
  public:
   static constexpr ValueId kNone = -1;
@@ -36,7 +36,7 @@ class GraphBuilder {
   bool non_negative(const std::vector<ValueId>& ids) const;
 
   Graph graph_;
-  std::map<std::string, int> names_;  ///< how many values were given each
+  std::map<std::string, int> names_;  ///< number of values with each name
 };
 
 }  // namespace mms::engine

@@ -8,7 +8,7 @@
 namespace mms::engine {
 namespace {
 
-constexpr double kNormFloor = 1e-5;  // of batch norm's variance
+constexpr double kNormFloor = 1e-5;  // added to batch norm's variance
 constexpr int kLargeDilation = 3;
 constexpr std::string_view kLarge = ".large";
 

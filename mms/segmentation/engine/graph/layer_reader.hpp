@@ -9,31 +9,31 @@
 
 namespace mms::engine {
 
-/// Where and how a square kernel is laid over a map.
+/// Stride and dilation of a square kernel.
 struct ConvShape {
   int stride = 1;    ///< [px]
   int dilation = 1;  ///< [px]
   bool relu = false;
 };
 
-/// A scale and a shift per channel: what a batch norm does at inference.
+/// A scale and a shift per channel: a batch norm at inference.
 struct ChannelAffine {
   std::vector<float> scale;
   std::vector<float> shift;
 };
 
-/// The tensor that has what is a layer's own: its weight, or of the dilated convolution of a
-/// switchable one the difference to the other.
+/// Name of a layer's tensor: its weight; for the dilated convolution of a switchable one, the
+/// difference to the other.
 std::string weight_name(const std::string& layer);
 
-/// Makes the convolutions of a trained network from its tensors, each once however often it is
-/// asked for. The tensors are to fit the network (`expected_tensors`).
+/// Creates the convolutions of a trained network from its tensors, each once. The tensors must fit
+/// the network (`expected_tensors`).
 class LayerReader {
  public:
   explicit LayerReader(Weights weights) : weights_(std::move(weights)) {}
 
-  /// A convolution of the backbone without bias, the batch norm after it taken in. Where there are
-  /// NAME.weight_gamma and NAME.weight_beta its weights are standardised first (DetectoRS).
+  /// A convolution of the backbone without bias, with the following batch norm folded in. With
+  /// NAME.weight_gamma and NAME.weight_beta its weights are standardized first (DetectoRS).
   ConvLayerPtr backbone_conv(const std::string& name, const std::string& norm,
                              const ConvShape& shape);
   /// The two weights of a switchable atrous convolution at dilations 1 and 3, without bias.
@@ -57,7 +57,7 @@ class LayerReader {
   ConvLayerPtr kept(const std::string& key, ConvLayer layer);
   ConvLayerPtr known(const std::string& key) const;
 
-  Weights weights_;  ///< those of large convolutions move on into their layers
+  Weights weights_;  ///< weights of large convolutions are moved into their layers
   std::map<std::string, ConvLayerPtr> layers_;
 };
 

@@ -19,7 +19,7 @@ class NetworkGraph {
 
   Graph build() {
     Pyramid pyramid = feature_pyramid(backbone("backbone", {}));
-    if (config_.neck.recursive) pyramid = look_again(pyramid);
+    if (config_.neck.recursive) pyramid = second_step(pyramid);
     GraphOutputs outputs;
     outputs.mask_features = mask_features(pyramid);
     const Pyramid levels = head_levels(pyramid);
@@ -50,7 +50,7 @@ class NetworkGraph {
     return pyramid;
   }
 
-  /// Atrous spatial pyramid pooling: what the pyramid feeds back.
+  /// Atrous spatial pyramid pooling: the feedback of the pyramid.
   ValueId aspp(ValueId x) {
     const std::string name = "neck.rfp_aspp.aspp.";
     const auto branch = [&](int number, int dilation) {
@@ -63,7 +63,7 @@ class NetworkGraph {
     return graph_.concatenation(parts);
   }
 
-  Pyramid look_again(const Pyramid& first) {
+  Pyramid second_step(const Pyramid& first) {
     const std::array feedback = {aspp(first[1]), aspp(first[2]), aspp(first[3])};
     const Pyramid again = feature_pyramid(backbone("neck.rfp_modules.0", feedback));
     Pyramid fused{};
@@ -88,7 +88,7 @@ class NetworkGraph {
                              graph_.convolution(layer, x));
   }
 
-  /// x and y from -1 in the first pixel to 1 in the last.
+  /// x and y from -1 at the first pixel to 1 at the last.
   ValueId coordinates(int height, int width) {
     const auto at = [](int i, int count) {
       return count == 1 ? -1.0F
@@ -113,7 +113,7 @@ class NetworkGraph {
     return graph_.resized(true, x, 2 * graph_.shape(x).height, 2 * graph_.shape(x).width, addend);
   }
 
-  /// One map for all masks of an image, from P2 to P5.
+  /// Mask features from P2 to P5, shared by all masks of an image.
   ValueId mask_features(const Pyramid& pyramid) {
     const std::string name = "mask_head.mask_feature_head.";
     constexpr int kInputs = 4;
