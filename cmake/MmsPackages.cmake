@@ -9,6 +9,7 @@ set(CPACK_PACKAGE_NAME mms-slam)
 set(CPACK_PACKAGE_VENDOR "MMS-SLAM contributors")
 set(CPACK_PACKAGE_CONTACT "MMS-SLAM contributors <maintainers@mms-slam.invalid>")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each component has its own
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
@@ -25,10 +26,10 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "visual and LiDAR SLAM among moving people and vehicles
- MMS-SLAM localises a depth camera or LiDAR among walking people and moving
- vehicles. It writes the trajectory of the sensor, a static map without them,
- and the tracked objects with boxes and velocities. A simulated warehouse
- with exact ground truth and a viewer for the browser are part of it.")
+MMS-SLAM localises a depth camera or LiDAR among walking people and moving
+vehicles. It writes the trajectory of the sensor, a static map without them,
+and the tracked objects with boxes and velocities. A simulated warehouse
+with exact ground truth and a viewer for the browser are part of it.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmms-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -42,13 +43,13 @@ if(RosbagStorage_FOUND)
 endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "visual and LiDAR SLAM among moving people and vehicles (development files)
- MMS-SLAM localises a depth camera or LiDAR among walking people and moving
- vehicles, and maps what stands still.
- .
- This package contains the headers, the static libraries and the CMake
- package: find_package(mms).")
+MMS-SLAM localises a depth camera or LiDAR among walking people and moving
+vehicles, and maps what stands still.
 
-# What Debian's policy asks of each package.
+This package contains the headers, the static libraries and the CMake
+package: find_package(mms).")
+
+# Files required by Debian policy.
 set(changelog ${PROJECT_BINARY_DIR}/changelog.Debian.gz)
 execute_process(COMMAND ${PROJECT_SOURCE_DIR}/packaging/make_changelog.sh ${changelog}
                         ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}
