@@ -37,6 +37,8 @@ std::span<const PageFile> page_files() {
 
 }  // namespace mms
 " @ONLY)
-  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}")
+  # Unity builds ignore OBJECT_DEPENDS.
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}"
+                                                   SKIP_UNITY_BUILD_INCLUSION ON)
   target_sources(${target} PRIVATE ${source})
 endfunction()
