@@ -20,7 +20,7 @@ struct AsyncOptions {
   double max_mask_age = 0.1;  ///< [s]; 0: every frame has masks of its own
 };
 
-/// A frame on its way out of the pipeline.
+/// A frame with its results.
 struct Processed {
   Frame frame;
   FrameResult result;

@@ -8,8 +8,7 @@
 
 namespace mms {
 
-/// Plays a recording's clock: the first frame comes at once, the others as long after it as their
-/// stamps say.
+/// Real-time playback: frames are released with the intervals of their stamps.
 class Pace {
  public:
   using Clock = std::chrono::steady_clock;

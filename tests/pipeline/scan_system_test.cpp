@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mms/pipeline/slam_system.hpp"
-#include "mms/segmentation/segmenters/none_segmenter.hpp"
+#include "mms/segmentation/segmenters/segmenter.hpp"
 #include "mms/simulation/simulated_scene.hpp"
 
 namespace mms {

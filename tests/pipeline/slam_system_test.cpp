@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "mms/geometry/camera.hpp"
-#include "mms/segmentation/segmenters/none_segmenter.hpp"
+#include "mms/segmentation/segmenters/segmenter.hpp"
 #include "tests/geometry/threads.hpp"
 #include "tests/pipeline/played_scene.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "mms/segmentation/segmenters/none_segmenter.hpp"
+#include "mms/segmentation/segmenters/segmenter.hpp"
 
 namespace mms {
 namespace {

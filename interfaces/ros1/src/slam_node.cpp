@@ -10,7 +10,7 @@
 #include "mms/run/results/result_files.hpp"
 #include "mms/run/results/robot_maps.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
-#include "mms/segmentation/segmenters/none_segmenter.hpp"
+#include "mms/segmentation/segmenters/segmenter.hpp"
 
 namespace mms {
 namespace {

@@ -86,7 +86,7 @@ MaskImage make_mask_image(const Segmentation& segmentation, int width, int heigh
   constexpr std::size_t kMaxInstances = std::numeric_limits<std::int16_t>::max();
   if (segmentation.instances.size() > kMaxInstances) {
     throw DataError("segmentation", std::to_string(segmentation.instances.size()) +
-                                        " instances, allowed are 32767");
+                                        " instances, allowed: up to 32767");
   }
   MaskImage image;
   image.raw = Image<std::uint16_t>(width / stride, height / stride);

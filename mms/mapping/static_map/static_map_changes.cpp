@@ -55,7 +55,7 @@ bool is_due(const Voxel& voxel, int min_observations) {
 void check(const VoxelChange& change) {
   if (change.cell < BlockCells::kCount) return;
   throw DataError("map changes", "a voxel is at place " + std::to_string(change.cell) +
-                                     " of its block, allowed is 0 to " +
+                                     " of its block, allowed: 0 to " +
                                      std::to_string(BlockCells::kCount - 1));
 }
 

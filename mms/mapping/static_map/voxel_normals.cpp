@@ -8,12 +8,12 @@ namespace {
 /// [-]: neighbours of a plane. Source: one more than three points, which always have a plane.
 constexpr int kMinNeighbors = 4;
 
-/// [-]: least middle variance, relative to the largest. Source: below it the points are a line, as
-/// one LiDAR ring leaves it.
+/// [-]: least second largest variance, relative to the largest. Source: below it the points are a
+/// line, as of one LiDAR ring.
 constexpr float kMinMiddleVariance = 0.05F;
 
-/// [-]: largest variance across the plane, relative to the middle one. Source: above it the points
-/// are as thick as wide.
+/// [-]: largest variance across the plane, relative to the second largest. Source: above it the
+/// points are as thick as wide.
 constexpr float kMaxThickness = 0.5F;
 
 /// Sums over the means around a voxel, relative to its own.

@@ -18,7 +18,7 @@ struct DynamicMapConfig {
   AssociationConfig association;
   TrackConfig track;
   int confirm_after = 4;           ///< [-]: a count of detections, not a time: each is evidence
-  int confirm_unknown_after = 10;  ///< [-]: more, since an error of the pose looks like motion
+  int confirm_unknown_after = 10;  ///< [-]: more, since an error of the pose resembles motion
   double max_missed = 1.5;         ///< [s]
   double max_tentative = 1.0;      ///< [s]
   double max_coast_output = 0.5;   ///< [s]

@@ -1,15 +1,21 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
 
 #include "mms/dataset/source/bag_topic_names.hpp"
-#include "mms/run/record/view_options.hpp"
 
 namespace mms {
+
+/// Address of the viewer.
+struct ViewOptions {
+  std::uint16_t port = 8080;
+  std::string bind = "127.0.0.1";
+};
 
 /// Arguments of `mms run`.
 struct RunOptions {

@@ -3,7 +3,7 @@
 #include "mms/core/error.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
 #include "mms/segmentation/segmenters/mask_segmenter.hpp"
-#include "mms/segmentation/segmenters/none_segmenter.hpp"
+#include "mms/segmentation/segmenters/segmenter.hpp"
 
 namespace mms {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "mms/run/record/view_options.hpp"
+#include "mms/run/record/run_options.hpp"
 #include "mms/server/http/server.hpp"
 
 namespace mms {

@@ -14,4 +14,12 @@ class Segmenter {
   virtual Segmentation segment(const Frame& frame) = 0;
 };
 
+/// Segmenter without instances: the paper's row without semantic information.
+class NoneSegmenter : public Segmenter {
+ public:
+  Segmentation segment(const Frame& frame) override {
+    return {frame.color.width(), frame.color.height(), {}};
+  }
+};
+
 }  // namespace mms
