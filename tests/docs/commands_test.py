@@ -16,6 +16,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from words import check_words
+
 MAX_LINE = 100  # characters of a line of text
 MAX_WORDS = 25  # of a sentence
 BLOCK_TIMEOUT = 300  # seconds
@@ -23,42 +25,6 @@ ROOT_PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
 GENERATED = ("cli.md", "configuration.md")
 SOURCE_FOLDERS = ("mms", "apps", "interfaces", "benchmarks", "examples", "tests", "config",
                   "weights", "docs", "viewer", "packaging", "cmake")
-
-# Words that the project does not use, and their replacements.
-OLD_WORDS = (
-    (r"looks", "view, observation, or a verb such as appears"),
-    (r"(?:an?|the|one|two|last|first|each|every|per|of) look", "view, observation"),
-    (r"ways", "trajectories"),
-    (r"(?:its|his|their) way", "trajectory, direction of motion"),
-    (r"things?", "object, component, or its name"),
-    (r"no name|without a name|what has no", "unknown class"),
-    (r"rims?", "boundary"),
-    (r"slack", "annealed scale"),
-    (r"middle", "center"),
-    (r"trunks?", "torso, backbone"),
-    (r"written down", "recorded"),
-    (r"off the truth", "error"),
-    (r"told", "estimated, known, given"),
-    (r"by heart", "overfit"),
-    (r"at once", "immediately, live, simultaneously"),
-    (r"true objects?", "ground-truth objects"),
-    (r"identity F1", "IDF1"),
-    (r"ms a frame", "ms/frame"),
-    (r"99 % within", "p99"),
-    (r"people's points", "person point recall"),
-    (r"on nothing", "false positives"),
-    (r"strangers?", "new objects"),
-    (r"raggedness", "boundary jitter"),
-    (r"rides?|ridden", "trajectory"),
-    (r"residues?", "ghost points"),
-    (r"trustworthy", "valid"),
-    (r"(?<!ID )switches", "ID switches"),
-    (r"cut_sigma|loose_sigma|max_shown|weight_bytes|mask_enlargement|nearest_seed",
-     "the present name"),
-)
-OLD_METRICS = re.compile(r"\|\s*(found|extra|switches|turns)\s*\|")
-# Correct uses of such words.
-ALLOWED = re.compile(r"(?i)\b(?:two ways|both ways|SAC switches)\b")
 
 
 class Page:
@@ -111,16 +77,6 @@ def plain(text):
     """Text with code spans as one word and links as their label."""
     text = re.sub(r"`[^`]*`", "CODE", text)
     return re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)
-
-
-def check_words(name, lines, faults):
-    for number, line in lines:
-        line = ALLOWED.sub("", line)
-        for pattern, better in OLD_WORDS:
-            for match in re.finditer(r"(?i)(?<![\w-])(?:" + pattern + r")(?![\w-])", line):
-                faults.append(f"{name}:{number}: '{match[0]}': say {better}")
-        if match := OLD_METRICS.search(line):
-            faults.append(f"{name}:{number}: '{match[1]}' is no metric's name any more")
 
 
 def check_lines(name, page, faults):
@@ -343,17 +299,12 @@ def run_page(name, page, program, faults):
     return ran, marked
 
 
-def without_train(text):
-    """Training is not part of every build."""
-    return re.sub(r"\n## mms train\n.*?(?=\n## |\Z)", "", text, flags=re.S)
-
-
 def check_generated(root, program, faults):
     with tempfile.TemporaryDirectory(prefix="mms_docs_") as folder:
         subprocess.run([root / "docs/generate.sh", program, folder], check=True)
         for name in GENERATED:
-            fresh = without_train((Path(folder) / name).read_text(encoding="utf-8"))
-            if fresh != without_train((root / "docs" / name).read_text(encoding="utf-8")):
+            fresh = (Path(folder) / name).read_text(encoding="utf-8")
+            if fresh != (root / "docs" / name).read_text(encoding="utf-8"):
                 faults.append(f"docs/{name}: differs from the program: run docs/generate.sh")
 
 
@@ -392,14 +343,18 @@ def check_page(root, path, page, program, faults):
 
 
 def check_output(program, program_help, faults):
-    """Words of the help of every command, and of all settings."""
+    """Words of the help of every command, of all settings, and of a short run."""
     for command, text in program_help.texts.items():
         name = " ".join(("mms", *command, "--help"))
         check_words(name, enumerate(text.splitlines(), 1), faults)
-    for arguments in (("config", "dump"), ("simulate", "crowd", "--print")):
-        result = subprocess.run([program, *arguments], capture_output=True, text=True, check=True)
-        name = " ".join(("mms", *arguments))
-        check_words(name, enumerate(result.stdout.splitlines(), 1), faults)
+    run = ("run", "sim:warehouse_loop", "--frames", "3", "--segmenter", "masks", "-o", "out")
+    with tempfile.TemporaryDirectory(prefix="mms_docs_") as folder:
+        for arguments in (("config", "dump"), ("simulate", "crowd", "--print"), run):
+            result = subprocess.run([program, *arguments], cwd=folder, capture_output=True,
+                                    text=True, check=True)
+            name = " ".join(("mms", *arguments))
+            lines = (result.stdout + result.stderr).splitlines()
+            check_words(name, enumerate(lines, 1), faults)
 
 
 def main(program, root):
