@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
+
 #include "tests/mapping/synthetic_room.hpp"
 
 namespace mms::test {
@@ -9,50 +12,82 @@ namespace {
 
 const Eigen::Vector3d kCameraUp(0, -1, 0);
 
-/// Gives the watch `frames` views of the room; the world is the first camera's frame.
-void track(FloorTracker& tracker, const Room& room, const Transform<RoomFrame, Sensor>& first,
-           const Transform<RoomFrame, Sensor>& now, int frames) {
-  const Transform<World, Sensor> T_world_sensor(first.isometry().inverse() * now.isometry());
-  for (int i = 0; i < frames; ++i) tracker.update(view(room, now), T_world_sensor, kCameraUp);
-}
+/// Tracks the floor in views of a room; the world is the first camera's frame.
+class FloorRun {
+ public:
+  explicit FloorRun(const Transform<RoomFrame, Sensor>& first, double rate = 15.0)
+      : first_(first), rate_(rate) {}
+
+  /// Adds the views of some seconds from one place.
+  void add(const Room& room, const Transform<RoomFrame, Sensor>& now, double seconds) {
+    const Transform<World, Sensor> T_world_sensor(first_.isometry().inverse() * now.isometry());
+    LabeledCloud cloud = view(room, now);
+    for (int i = 0; i < std::lround(seconds * rate_); ++i) {
+      cloud.stamp = Timestamp::from_seconds(1.0 + frames_++ / rate_);
+      tracker_.update(cloud, T_world_sensor, kCameraUp);
+    }
+  }
+
+  const std::optional<Floor>& floor() const { return tracker_.floor(); }
+
+ private:
+  Transform<RoomFrame, Sensor> first_;
+  double rate_;
+  int frames_ = 0;
+  FloorTracker tracker_;
+};
 
 TEST(FloorTracker, FindsFloorBelowPitchedCamera) {
   const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.3);
-  FloorTracker floor;
-  track(floor, Room(), camera, camera, 20);
-  ASSERT_TRUE(floor.floor().has_value());
+  FloorRun run(camera);
+  run.add(Room(), camera, 1.4);
+  ASSERT_TRUE(run.floor().has_value());
   const Eigen::Vector3d up = camera.rotation().transpose() * Eigen::Vector3d::UnitZ();
-  EXPECT_GT(floor.floor()->up.dot(up), std::cos(0.01));
-  EXPECT_NEAR(floor.floor()->height, -1.4, 0.02);
+  EXPECT_GT(run.floor()->up.dot(up), std::cos(0.01));
+  EXPECT_NEAR(run.floor()->height, -1.4, 0.02);
 }
 
 TEST(FloorTracker, TableDoesNotReplaceFloor) {
   Room room;
   const auto first = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.3);
-  FloorTracker floor;
-  track(floor, room, first, first, 10);
+  FloorRun run(first);
+  run.add(room, first, 0.7);
   room.boxes.push_back({{-1.5, -1.9, 0.0}, {2.9, 1.9, 0.8}});
-  track(floor, room, first, camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.6), 10);
-  ASSERT_TRUE(floor.floor().has_value());
-  EXPECT_NEAR(floor.floor()->height, -1.4, 0.03);
+  run.add(room, camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.6), 0.7);
+  ASSERT_TRUE(run.floor().has_value());
+  EXPECT_NEAR(run.floor()->height, -1.4, 0.03);
 }
 
 TEST(FloorTracker, LowerFloorReplacesFormerImmediately) {
   Room room;
   room.boxes.push_back({{-2.9, -1.9, 0.0}, {2.9, 1.9, 0.5}});
   const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.4);
-  FloorTracker floor;
-  track(floor, room, camera, camera, 10);
-  EXPECT_NEAR(floor.floor().value().height, -0.9, 0.03);
-  track(floor, Room(), camera, camera, 5);
-  EXPECT_NEAR(floor.floor().value().height, -1.4, 0.03);
+  FloorRun run(camera);
+  run.add(room, camera, 0.7);
+  EXPECT_NEAR(run.floor().value().height, -0.9, 0.03);
+  run.add(Room(), camera, 0.4);
+  EXPECT_NEAR(run.floor().value().height, -1.4, 0.03);
+}
+
+TEST(FloorTracker, PersistentHigherFloorReplacesFormerAfterThreeSecondsAtAnyRate) {
+  Room raised;
+  raised.boxes.push_back({{-2.9, -1.9, 0.0}, {2.9, 1.9, 0.5}});
+  const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.4);
+  for (const double rate : {5.0, 15.0, 60.0}) {
+    FloorRun run(camera, rate);
+    run.add(Room(), camera, 1.0);
+    run.add(raised, camera, 2.6);
+    EXPECT_NEAR(run.floor().value().height, -1.4, 0.03) << rate;
+    run.add(raised, camera, 1.0);
+    EXPECT_NEAR(run.floor().value().height, -0.9, 0.03) << rate;
+  }
 }
 
 TEST(FloorTracker, HasNoFloorWithoutOneInView) {
   const auto camera = camera_in_room({-2.0, 0.0, 1.4}, 0.0, -0.6);
-  FloorTracker floor;
-  track(floor, Room(), camera, camera, 10);
-  EXPECT_FALSE(floor.floor().has_value());
+  FloorRun run(camera);
+  run.add(Room(), camera, 0.7);
+  EXPECT_FALSE(run.floor().has_value());
 }
 
 }  // namespace

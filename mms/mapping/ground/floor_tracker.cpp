@@ -7,9 +7,9 @@
 namespace mms {
 namespace {
 
-/// [-]: frames from one search to the next. Source: bounds the time; three searches a second at the
-/// 15 Hz of the simulated scenes.
-constexpr int kInterval = 5;
+/// [s]: least time from one search to the next. Source: bounds the time; every fifth frame of the
+/// simulated scenes at 15 Hz.
+constexpr double kMinInterval = 0.3;
 
 /// [-]: points of a search. Source: bounds the time; a floor patch at 4 m still has a dozen.
 constexpr std::size_t kMaxPoints = 6000;
@@ -17,8 +17,9 @@ constexpr std::size_t kMaxPoints = 6000;
 /// [m]: range of the points. Source: the Kinect's depth noise is 0.1 m there.
 constexpr float kMaxRange = 8.0F;
 
-/// [-]: floors averaged. Source: reduces their errors to less than a quarter.
-constexpr int kMaxAveraged = 20;
+/// [s]: time constant of the average. Source: 20 searches at the 15 Hz of the simulated scenes,
+/// which reduce the error of one to less than a quarter.
+constexpr double kAveragingTime = 6.5;
 
 /// [m]: height above the floor from which a level surface is an object. Source: below a stair's
 /// step of 0.17 m.
@@ -28,9 +29,9 @@ constexpr double kMaxRise = 0.15;
 /// below the slope of a ramp.
 constexpr double kMaxTilt = 5.0;
 
-/// [-]: consecutive rejections after which the floor is replaced. Source: people and tables cover
-/// the floor for less than 3 s.
-constexpr int kMaxRejections = 10;
+/// [s]: time of rejections after which the floor is replaced. Source: ten searches at 15 Hz; people
+/// and tables cover the floor for less.
+constexpr double kMaxRejectionTime = 2.9;
 
 MapCloud static_points(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor) {
   const std::size_t stride = 1 + cloud.points.size() / kMaxPoints;
@@ -49,26 +50,32 @@ MapCloud static_points(const LabeledCloud& cloud, const Transform<World, Sensor>
 
 void FloorTracker::update(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor,
                           const Eigen::Vector3d& up) {
-  if (frames_++ % kInterval != 0) return;
+  if (last_search_ && to_seconds(cloud.stamp - *last_search_) < kMinInterval) return;
+  last_search_ = cloud.stamp;
   const Floor seen =
       find_floor(static_points(cloud, T_world_sensor), floor_ ? floor_->up : up, config_);
   const Eigen::Vector3d sensor = T_world_sensor.translation();
   const bool is_ceiling = seen.up.dot(sensor) < seen.height;
-  if (seen.found && !is_ceiling) follow(seen, sensor);
+  if (seen.found && !is_ceiling) follow(seen, sensor, cloud.stamp);
 }
 
-void FloorTracker::follow(const Floor& seen, const Eigen::Vector3d& sensor) {
+void FloorTracker::follow(const Floor& seen, const Eigen::Vector3d& sensor, Timestamp stamp) {
   const Eigen::Vector3d foot = sensor - (seen.up.dot(sensor) - seen.height) * seen.up;
   const double rise = floor_ ? floor_->up.dot(foot) - floor_->height : 0.0;
   const double cosine = floor_ ? floor_->up.dot(seen.up) : 1.0;
   const bool is_tilted = cosine < std::cos(kMaxTilt * std::numbers::pi / 180.0);
-  if ((is_tilted || rise > kMaxRise) && ++rejected_ < kMaxRejections) return;
+  const bool is_rejected = is_tilted || rise > kMaxRise;
+  if (is_rejected) {
+    if (!rejected_since_) rejected_since_ = stamp;
+    if (to_seconds(stamp - *rejected_since_) < kMaxRejectionTime) return;
+  }
   // A lower floor, or one that was found repeatedly, replaces the last.
-  if (rejected_ >= kMaxRejections || rise < -kMaxRise) seen_ = 0;
-  rejected_ = 0;
-  seen_ = std::min(seen_ + 1, kMaxAveraged);
-  const double gain = 1.0 / seen_;
-  if (seen_ == 1) floor_ = seen;
+  if (is_rejected || rise < -kMaxRise) averaged_ = 0;
+  rejected_since_.reset();
+  if (++averaged_ == 1) floor_ = seen;
+  const double forgotten = 1.0 - std::exp(-to_seconds(stamp - last_floor_) / kAveragingTime);
+  const double gain = std::max(1.0 / averaged_, forgotten);
+  last_floor_ = stamp;
   floor_->up = (floor_->up + gain * (seen.up - floor_->up)).normalized();
   floor_->height = floor_->up.dot(foot) - (1.0 - gain) * rise;
 }

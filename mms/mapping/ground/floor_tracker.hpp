@@ -7,13 +7,13 @@
 
 namespace mms {
 
-/// The floor around the sensor, on which tracked objects stand. Searches it in every few frames and
-/// averages, so that it is accurate near the sensor though the floor is not exactly a plane.
+/// The floor around the sensor, on which tracked objects stand. Searches it every third of a second
+/// and averages, so that it is accurate near the sensor though the floor is not exactly a plane.
 class FloorTracker {
  public:
   explicit FloorTracker(const FloorConfig& config = {}) : config_(config) {}
 
-  /// Searches the floor among the frame's static points.
+  /// Searches the floor among the frame's static points. Frames come in the order of their stamps.
   /// @param up  in the world frame, used until a floor is found
   void update(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor,
               const Eigen::Vector3d& up);
@@ -22,13 +22,14 @@ class FloorTracker {
   const std::optional<Floor>& floor() const { return floor_; }
 
  private:
-  void follow(const Floor& seen, const Eigen::Vector3d& sensor);
+  void follow(const Floor& seen, const Eigen::Vector3d& sensor, Timestamp stamp);
 
   FloorConfig config_;
   std::optional<Floor> floor_;
-  int frames_ = 0;
-  int seen_ = 0;      // floors averaged
-  int rejected_ = 0;  // in a row
+  std::optional<Timestamp> last_search_;
+  Timestamp last_floor_;
+  std::optional<Timestamp> rejected_since_;  // while floors are rejected
+  int averaged_ = 0;
 };
 
 }  // namespace mms
