@@ -26,7 +26,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "visual and LiDAR SLAM among moving people and vehicles
-MMS-SLAM localises a depth camera or LiDAR among walking people and moving
+MMS-SLAM localizes a depth camera or LiDAR among walking people and moving
 vehicles. It writes the trajectory of the sensor, a static map without them,
 and the tracked objects with boxes and velocities. A simulated warehouse
 with exact ground truth and a viewer for the browser are part of it.")
@@ -43,7 +43,7 @@ if(RosbagStorage_FOUND)
 endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "visual and LiDAR SLAM among moving people and vehicles (development files)
-MMS-SLAM localises a depth camera or LiDAR among walking people and moving
+MMS-SLAM localizes a depth camera or LiDAR among walking people and moving
 vehicles, and maps what stands still.
 
 This package contains the headers, the static libraries and the CMake
