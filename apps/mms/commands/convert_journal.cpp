@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 fs::path journal_of(const fs::path& input) {
   if (!fs::is_directory(input)) return input;
-  const fs::path journal = input / kJournalName;
+  fs::path journal = input / kJournalName;
   if (fs::exists(journal)) return journal;
   const bool done = fs::exists(input / "trajectory.tum");
   throw DataError(input.string(), "has no journal.bin",
