@@ -90,7 +90,8 @@ Eigen::Vector3f OccupancyMap::reach(const Eigen::Vector3f& point, bool is_depth)
 /// Distance before a point at which its ray ends [m].
 float OccupancyMap::clearance(const Eigen::Vector3f& point, bool is_depth) const {
   const auto half_voxel = static_cast<float>(0.5 * voxel_size());
-  return is_depth ? half_voxel + kClearanceSigmas * surface_.noise.depth.sigma(point.z()) : half_voxel;
+  return is_depth ? half_voxel + kClearanceSigmas * surface_.noise.depth.sigma(point.z())
+                  : half_voxel;
 }
 
 void OccupancyMap::mark_rays(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor,

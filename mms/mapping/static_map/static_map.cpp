@@ -92,9 +92,9 @@ void StaticMap::prune_viewpoints() {
 
 void StaticMap::insert(const std::vector<SurfacePoint>& points,
                        const Eigen::Isometry3f& T_world_sensor) {
-  const float sharp = std::min(
-      1.0F,
-      noise_weight(static_cast<float>(kMaxNoiseShare * grid_.block_size()), config_.surface.noise.depth));
+  const float sharp =
+      std::min(1.0F, noise_weight(static_cast<float>(kMaxNoiseShare * grid_.block_size()),
+                                  config_.surface.noise.depth));
   const auto is_first_view = [&](std::uint32_t& frame) {
     return std::exchange(frame, last_frame()) <= last_view_;
   };

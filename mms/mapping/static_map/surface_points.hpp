@@ -14,7 +14,7 @@ struct SurfaceConfig {
   double max_range = 1000.0;  ///< [m]
   double max_jump = 0.05;     ///< [m]
   double boundary = 0.01;     ///< share of the image's width
-  SensorNoise noise{};  ///< no setting of its own: `SystemConfig::noise`
+  SensorNoise noise{};        ///< no setting of its own: `SystemConfig::noise`
 
   void visit(ConfigVisitor& v) {
     v.number({"max_depth", "m", "farthest point of a depth image that is mapped"}, max_depth,
