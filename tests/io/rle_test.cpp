@@ -53,7 +53,7 @@ TEST(Rle, EncodesSingleLabel) {
 }
 
 TEST(Rle, TextEqualsPycocotools) {
-  // Derived from its rule: from the fourth on, numbers are differences to the last but one.
+  // Derived from its rule: from the fourth on, numbers are differences to the second last.
   EXPECT_EQ(rle_to_string({4, 3, {3, 3, 2, 1, 3}}), "332N1");
   EXPECT_EQ(rle_to_string({100, 100, {10000}}), "`h9");
   EXPECT_EQ(rle_from_string("332N1", 4, 3).counts, (std::vector<std::uint32_t>{3, 3, 2, 1, 3}));

@@ -95,7 +95,7 @@ Eigen::Isometry3d minimized_by_ceres(const Matches& matches, const GeometricConf
 
 struct Case {
   Association association;
-  double robust_scale;  ///< 100 sigmas: as good as no robust loss
+  double robust_scale;  ///< 100 sigmas act like no robust loss
 };
 
 class AgainstCeres : public ::testing::TestWithParam<Case> {
