@@ -66,4 +66,4 @@ for module in "${modules[@]}"; do
 done
 compare masks --segmenter masks
 compare none --segmenter none
-compare network
+compare network --frames 2  # a minute per frame
