@@ -86,6 +86,18 @@ TEST(MotionModel, LosesVelocityAtTheSamePaceAtAnyFrameRate) {
   }
 }
 
+TEST(MotionModel, StaysFiniteWhenStampsGoBack) {
+  MotionModel model{MotionConfig{}};
+  model.place(at(1000.0), steady(0.0));
+  model.measure(at(1000.1), steady(0.1));
+  const double speed = model.velocity().norm();
+  model.coast(at(0.0));
+  EXPECT_LE(model.velocity().norm(), speed);
+  model.coast(at(0.1));
+  EXPECT_LT(model.velocity().norm(), speed);
+  EXPECT_TRUE(model.pose().matrix().allFinite());
+}
+
 TEST(MotionModel, AcceptsPosesWithinAccelerationLimit) {
   MotionConfig config;
   config.max_acceleration = 10.0;
