@@ -23,7 +23,7 @@ class ThreadConfinement {
     return owner_.compare_exchange_strong(owner, self) || owner == self;
   }
 
-  /// Lets another thread become the owner; between two threads only a join or a queue may lie.
+  /// Lets another thread become the owner. The caller synchronizes both, for example by joining.
   void release() { owner_ = std::thread::id(); }
 
  private:

@@ -16,12 +16,12 @@ namespace {
 
 using Clock = Pace::Clock;
 
-/// Frames between two stages. More would not raise the throughput, only the memory.
+/// Frames between two stages, so that a keyframe's longer mapping does not delay the others.
 constexpr std::size_t kQueueCapacity = 3;
 /// In real time a waiting frame adds latency.
 constexpr std::size_t kRealtimeCapacity = 1;
 
-/// Below the interval of a 60 Hz camera, above the scheduler's time slice.
+/// A frame that waits longer than this for the segmentation counts as delayed.
 constexpr std::chrono::milliseconds kMaxQueueWait{10};
 
 double milliseconds(Clock::duration duration) {
@@ -66,6 +66,18 @@ Processed finished(Input input, FrameResult result) {
   if (input.due) latency = milliseconds(Clock::now() - *input.due);
   return {std::move(input.frame), std::move(result), input.read_ms, latency};
 }
+
+/// Lets the threads of a run use the system, and those after it.
+class ThreadRelease {
+ public:
+  explicit ThreadRelease(SlamSystem& system) : system_(system) { system_.release_threads(); }
+  ~ThreadRelease() { system_.release_threads(); }
+  ThreadRelease(const ThreadRelease&) = delete;
+  ThreadRelease& operator=(const ThreadRelease&) = delete;
+
+ private:
+  SlamSystem& system_;
+};
 
 /// The first exception any of several threads threw.
 class FirstError {
@@ -179,6 +191,7 @@ class StageThreads {
 void AsyncPipeline::run(SlamSystem& system, const Source& source, const Sink& sink) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(options_.threads));
+  const ThreadRelease release(system);
   if (options_.threads == 1 && !options_.realtime) {
     run_serial(system, source, sink);
   } else {
@@ -195,7 +208,6 @@ void AsyncPipeline::run_serial(SlamSystem& system, const Source& source, const S
 
 void AsyncPipeline::run_threaded(SlamSystem& system, const Source& source, const Sink& sink) {
   StageThreads stages(system, options_);
-  system.release_threads();
   std::thread reader([&] { stages.guarded([&] { stages.read_all(source, dropped_); }); });
   std::thread segmenter([&] { stages.guarded([&] { stages.segment_all(without_masks_); }); });
   std::thread perceiver([&] { stages.guarded([&] { stages.perceive_all(); }); });
@@ -205,7 +217,6 @@ void AsyncPipeline::run_threaded(SlamSystem& system, const Source& source, const
   segmenter.join();
   perceiver.join();
   localizer.join();
-  system.release_threads();
   stages.rethrow();
 }
 
