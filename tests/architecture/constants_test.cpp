@@ -7,10 +7,7 @@ namespace {
 
 using testing::constant_faults;
 
-constexpr const char* kCheckedFolders[] = {"mms/localization",       "mms/fusion",
-                                           "mms/mapping/free_space", "mms/mapping/ground",
-                                           "mms/mapping/occupancy",  "mms/mapping/static_map",
-                                           "mms/mapping/tracking"};
+constexpr const char* kCheckedFolders[] = {"mms/localization", "mms/fusion", "mms/mapping"};
 
 std::vector<std::string> faults_of(const std::string& source) {
   return constant_faults("a.cpp", source);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "mms/core/image.hpp"
@@ -45,7 +46,7 @@ class ComponentSearch {
     for (std::size_t node = 0; node < states_.size(); ++node) {
       if (nodes_.is_core(node, states_)) relabel_from(node, Join::kAllowed, cloud);
     }
-    // What a mask omits of an object may be too thin for a core.
+    // A part of an object that its mask omits may be too thin for a core.
     for (const std::size_t node : nodes_.boundary_nodes(states_)) {
       relabel_from(node, Join::kRequired, cloud);
     }

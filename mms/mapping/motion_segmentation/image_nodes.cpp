@@ -5,17 +5,17 @@
 namespace mms {
 namespace {
 
-/// [m]: gap in depth between neighbors of one component, before noise. Source: a body's surface is
-/// steeper than 45 degrees over two pixels only at its boundary.
+/// [m]: gap in depth between neighbors of one component, before noise. Source: initial
+/// choice, equal to `FusionConfig::cluster_tolerance`.
 constexpr float kMaxGap = 0.1F;
 /// [-]: sigmas of depth noise added to `kMaxGap`. Source: 95 % of the normal distribution.
 constexpr float kGapSigmas = 2.0F;
-/// [-]: share of the nodes around a core that are on no known surface. Source: chosen on the scenes
-/// crowd and still_walker.
+/// [-]: share of the nodes around a core that are on no known surface. Source: by experiment
+/// on the scenes crowd and still_walker.
 constexpr double kMinOpenShare = 0.9;
 /// [-]: share of the nodes around a core in free space. Source: as `kMinOpenShare`.
 constexpr double kMinFreeShare = 0.3;
-/// [-]: nodes of an object. Source: a head at 5 m has 40 in an image of 640x480.
+/// [-]: nodes of an object. Source: as `kMinOpenShare`.
 constexpr std::size_t kMinNodes = 30;
 
 }  // namespace

@@ -17,11 +17,10 @@ namespace mms {
 /// Every second point of an organised cloud along either axis, for `ComponentSearch`.
 class ImageNodes {
  public:
-  /// [-]: share of a component in space without a return behind. Source: chosen on the scenes
-  /// crowd and still_walker; depth images have many pixels without a return.
+  /// [-]: share of a component in space without a return behind. Source: by experiment on the
+  /// scenes crowd and still_walker.
   static constexpr double kMaxNoReturnShare = 0.8;
-  /// [-]: contacts that join a component to a cluster. Source: as `kMaxNoReturnShare`; single
-  /// contacts occur at the boundaries of depth images.
+  /// [-]: contacts that join a component to a cluster. Source: as `kMaxNoReturnShare`.
   static constexpr int kMinContacts = 5;
 
   /// @param radius  of the disc around a core [m]
@@ -68,11 +67,9 @@ class ImageNodes {
     Image<int> sums_;
   };
 
-  /// [-]: cloud points per node along either axis. Source: halves the work in each axis; a person
-  /// at 8 m still has some 100 nodes.
+  /// [-]: cloud points per node along either axis. Source: initial choice; a quarter of the work.
   static constexpr int kStep = 2;
-  /// [-]: nodes from a component to a cluster that it adjoins. Source: the boundary of a mask has
-  /// up to two nodes without a label.
+  /// [-]: nodes from a component to a cluster that it adjoins. Source: as `kMaxNoReturnShare`.
   static constexpr int kContactReach = 2;
 
   std::size_t point(std::size_t node) const {

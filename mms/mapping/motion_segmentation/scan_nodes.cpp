@@ -10,18 +10,18 @@
 namespace mms {
 namespace {
 
-/// [m]: side of the voxels whose mean is a node. Source: a quarter of `RadiusSearch::kRadius`.
+/// [m]: side of the voxels whose mean is a node. Source: initial choice.
 constexpr float kVoxel = 0.1F;
-/// [-]: share of the nodes around a core that are on no known surface. Source: chosen on the scene
-/// warehouse_loop with the sensors lidar16 and lidar64.
+/// [-]: share of the nodes around a core that are on no known surface. Source: by experiment
+/// on the scene warehouse_loop with the sensors lidar16 and lidar64.
 constexpr double kMinOpenShare = 0.9;
 /// [-]: share of the nodes around a core in free space. Source: as `kMinOpenShare`.
 constexpr double kMinFreeShare = 0.5;
-/// [-]: nodes of an object. Source: a person at 15 m has 10 in a scan of lidar16.
+/// [-]: nodes of an object. Source: as `kMinOpenShare`.
 constexpr std::size_t kMinNodes = 10;
-/// [m]: standard deviation along a component's second direction. Source: a leg is 0.15 m wide.
+/// [m]: standard deviation along a component's second direction. Source: as `kMinOpenShare`.
 constexpr float kMinWidth = 0.08F;
-/// [m]: side of a component's box. Source: the longest industrial vehicles.
+/// [m]: side of a component's box. Source: longer than a forklift with its load.
 constexpr float kMaxSize = 6.0F;
 
 VoxelDownsampled thinned(const LabeledCloud& cloud) {

@@ -39,11 +39,11 @@ class RadiusSearch {
 /// The static points of a LiDAR scan, thinned by voxels, for `ComponentSearch`.
 class ScanNodes {
  public:
-  /// [-]: share of a component in space without a return behind. Source: chosen on the scene
-  /// warehouse_loop with the sensors lidar16 and lidar64.
+  /// [-]: share of a component in space without a return behind. Source: by experiment on
+  /// the scene warehouse_loop with the sensors lidar16 and lidar64.
   static constexpr double kMaxNoReturnShare = 0.5;
-  /// [-]: contacts that join a component to a cluster. Source: `RadiusSearch` has no false
-  /// contacts.
+  /// [-]: contacts that join a component to a cluster. Source: as
+  /// `kMaxNoReturnShare`.
   static constexpr int kMinContacts = 1;
 
   explicit ScanNodes(const LabeledCloud& cloud);
