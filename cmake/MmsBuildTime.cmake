@@ -21,7 +21,7 @@ function(mms_share_precompiled target other)
   endif()
 endfunction()
 
-option(MMS_UNITY_BUILD "Compile the sources of targets with dear headers several at a time" ON)
+option(MMS_UNITY_BUILD "Compile several sources at a time in targets with expensive headers" ON)
 
 # mms_unity(TARGET): compiles the sources of TARGET in groups. For targets whose headers take longer
 # than their code; not for those that compute poses or maps, where it could change the last bits.

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Runs the rows of digests.txt that are equal on every x86-64 CPU, and prints those that changed.
-# Without the network no result depends on the CPU. The network's int8 convolutions do: oneDNN adds
-# products in 16 bits with saturation on CPUs without VNNI.
+# Runs the rows of digests.txt that do not depend on the CPU (x86-64 with AVX2), and prints those
+# that changed. They were equal with AVX-512, with AVX2 alone and on an emulated Haswell. The
+# network's int8 convolutions depend on it: without VNNI, oneDNN adds products in 16 bits with
+# saturation.
 # usage: tests/golden/golden_test.sh PROGRAM    (built as the preset release by gcc 12)
 #
 # After an intended change of results, update the reference on a CPU with AVX-512 VNNI:

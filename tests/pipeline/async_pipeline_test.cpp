@@ -47,7 +47,7 @@ class AsyncPipelineThreads : public ::testing::TestWithParam<int> {
 };
 INSTANTIATE_TEST_SUITE_P(AsyncPipeline, AsyncPipelineThreads, ::testing::Values(1, 2, 4));
 
-TEST_P(AsyncPipelineThreads, GivesTheBitsOfTheSynchronousSystem) {
+TEST_P(AsyncPipelineThreads, GivesSameBitsAsSynchronousSystem) {
   SlamSystem reference = mask_system();
   SlamSystem system = mask_system();
   std::size_t next = 0;
@@ -69,14 +69,14 @@ TEST_P(AsyncPipelineThreads, GivesTheBitsOfTheSynchronousSystem) {
   EXPECT_EQ(system.dynamic_map().confirmed(), reference.dynamic_map().confirmed());
 }
 
-TEST_P(AsyncPipelineThreads, AnEmptySourceIsNoProblem) {
+TEST_P(AsyncPipelineThreads, AcceptsEmptySource) {
   SlamSystem system = mask_system();
   int calls = 0;
   pipeline_.run(system, first_frames(0), [&](const Processed&) { ++calls; });
   EXPECT_EQ(calls, 0);
 }
 
-TEST_P(AsyncPipelineThreads, TheSourcesExceptionArrives) {
+TEST_P(AsyncPipelineThreads, RethrowsExceptionOfSource) {
   SlamSystem system = mask_system();
   auto frames = first_frames(kFrames);
   int given = 0;
@@ -90,7 +90,7 @@ TEST_P(AsyncPipelineThreads, TheSourcesExceptionArrives) {
   EXPECT_EQ(given, 4);
 }
 
-TEST_P(AsyncPipelineThreads, TheSegmentersExceptionArrives) {
+TEST_P(AsyncPipelineThreads, RethrowsExceptionOfSegmenter) {
   SlamSystem system(SystemConfig{}, std::make_unique<FailingSegmenter>(2));
   std::size_t delivered = 0;
   const std::string message = message_of<DataError>([&] {
@@ -100,10 +100,10 @@ TEST_P(AsyncPipelineThreads, TheSegmentersExceptionArrives) {
   EXPECT_LE(delivered, 2U);
 }
 
-TEST_P(AsyncPipelineThreads, TheSinksExceptionArrivesAndEndsTheRun) {
+TEST_P(AsyncPipelineThreads, RethrowsExceptionOfSinkAndEnds) {
   SlamSystem system = mask_system();
   std::size_t delivered = 0;
-  // A source without end: the run ends only if the threads are told to.
+  // An endless source: the run ends only if the threads are stopped.
   const auto endless = []() -> std::optional<Frame> { return scene_frame(0); };
   const std::string message = message_of<std::runtime_error>([&] {
     pipeline_.run(system, endless, [&](const Processed&) {
@@ -118,7 +118,7 @@ TEST_P(AsyncPipelineThreads, TheSinksExceptionArrivesAndEndsTheRun) {
   EXPECT_EQ(delivered, 4U);
 }
 
-TEST_P(AsyncPipelineThreads, EveryRealtimeFrameIsProcessedOrDropped) {
+TEST_P(AsyncPipelineThreads, ProcessesOrDropsEachRealtimeFrame) {
   AsyncPipeline pipeline({.threads = GetParam(), .realtime = true});
   SlamSystem system = mask_system();
   std::size_t next = 0;
@@ -126,7 +126,7 @@ TEST_P(AsyncPipelineThreads, EveryRealtimeFrameIsProcessedOrDropped) {
     if (next == 30) return std::nullopt;
     Frame frame = scene_frame(next % kFrames);
     frame.index = static_cast<std::int64_t>(next);
-    frame.stamp = Timestamp(static_cast<std::int64_t>(next));  // all at once
+    frame.stamp = Timestamp(static_cast<std::int64_t>(next));  // without delay
     ++next;
     return frame;
   };
@@ -142,7 +142,7 @@ TEST_P(AsyncPipelineThreads, EveryRealtimeFrameIsProcessedOrDropped) {
   EXPECT_EQ(processed + pipeline.dropped(), 30U);
 }
 
-/// Finds nothing, slowly.
+/// Slow, and finds no objects.
 class SlowSegmenter : public Segmenter {
  public:
   Segmentation segment(const Frame&) override {
@@ -153,7 +153,7 @@ class SlowSegmenter : public Segmenter {
   static inline std::atomic<int> calls = 0;
 };
 
-TEST(AsyncPipelineRealtime, ASlowNetworkCostsMasksBeforeItCostsFrames) {
+TEST(AsyncPipelineRealtime, SkipsMasksBeforeDroppingFrames) {
   SlowSegmenter::calls = 0;
   SystemConfig config;
   config.fusion.stride = 4;

@@ -1,4 +1,4 @@
-// What a sensor gives when it gives nothing useful: a status, never an exception or a crash.
+// Frames without usable data: a status, never an exception or a crash.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -23,7 +23,7 @@ Frame blind(std::size_t index, float value) {
   return frame;
 }
 
-TEST(BadFrames, FiftyFramesWithoutDepthAreLostAndThenItRecovers) {
+TEST(BadFrames, RecoversAfterFiftyFramesWithoutDepth) {
   SlamSystem system = mask_system();
   for (std::size_t i = 0; i < 5; ++i) system.process(scene_frame(i));
   const std::size_t map_size = system.static_map().size();
@@ -50,7 +50,7 @@ TEST(BadFrames, FiftyFramesWithoutDepthAreLostAndThenItRecovers) {
   }
 }
 
-TEST(BadFrames, BlindFromTheStartItBeginsWhenItSees) {
+TEST(BadFrames, InitializesAtFirstFrameWithDepth) {
   SlamSystem system = mask_system();
   EXPECT_EQ(system.process(blind(0, 0.0F)).odometry.status, Status::kLost);
   EXPECT_EQ(system.process(blind(1, NAN)).odometry.status, Status::kLost);
@@ -61,32 +61,32 @@ TEST(BadFrames, BlindFromTheStartItBeginsWhenItSees) {
   EXPECT_GT(system.static_map().size(), 0U);
 }
 
-TEST(BadFrames, FramesWithoutAnythingAreLost) {
+TEST(BadFrames, ReportsEmptyFramesLost) {
   SlamSystem system = mask_system();
-  Frame nothing;
-  nothing.calibration = scene_frame(0).calibration;
-  EXPECT_EQ(system.process(nothing).odometry.status, Status::kLost);
+  Frame empty;
+  empty.calibration = scene_frame(0).calibration;
+  EXPECT_EQ(system.process(empty).odometry.status, Status::kLost);
   system.process(scene_frame(0));
-  nothing.stamp = scene_frame(1).stamp;
-  const FrameResult result = system.process(nothing);
+  empty.stamp = scene_frame(1).stamp;
+  const FrameResult result = system.process(empty);
   EXPECT_EQ(result.odometry.status, Status::kLost);
   EXPECT_TRUE(result.cloud.points.empty());
   EXPECT_EQ(system.process(scene_frame(2)).odometry.status, Status::kRecovered);
 }
 
-TEST(BadFrames, SizesThatDisagreeAreADataError) {
+TEST(BadFrames, RejectsImagesOfDifferentSizes) {
   SlamSystem system = mask_system();
   Frame frame = scene_frame(0);
   frame.depth = Image<float>(100, 100, 2.0F);
   EXPECT_THROW(system.process(frame), DataError);
 }
 
-TEST(BadFrames, AFrameWhollyUnderAMaskIsLost) {
+TEST(BadFrames, ReportsFullyMaskedFrameLost) {
   SlamSystem system = mask_system();
   system.process(scene_frame(0));
   Frame covered = scene_frame(1);
   for (std::uint8_t& pixel : covered.mask.pixels()) pixel = 1;
-  for (float& z : covered.depth.pixels()) z = 1.0F;  // somebody stands before the lens
+  for (float& z : covered.depth.pixels()) z = 1.0F;  // a person in front of the lens
   const FrameResult result = system.process(covered);
   EXPECT_EQ(result.odometry.status, Status::kLost);
   EXPECT_GT(result.dynamic_share, 0.9);

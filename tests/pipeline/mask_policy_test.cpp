@@ -9,12 +9,12 @@ Timestamp at(double seconds) {
   return Timestamp::from_seconds(100.0 + seconds);
 }
 
-TEST(MaskPolicy, AllFramesGetMasksWhileNoneHasToWait) {
+TEST(MaskPolicy, GivesMasksToAllFramesWithoutDelay) {
   MaskPolicy policy(0.1);
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(policy.wants_masks(at(0.033 * i), false));
 }
 
-TEST(MaskPolicy, WhileFramesWaitMasksAreRenewedBeforeTheyAreTooOld) {
+TEST(MaskPolicy, RenewsMasksBeforeMaxAgeUnderDelay) {
   MaskPolicy policy(0.1);
   int with_masks = 0;
   double last = 0.0;
@@ -29,7 +29,7 @@ TEST(MaskPolicy, WhileFramesWaitMasksAreRenewedBeforeTheyAreTooOld) {
   EXPECT_LE(with_masks, 10);
 }
 
-TEST(MaskPolicy, WithoutAnAgeEveryFrameGetsMasks) {
+TEST(MaskPolicy, GivesMasksToAllFramesWithoutMaxAge) {
   MaskPolicy policy(0.0);
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(policy.wants_masks(at(0.033 * i), true));
 }

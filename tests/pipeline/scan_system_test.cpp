@@ -80,11 +80,11 @@ double share(std::size_t part, std::size_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-TEST(ScanSystem, FollowsADriveAmongPeopleAndVehicles) {
+TEST(ScanSystem, TracksADriveAmongPeopleAndVehicles) {
   EXPECT_LT(played().position_error, 0.05);
 }
 
-TEST(ScanSystem, PutsThePointsOfAScanWhereTheyWereMeasured) {
+TEST(ScanSystem, DeskewsThePointsOfAScan) {
   std::vector<double> errors = played().point_errors;
   ASSERT_GT(errors.size(), 100'000U);
   std::sort(errors.begin(), errors.end());
@@ -92,7 +92,7 @@ TEST(ScanSystem, PutsThePointsOfAScanWhereTheyWereMeasured) {
   EXPECT_LT(errors[errors.size() * 9 / 10], 0.08);
 }
 
-TEST(ScanSystem, FindsWhatMovesWithoutAnyMask) {
+TEST(ScanSystem, FindsMovingObjectsWithoutMasks) {
   ASSERT_GT(played().moving, 1000U);
   EXPECT_GT(share(played().moving_found, played().moving), 0.35);
   EXPECT_LT(share(played().still_taken, played().still), 0.001);

@@ -62,8 +62,8 @@ const Played& played(FusionMode mode) {
   return mode == FusionMode::kNone ? none : multimodal;
 }
 
-/// Share of the map's points that stand in the free space of the empty building, inside the true
-/// box of somebody as he was at some frame: the ghosts.
+/// Share of ghost points: map points in the free space of the empty building, inside the
+/// ground-truth box of a person at some frame.
 double ghost_share(const MapCloud& map) {
   SceneConfig config = testing::played_config();
   config.crossing = config.leading = config.oncoming = config.working = config.agvs = 0;
@@ -93,7 +93,7 @@ double ghost_share(const MapCloud& map) {
          static_cast<double>(std::max<std::size_t>(1, map.size()));
 }
 
-TEST(SlamSystem, FollowsTheCameraAmongPeople) {
+TEST(SlamSystem, TracksTheCameraAmongPeople) {
   const Played& run = played(FusionMode::kMultimodal);
   RecordProperty("ate_rmse_mm", std::to_string(1e3 * run.ate_rmse));
   EXPECT_LT(run.ate_rmse, 0.008);
@@ -107,7 +107,7 @@ TEST(SlamSystem, FollowsTheCameraAmongPeople) {
   EXPECT_GT(most_dynamic, 0.2);
 }
 
-TEST(SlamSystem, FollowsTheCameraWithMasksThatFail) {
+TEST(SlamSystem, TracksTheCameraWithFaultyMasks) {
   const Played imperfect = play(FusionMode::kMultimodal, false);
   const double exact = played(FusionMode::kMultimodal).ate_rmse;
   RecordProperty("ate_rmse_mm", std::to_string(1e3 * imperfect.ate_rmse));
@@ -119,7 +119,7 @@ TEST(SlamSystem, FollowsTheCameraWithMasksThatFail) {
   EXPECT_LT(ghosts, 0.5 * ghost_share(played(FusionMode::kNone).map));
 }
 
-TEST(SlamSystem, FindsPeopleWithoutAnyMaskByTheirMovement) {
+TEST(SlamSystem, FindsMovingPeopleWithoutMasks) {
   SceneConfig walker = scene_config("still_walker");
   walker.width = 320;
   SimulatedScene hall(walker);
@@ -149,7 +149,7 @@ TEST(SlamSystem, FindsPeopleWithoutAnyMaskByTheirMovement) {
   EXPECT_LT(false_share, 0.002);
 }
 
-TEST(SlamSystem, HardlyAnythingOfThePeopleIsInTheStaticMap) {
+TEST(SlamSystem, KeepsPeopleOutOfTheStaticMap) {
   const MapCloud& map = played(FusionMode::kMultimodal).map;
   EXPECT_GT(map.size(), 10000U);
   const double ghosts = ghost_share(map);
@@ -157,10 +157,10 @@ TEST(SlamSystem, HardlyAnythingOfThePeopleIsInTheStaticMap) {
   RecordProperty("ghost_percent", std::to_string(100.0 * ghosts));
   RecordProperty("ghost_percent_none", std::to_string(100.0 * without_filter));
   EXPECT_LT(ghosts, 0.004);
-  EXPECT_GT(without_filter, 0.03);  // or the measure would measure nothing
+  EXPECT_GT(without_filter, 0.03);  // else the comparison means nothing
 }
 
-TEST(SlamSystem, WithoutAnyFilterItIsMuchWorse) {
+TEST(SlamSystem, KeepsPeopleInTheMapWithoutFilter) {
   const double none = played(FusionMode::kNone).ate_rmse;
   RecordProperty("ate_rmse_mm", std::to_string(1e3 * none));
   EXPECT_GT(none, 3.0 * played(FusionMode::kMultimodal).ate_rmse);
@@ -169,7 +169,7 @@ TEST(SlamSystem, WithoutAnyFilterItIsMuchWorse) {
   }
 }
 
-TEST(SlamSystem, PeopleBecomeObjects) {
+TEST(SlamSystem, TracksPeopleAsObjects) {
   SlamSystem system = mask_system();
   std::vector<TrackedObject> tracked;
   for (int i = 0; i < 15; ++i) {
@@ -191,7 +191,7 @@ TEST(SlamSystem, PeopleBecomeObjects) {
   EXPECT_GT(2 * inside, tracked.size());
 }
 
-TEST(SlamSystem, ProcessIsItsPartsInOrder) {
+TEST(SlamSystem, ProcessEqualsItsStepsInOrder) {
   SlamSystem whole = mask_system();
   SlamSystem parts = mask_system();
   for (std::size_t i = 0; i < 5; ++i) {
@@ -202,7 +202,7 @@ TEST(SlamSystem, ProcessIsItsPartsInOrder) {
   }
 }
 
-TEST(SlamSystem, SameBitsForAnyNumberOfThreads) {
+TEST(SlamSystem, GivesSameBitsForAnyNumberOfThreads) {
   const auto run = [&] {
     SlamSystem system = mask_system();
     std::vector<FrameResult> results;

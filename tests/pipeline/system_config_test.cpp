@@ -83,7 +83,7 @@ class Checker : public ConfigVisitor {
   std::set<const void*> values_;
 };
 
-TEST(SystemConfig, KeysAndValuesAreUniqueAndDefaultsWithinTheirRanges) {
+TEST(SystemConfig, HasUniqueKeysAndDefaultsWithinRanges) {
   SystemConfig config;
   Checker checker;
   config.visit(checker);
@@ -91,7 +91,7 @@ TEST(SystemConfig, KeysAndValuesAreUniqueAndDefaultsWithinTheirRanges) {
   EXPECT_GT(checker.paths().size(), 50U);
 }
 
-TEST(SystemConfig, EveryModuleHasItsGroup) {
+TEST(SystemConfig, HasAGroupForEachModule) {
   SystemConfig config;
   Checker checker;
   config.visit(checker);
