@@ -26,6 +26,41 @@ TEST(Jitter, ScaleOneChangesNothing) {
   EXPECT_EQ(same.objects[0].mask.pixels(), sample.objects[0].mask.pixels());
 }
 
+TEST(Jitter, MasksFollowRotatedImage) {
+  RandomStream random(3);
+  AugmentationConfig config = kUnchanged;
+  config.roll = 1.0;
+  Sample sample = sample_of(64, 48, {box_object(0, 20, 14, 20, 16)});
+  sample.partial = {1};
+  const Sample rotated = jittered(sample, 64, 48, config, random);
+  EXPECT_EQ(rotated.partial, sample.partial);
+  ASSERT_EQ(rotated.objects.size(), 1U);
+  const ObjectMask& object = rotated.objects[0];
+  EXPECT_NEAR(mask_area(object.mask), 20 * 16, 20);
+  int moved = 0;
+  for (int y = 0; y < object.mask.height(); ++y) {
+    for (int x = 0; x < object.mask.width(); ++x) {
+      // The color of each pixel is its place in the upright image.
+      const Rgb from = rotated.image(object.x + x, object.y + y);
+      const bool inside = from.r >= 20 && from.r < 40 && from.g >= 14 && from.g < 30;
+      EXPECT_EQ(object.mask(x, y) != 0, inside && from.b == 77);
+      moved += from.r != object.x + x;
+    }
+  }
+  EXPECT_GT(moved, 0);
+}
+
+TEST(Jitter, DoesNotRotateBoxesWithoutMasks) {
+  RandomStream random(3);
+  AugmentationConfig config = kUnchanged;
+  config.roll = 1.0;
+  Sample sample = sample_of(64, 48, {box_object(0, 20, 14, 20, 16)});
+  sample.objects[0].box_only = true;
+  const Sample same = jittered(sample, 64, 48, config, random);
+  EXPECT_EQ(same.image.pixels(), sample.image.pixels());
+  EXPECT_TRUE(same.objects.at(0).box_only);
+}
+
 TEST(Jitter, MasksFollowMirroredImage) {
   RandomStream random(1);
   AugmentationConfig config = kUnchanged;
@@ -116,6 +151,17 @@ TEST(CopyPaste, DropsHiddenObjects) {
   EXPECT_EQ(sample.objects[0].category, 1);
 }
 
+TEST(CopyPaste, DoesNotPasteBoxesWithoutMasks) {
+  Sample source = sample_of(64, 48, {box_object(0, 20, 14, 20, 16)});
+  source.objects[0].box_only = true;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    RandomStream random(seed);
+    Sample target = sample_of(64, 48);
+    paste_objects(target, source, random);
+    EXPECT_TRUE(target.objects.empty());
+  }
+}
+
 TEST(CopyPaste, MayPasteNothing) {
   const Sample sample = pasted({box_object(0, 10, 10, 10, 10)}, box_object(1, 8, 8, 14, 14), false);
   ASSERT_EQ(sample.objects.size(), 1U);
@@ -132,6 +178,22 @@ TEST(ColorChanges, KeepObjectsAndCanBeDisabled) {
   change_colors(changed, {.color = 1, .blur = 1, .noise = 1, .grey = 0}, random);
   EXPECT_NE(changed.image.pixels(), sample.image.pixels());
   EXPECT_EQ(changed.objects[0].mask.pixels(), sample.objects[0].mask.pixels());
+}
+
+TEST(ColorChanges, ExposureDarkensOrSaturates) {
+  AugmentationConfig config = {.color = 0.0, .blur = 0.0, .noise = 0.0, .grey = 0.0};
+  config.exposure = 1.0;
+  bool darker = false;
+  bool brighter = false;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RandomStream random(seed);
+    Sample sample = sample_of(64, 48);
+    change_colors(sample, config, random);
+    darker = darker || sample.image(40, 20).r < 25;
+    brighter = brighter || sample.image(40, 20).r > 60;
+  }
+  EXPECT_TRUE(darker);
+  EXPECT_TRUE(brighter);
 }
 
 TEST(ColorChanges, GreyHasNoColor) {

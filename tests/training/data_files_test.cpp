@@ -36,6 +36,32 @@ TEST(ListImages, SelectsImagesWithClass) {
   EXPECT_EQ(images[0].objects.at(0).category, 1);
 }
 
+TEST(ListImages, ReadsBoxesAndIncompleteClasses) {
+  const TempFolder folder;
+  TrainingData set;
+  set.annotations = folder
+                        .write("all.json", R"({
+    "categories": [{"id": 1, "name": "person"}, {"id": 7, "name": "agv"}],
+    "images": [{"id": 1, "file_name": "a.jpg", "width": 8, "height": 6, "partial": ["person"]},
+               {"id": 2, "file_name": "b.jpg", "width": 8, "height": 6}],
+    "annotations": [
+      {"id": 1, "image_id": 1, "category_id": 7, "iscrowd": 0, "area": 6, "bbox": [1, 2, 3, 2],
+       "segmentation": [], "box_only": true}]})")
+                        .string();
+  const std::vector<DataImage> images = list_images(set, {"person", "agv"});
+  ASSERT_EQ(images.size(), 2U);
+  EXPECT_EQ(images[0].partial, std::vector<int>{0});
+  EXPECT_TRUE(images[1].partial.empty());
+  const Annotated& box = images[0].objects.at(0);
+  EXPECT_TRUE(box.box_only);
+  const Image<std::uint8_t> mask = decode_rle(box.segmentation);
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      EXPECT_EQ(mask(x, y) != 0, x >= 1 && x < 4 && y >= 2 && y < 4) << x << " " << y;
+    }
+  }
+}
+
 TEST(ListImages, ErrorsNameUnknownOrAbsentClass) {
   const TempFolder folder;
   TrainingData set;

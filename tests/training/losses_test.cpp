@@ -37,6 +37,9 @@ TEST(FocalLoss, EqualsClosedForm) {
   EXPECT_NEAR(loss[3].item<double>(), 0.0, 1e-9);
 }
 
+/// Of a scene of one color.
+const torch::Tensor kBlack = torch::zeros({1, 3, 128, 128});
+
 /// A head's output with equal values in all cells.
 network::HeadOutput constant_output(const HeadConfig& head, float logit) {
   network::HeadOutput output;
@@ -52,7 +55,7 @@ network::HeadOutput constant_output(const HeadConfig& head, float logit) {
 TEST(SoloLoss, IsBackgroundLossWithoutObjects) {
   const HeadConfig head = NetworkConfig().head;
   const ImageTargets targets = assign_targets(sample_of(320, 256), head);
-  const SoloLoss loss = solo_loss(constant_output(head, 0.0F), {targets});
+  const SoloLoss loss = solo_loss(constant_output(head, 0.0F), {targets}, kBlack);
   double cells = 0.0;
   for (const int side : head.grids()) cells += 2.0 * side * side;
   EXPECT_NEAR(loss.category.item<double>(), cells * 0.75 * 0.25 * std::log(2.0), 1e-2);
@@ -64,7 +67,7 @@ TEST(SoloLoss, IgnoresCrowds) {
   ObjectMask crowd = box_object(0, 0, 0, 320, 256);
   crowd.crowd = true;
   const ImageTargets targets = assign_targets(sample_of(320, 256, {crowd}), head);
-  EXPECT_EQ(solo_loss(constant_output(head, 3.0F), {targets}).category.item<double>(), 0.0);
+  EXPECT_EQ(solo_loss(constant_output(head, 3.0F), {targets}, kBlack).category.item<double>(), 0.0);
 }
 
 /// The mask of every pair is 0.5 everywhere and its object is a box.
@@ -72,9 +75,57 @@ TEST(SoloLoss, MaskLossIsMeanOverPairs) {
   const HeadConfig head = NetworkConfig().head;
   const ImageTargets targets =
       assign_targets(sample_of(320, 256, {box_object(1, 80, 40, 160, 160)}), head);
-  const SoloLoss loss = solo_loss(constant_output(head, 0.0F), {targets});
+  const SoloLoss loss = solo_loss(constant_output(head, 0.0F), {targets}, kBlack);
   const double area = 40 * 40;
   EXPECT_NEAR(loss.mask.item<double>(), 1 - area / (0.25 * 64 * 80 + area + 0.002), 1e-5);
+}
+
+/// A rectangle [x0, x1) x [y0, y1) of ones in a plane of 20 x 16.
+torch::Tensor rectangle(int x0, int y0, int x1, int y1) {
+  torch::Tensor plane = torch::zeros({1, 16, 20});
+  plane.index_put_({0, torch::indexing::Slice(y0, y1), torch::indexing::Slice(x0, x1)}, 1.0F);
+  return plane;
+}
+
+/// An image that is white in the rectangle and black elsewhere.
+torch::Tensor picture(const torch::Tensor& rectangle) {
+  return rectangle.expand({3, -1, -1}) * 4.0F;
+}
+
+TEST(BoxLoss, IsZeroForTheObjectThatFillsItsBox) {
+  const torch::Tensor box = rectangle(4, 3, 12, 13);
+  EXPECT_NEAR(box_loss(box, box, picture(box)).item<double>(), 0.0, 1e-2);
+}
+
+TEST(BoxLoss, PrefersTheObjectsColorsInsideTheBox) {
+  // A cross of one color touches all sides of its box.
+  const torch::Tensor cross = torch::maximum(rectangle(6, 3, 10, 13), rectangle(4, 6, 12, 10));
+  const torch::Tensor box = rectangle(4, 3, 12, 13);
+  const double right = box_loss(cross, box, picture(cross)).item<double>();
+  EXPECT_NEAR(right, 0.0, 1e-2);
+  EXPECT_GT(box_loss(box, box, picture(cross)).item<double>(), right + 0.3);
+}
+
+TEST(BoxLoss, PunishesAMaskThatReachesBeyondTheBox) {
+  const torch::Tensor box = rectangle(4, 3, 12, 13);
+  const torch::Tensor wide = rectangle(1, 3, 18, 13);
+  EXPECT_GT(box_loss(wide, box, picture(box)).item<double>(),
+            box_loss(box, box, picture(box)).item<double>() + 0.1);
+}
+
+TEST(SoloLoss, DoesNotCountTheBackgroundOfAnIncompleteClass) {
+  const HeadConfig head;
+  Sample sample = sample_of(128, 128);
+  sample.partial = {0};
+  ImageTargets targets = assign_targets(sample, head);
+  const double one_class =
+      solo_loss(constant_output(head, 0.0F), {targets}, kBlack).category.item<double>();
+  targets.partial = {};
+  const double both =
+      solo_loss(constant_output(head, 0.0F), {targets}, kBlack).category.item<double>();
+  EXPECT_NEAR(one_class, both / 2, 1e-6 * both);
+  targets.partial = {0, 1};
+  EXPECT_EQ(solo_loss(constant_output(head, 0.0F), {targets}, kBlack).category.item<double>(), 0.0);
 }
 
 }  // namespace

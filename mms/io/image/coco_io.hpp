@@ -13,11 +13,12 @@ namespace mms {
 
 /// One image of a data set.
 struct CocoImage {
-  std::int64_t id = 0;    ///< unique in the file
-  std::string file_name;  ///< without folder
-  int width = 0;          ///< [px]
-  int height = 0;         ///< [px]
-  std::string split{};    ///< "train", "holdout", ...; empty if absent
+  std::int64_t id = 0;                 ///< unique in the file
+  std::string file_name;               ///< without folder
+  int width = 0;                       ///< [px]
+  int height = 0;                      ///< [px]
+  std::string split{};                 ///< "train", "holdout", ...; empty if absent
+  std::vector<std::string> partial{};  ///< categories whose objects are not all annotated
 };
 
 /// One class of objects.
@@ -34,6 +35,7 @@ struct CocoAnnotation {
   std::array<double, 4> bbox{};  ///< x, y, width, height [px]
   double area = 0.0;             ///< [px]
   bool iscrowd = false;          ///< ignored in the evaluation
+  bool box_only = false;         ///< the mask is unknown; `segmentation` is the box
   Rle segmentation;              ///< polygons are rasterized as in pycocotools
 };
 
@@ -56,8 +58,9 @@ struct CocoResult {
 CocoAnnotation coco_annotation(std::int64_t id, std::int64_t image_id, int category_id,
                                const Rle& mask);
 
-/// Reads instance annotations; segmentations may be polygons and RLE, compressed or not. Ignores
-/// keys that `CocoDataset` does not have.
+/// Reads instance annotations; segmentations may be polygons and RLE, compressed or not. Beyond
+/// COCO, images may have `split` and `partial`, annotations without a mask `box_only`. Ignores keys
+/// that `CocoDataset` does not have.
 /// @throws FileError if the file cannot be read; DataError with the entry, as in
 /// "annotations[3].bbox", for missing keys, wrong types, values out of range, duplicate ids,
 /// unknown images and categories, or masks of a wrong size.

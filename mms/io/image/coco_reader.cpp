@@ -66,6 +66,12 @@ Rle read_segmentation(const JsonEntry& entry, const CocoImage& image) {
   return rle;
 }
 
+Rle box_mask(const std::array<double, 4>& box, int width, int height) {
+  const auto [x, y, w, h] = box;
+  const std::vector<Polygon> outline = {{x, y, x + w, y, x + w, y + h, x, y + h}};
+  return rasterise(outline, width, height);
+}
+
 /// Reads the three lists and indexes the ids for references between them.
 class CocoReader {
  public:
@@ -86,6 +92,11 @@ class CocoReader {
     image.width = static_cast<int>(entry.at("width").integer(kSize));
     image.height = static_cast<int>(entry.at("height").integer(kSize));
     if (entry.has("split")) image.split = entry.at("split").text();
+    if (entry.has("partial")) {
+      for (const JsonEntry& name : entry.at("partial").elements()) {
+        image.partial.push_back(name.text());
+      }
+    }
     if (!images_.emplace(image.id, dataset_.images.size()).second) fail_twice(entry, image.id);
     dataset_.images.push_back(std::move(image));
   }
@@ -110,9 +121,12 @@ class CocoReader {
       entry.at("category_id")
           .fail("is " + std::to_string(annotation.category_id) + ", no such category");
     }
-    annotation.segmentation =
-        read_segmentation(entry.at("segmentation"), dataset_.images[image->second]);
     read_box(entry.at("bbox"), annotation);
+    annotation.box_only = entry.has("box_only") && entry.at("box_only").boolean();
+    const CocoImage& where = dataset_.images[image->second];
+    annotation.segmentation = annotation.box_only
+                                  ? box_mask(annotation.bbox, where.width, where.height)
+                                  : read_segmentation(entry.at("segmentation"), where);
     annotation.area = entry.at("area").number(kNotNegative);
     annotation.iscrowd = entry.has("iscrowd") && entry.at("iscrowd").integer({0, 1}) == 1;
     dataset_.annotations.push_back(std::move(annotation));

@@ -55,6 +55,14 @@ void apply(const ColorChange& change, Image<Rgb>& image) {
   }
 }
 
+/// Dark, or overexposed with the brightest parts cut off.
+ColorChange random_exposure(RandomStream& random) {
+  ColorChange change;
+  const float gain = random.chance(0.6F) ? random.between(0.1F, 0.5F) : random.between(1.6F, 3.0F);
+  for (std::size_t i = 0; i < 3; ++i) change.matrix[i][i] = gain;
+  return change;
+}
+
 /// Mean along a line through every pixel.
 void blur_along(float angle, int length, Image<Rgb>& image) {
   const Image<Rgb> source = image;
@@ -101,6 +109,9 @@ void change_colors(Sample& sample, const AugmentationConfig& config, RandomStrea
   constexpr float kMaxNoise = 30.0F;
   const auto chance = [&](double p) { return random.chance(static_cast<float>(p)); };
   if (chance(config.color)) apply(random_light(random), sample.image);
+  if (config.exposure > 0.0 && chance(config.exposure)) {
+    apply(random_exposure(random), sample.image);
+  }
   if (chance(config.grey)) apply(saturated(0.0F), sample.image);
   if (chance(config.blur)) {
     const float length = random.between(2.0F, static_cast<float>(config.blur_length) + 1.0F);

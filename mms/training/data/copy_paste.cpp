@@ -55,7 +55,7 @@ void paste_objects(Sample& target, const Sample& source, RandomStream& random) {
   std::vector<ObjectMask> pasted;
   for (const std::size_t i : random_choice(source.objects.size(), random)) {
     const ObjectMask& object = source.objects[i];
-    if (object.crowd) continue;
+    if (object.crowd || object.box_only) continue;
     paste_pixels(target, source, object);
     pasted.push_back(object);
   }

@@ -37,6 +37,9 @@ std::vector<DataImage> annotated_images(const TrainingData& set,
       set.images.empty() ? fs::path(set.annotations).parent_path() : fs::path(set.images);
   std::vector<DataImage> images;
   std::map<std::int64_t, std::size_t> places;
+  const auto index_of = [&](const std::string& name) {
+    return static_cast<int>(std::find(classes.begin(), classes.end(), name) - classes.begin());
+  };
   for (const CocoImage& image : dataset.images) {
     if (!set.split.empty() && image.split != set.split) continue;
     places[image.id] = images.size();
@@ -44,6 +47,7 @@ std::vector<DataImage> annotated_images(const TrainingData& set,
                       .id = image.id,
                       .width = image.width,
                       .height = image.height});
+    for (const std::string& name : image.partial) images.back().partial.push_back(index_of(name));
   }
   const std::map<int, int> indices = category_indices(dataset, classes);
   for (const CocoAnnotation& annotation : dataset.annotations) {
@@ -51,7 +55,7 @@ std::vector<DataImage> annotated_images(const TrainingData& set,
     const auto index = indices.find(annotation.category_id);
     if (place == places.end() || index == indices.end()) continue;
     images[place->second].objects.push_back(
-        {index->second, annotation.iscrowd, annotation.segmentation});
+        {index->second, annotation.iscrowd, annotation.segmentation, annotation.box_only});
   }
   return images;
 }

@@ -15,6 +15,7 @@ struct Annotated {
   int category = 0;
   bool crowd = false;
   Rle segmentation;
+  bool box_only = false;  ///< `segmentation` is its box
 };
 
 /// An image of a set before it is read.
@@ -24,6 +25,7 @@ struct DataImage {
   int width = 0;        ///< as annotated [px]; 0: unknown
   int height = 0;
   std::vector<Annotated> objects{};
+  std::vector<int> partial{};  ///< classes whose objects are not all annotated
 };
 
 /// The images of a set with their objects of the given classes.

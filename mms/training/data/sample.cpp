@@ -40,8 +40,8 @@ ObjectMask tightened(const ObjectMask& object) {
       widen(rows, y);
     }
   }
-  ObjectMask result = {
-      object.category, object.crowd, object.x + columns.first, object.y + rows.first, {}};
+  ObjectMask result = {object.category,       object.crowd, object.x + columns.first,
+                       object.y + rows.first, {},           object.box_only};
   if (rows.last < rows.first) return result;
   result.mask = {columns.last - columns.first + 1, rows.last - rows.first + 1};
   for (int y = 0; y < result.mask.height(); ++y) {
@@ -56,7 +56,8 @@ ObjectMask placed(const ObjectMask& object, const MaskPlacement& p) {
       p.flip ? p.source_width - object.x - object.mask.width() : object.x;  // of the mask
   const Span columns = reach(left, object.mask.width(), p.scale, p.dx, p.width);
   const Span rows = reach(object.y, object.mask.height(), p.scale, p.dy, p.height);
-  ObjectMask result = {object.category, object.crowd, columns.first, rows.first, {}};
+  ObjectMask result = {object.category, object.crowd, columns.first,
+                       rows.first,      {},           object.box_only};
   if (columns.last < columns.first || rows.last < rows.first) return result;
   result.mask = {columns.last - columns.first + 1, rows.last - rows.first + 1};
   const auto source = [&](int canvas, int offset) {

@@ -14,6 +14,7 @@ struct ObjectMask {
   int x = 0;                 ///< left column of `mask` in the image [px]
   int y = 0;                 ///< top row of `mask` in the image [px]
   Image<std::uint8_t> mask;  ///< cropped to the object: 1 on the object
+  bool box_only = false;     ///< the mask is unknown, `mask` is the box
 };
 
 /// An image with its objects. Beyond `width` x `height` it is padded.
@@ -22,6 +23,7 @@ struct Sample {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
   std::vector<ObjectMask> objects;
+  std::vector<int> partial;  ///< categories whose objects are not all there
 };
 
 /// Number of pixels of a mask.

@@ -17,7 +17,7 @@ namespace {
 /// Crops the mask from that of the whole image.
 ObjectMask object_of(const Annotated& annotated) {
   const Image<std::uint8_t> mask = decode_rle(annotated.segmentation);
-  ObjectMask whole{annotated.category, annotated.crowd, 0, 0, mask};
+  ObjectMask whole{annotated.category, annotated.crowd, 0, 0, mask, annotated.box_only};
   return tightened(whole);
 }
 
@@ -30,6 +30,7 @@ Sample load_sample(const DataImage& source, int largest_side) {
   sample.width = scaled_length(image.width(), scale);
   sample.height = scaled_length(image.height(), scale);
   sample.image = resize(image, sample.width, sample.height);
+  sample.partial = source.partial;
   for (const Annotated& annotated : source.objects) {
     ObjectMask object = placed(object_of(annotated), {.scale = scale,
                                                       .flip = false,

@@ -93,6 +93,7 @@ ImageTargets assign_targets(const Sample& sample, const HeadConfig& head) {
   const int width = sample.image.width();
   const int height = sample.image.height();
   ImageTargets targets;
+  targets.partial = sample.partial;
   for (std::size_t level = 0; level < grids.size(); ++level) {
     auto& categories = targets.categories[level];
     categories.assign(static_cast<std::size_t>(grids[level] * grids[level]),
@@ -106,6 +107,7 @@ ImageTargets assign_targets(const Sample& sample, const HeadConfig& head) {
     Image<std::uint8_t> mask = quarter_mask(object, width, height);
     if (mask_area(mask) == 0) continue;
     targets.masks.push_back(std::move(mask));
+    targets.box_only.push_back(object.box_only);
     const Centre centre = centre_of_mass(object);
     const double size = std::sqrt(object.mask.width() * object.mask.height());
     for (std::size_t level = 0; level < grids.size(); ++level) {

@@ -25,6 +25,8 @@ struct ImageTargets {
   std::array<std::vector<int>, HeadConfig::kLevels> categories;
   std::vector<Pair> pairs;
   std::vector<Image<std::uint8_t>> masks;  ///< at a quarter of the input's size: 0 or 1
+  std::vector<bool> box_only;  ///< of `masks`: the box of an object without a known mask
+  std::vector<int> partial;    ///< classes without a loss on background cells
 };
 
 /// Assigns the objects of an image to grid cells as in SOLOv2: every level whose range contains the

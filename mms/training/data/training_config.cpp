@@ -35,6 +35,9 @@ void AugmentationConfig::visit(ConfigVisitor& v) {
   v.number({"blur_length", "px", "longest motion blur"}, blur_length, {1.0, 64.0});
   v.number({"noise", "", "probability of sensor noise"}, noise, kChance);
   v.number({"grey", "", "probability of a gray image"}, grey, kChance);
+  v.number({"roll", "", "probability of a rotation in the image plane"}, roll, kChance);
+  v.number({"roll_max", "deg", "largest rotation"}, roll_max, {0.0, 180.0});
+  v.number({"exposure", "", "probability of a dark or overexposed image"}, exposure, kChance);
 }
 
 void ScheduleConfig::visit(ConfigVisitor& v) {

@@ -32,6 +32,9 @@ struct AugmentationConfig {
   double blur_length = 8.0;  ///< longest [px]
   double noise = 0.3;        ///< probability of sensor noise
   double grey = 0.05;        ///< probability of a gray image
+  double roll = 0.0;         ///< probability of a rotation in the image plane
+  double roll_max = 45.0;    ///< largest [deg]
+  double exposure = 0.0;     ///< probability of a dark or overexposed image
 
   void visit(ConfigVisitor& v);
 };

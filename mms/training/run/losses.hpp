@@ -16,14 +16,24 @@ torch::Tensor dice_loss(const torch::Tensor& probability, const torch::Tensor& t
 /// @param target  0 or 1, of the logits' shape
 torch::Tensor focal_loss(const torch::Tensor& logits, const torch::Tensor& target);
 
+/// Loss of the masks of objects of which only the box is known: projection and pairwise color terms
+/// of BoxInst (Tian et al., CVPR 2021).
+/// @param probability, box  (objects, height, width), the box in {0, 1}
+/// @param image             (3, height, width), normalized
+/// @returns (objects)
+torch::Tensor box_loss(const torch::Tensor& probability, const torch::Tensor& box,
+                       const torch::Tensor& image);
+
 /// Unweighted parts of SOLOv2's loss for a batch.
 struct SoloLoss {
   torch::Tensor category;  ///< focal loss, summed over the cells, divided by the number of positive
                            ///< ones plus 1
-  torch::Tensor mask;      ///< dice loss, mean over the pairs of cell and object
+  torch::Tensor mask;      ///< dice loss, or `box_loss`, mean over the pairs of cell and object
 };
 
 /// @param targets  one per image
-SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTargets>& targets);
+/// @param images   (B, 3, height, width), normalized
+SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTargets>& targets,
+                   const torch::Tensor& images);
 
 }  // namespace mms

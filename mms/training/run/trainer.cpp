@@ -103,7 +103,7 @@ StepResult Trainer::step(const Batch& batch) {
     const network::MixedPrecision precision(config_.half_precision, device_.type());
     output = network_->forward(batch.images.to(device_).contiguous(at::MemoryFormat::ChannelsLast));
   }
-  const SoloLoss parts = solo_loss(output, batch.targets);
+  const SoloLoss parts = solo_loss(output, batch.targets, batch.images);
   const torch::Tensor loss = parts.category + config_.schedule.mask_weight * parts.mask;
   const StepResult result = {loss.item<double>(), parts.category.item<double>(),
                              parts.mask.item<double>()};
