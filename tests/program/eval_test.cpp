@@ -165,6 +165,18 @@ TEST_F(EvalSegmentation, JsonHasDocumentedKeys) {
   EXPECT_TRUE(json["APl"].is_null());
 }
 
+TEST_F(EvalSegmentation, PixelsHaveDocumentedKeys) {
+  const auto json = json_of(run({"--json", "--pixels"}))["pixels"];
+  EXPECT_EQ(keys_of(json), (Keys{"all", "tall", "medium", "small"}));
+  EXPECT_EQ(keys_of(json["all"]), (Keys{"objects", "recall", "precision"}));
+  EXPECT_EQ(json["all"]["recall"], 1.0);
+  EXPECT_EQ(json["all"]["precision"], 1.0);
+  const auto agv = json_of(run({"--json", "--pixels", "--category", "agv"}))["pixels"];
+  EXPECT_EQ(agv["all"]["recall"], 0.0);
+  EXPECT_TRUE(agv["all"]["precision"].is_null());
+  expect_in("pixels of class person under masks of score 0.30 or more", run({"--pixels"}).out);
+}
+
 TEST_F(EvalSegmentation, TableHasLinePerClass) {
   const Outcome outcome = run({});
   expect_success(outcome);

@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/mms/commands/eval/eval_parts.hpp"
+#include "mms/evaluation/segmentation/pixel_scores.hpp"
 #include "mms/evaluation/segmentation/segmentation_error.hpp"
 
 namespace mms {
@@ -15,6 +17,8 @@ struct SegmentationArguments {
   std::string results;
   std::string category;
   std::string split;
+  double min_score = PixelScoreOptions().min_score;
+  bool pixels = false;
   bool json = false;
 };
 
@@ -26,13 +30,26 @@ void evaluate(const SegmentationArguments& arguments) {
                                                         .split = arguments.split,
                                                         .truth_name = arguments.truth,
                                                         .results_name = arguments.results});
+  PixelScoreOptions options;
+  if (!arguments.category.empty()) options.category = arguments.category;
+  options.split = arguments.split;
+  options.min_score = arguments.min_score;
   if (arguments.json) {
-    fmt::print("{}\n", to_json(errors));
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_json(errors));
+    if (arguments.pixels) {
+      json["pixels"] =
+          nlohmann::ordered_json::parse(to_json(pixel_scores(truth, results, options)));
+    }
+    fmt::print("{}\n", json.dump());
     return;
   }
   fmt::print("{} images with {} objects; {} of {} results belong to these images and classes\n",
              errors.images, errors.objects, errors.results, results.size());
   fmt::print("{}", to_table(errors));
+  if (!arguments.pixels) return;
+  fmt::print("\npixels of class {} under masks of score {:.2f} or more, by height in the image\n",
+             options.category, options.min_score);
+  fmt::print("{}", to_table(pixel_scores(truth, results, options)));
 }
 
 }  // namespace
@@ -46,6 +63,12 @@ void add_eval_segmentation(CLI::App& eval) {
   command->add_option("--category", arguments->category, "evaluate only this class");
   command->add_option("--split", arguments->split,
                       "evaluate only the images of this split, such as \"holdout\"");
+  command->add_flag("--pixels", arguments->pixels,
+                    "also recall and precision of the pixels, by the objects' height");
+  command
+      ->add_option("--min-score", arguments->min_score, "lowest score of a mask that counts there")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
   add_json_flag(*command, arguments->json);
   command->callback([arguments] { evaluate(*arguments); });
 }
