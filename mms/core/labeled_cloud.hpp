@@ -46,8 +46,12 @@ struct LabeledCloud {
   std::vector<Rgb> colors;               ///< empty without an image
   std::vector<std::int16_t> cluster;     ///< index into `clusters`, -1 for none
   std::vector<DynamicCluster> clusters;  ///< the dynamic objects of the frame
+  int implausible_masks = 0;             ///< masks dropped, since they cannot be objects in 3D
   /// Organized: non-zero on P_D, on masks, and on the boundary around them, where colors are mixed.
   Image<std::uint8_t> dynamic_pixels;
+  /// Organized: non-zero at dynamic points that are on static surfaces of recent views, so that the
+  /// pose uses them. Empty without any.
+  Image<std::uint8_t> overruled;
   CameraIntrinsics camera;  ///< organized: camera of the width x height grid
 
   /// Whether the points are a grid of an image.
@@ -56,5 +60,8 @@ struct LabeledCloud {
 
 /// Share of the valid points that are dynamic, in [0, 1]; 0 for an empty cloud.
 double dynamic_share(const LabeledCloud& cloud);
+
+/// Share of the valid points that are non-zero in `overruled`, in [0, 1]; 0 if that is empty.
+double overruled_share(const LabeledCloud& cloud, const Image<std::uint8_t>& overruled);
 
 }  // namespace mms

@@ -66,6 +66,9 @@ std::string to_json(const RunMetrics& metrics) {
                  {"peak_rss_mb", metrics.peak_rss_mb},
                  {"status", status_json(metrics)},
                  {"dynamic_share", metrics.dynamic_share},
+                 {"implausible_masks", metrics.implausible_masks},
+                 {"overruled_frames", metrics.overruled_frames},
+                 {"overruled_share", metrics.overruled_share},
                  {"tracks", metrics.tracks}};
   if (metrics.realtime) object["realtime"] = realtime_json(*metrics.realtime);
   if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
@@ -93,6 +96,10 @@ std::vector<MetricValue> metric_values(const RunMetrics& metrics) {
       {"ms_p99", "time per frame, p99", metrics.ms_per_frame.p99, "ms", 1},
       {"peak_rss_mb", "peak memory", metrics.peak_rss_mb, "MiB", 0},
       {"dynamic_share", "dynamic share of the points", 100.0 * metrics.dynamic_share, "%", 1},
+      {"implausible_masks", "implausible masks", static_cast<double>(metrics.implausible_masks), "",
+       0},
+      {"overruled_frames", "frames with overruled masks",
+       static_cast<double>(metrics.overruled_frames), "", 0},
       {"tracks", "tracked objects", static_cast<double>(metrics.tracks), "", 0}};
   if (metrics.realtime) append(values, metric_values(*metrics.realtime));
   if (metrics.trajectory) append(values, metric_values(*metrics.trajectory));

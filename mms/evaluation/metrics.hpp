@@ -47,13 +47,16 @@ struct RunMetrics {
   double peak_rss_mb = 0.0;                                    ///< [MiB]
   std::array<std::int64_t, kStatusCount> status{};             ///< number of frames per mms::Status
   double dynamic_share = 0.0;                                  ///< mean over the frames, in [0, 1]
-  std::int64_t tracks = 0;                                     ///< confirmed tracks
-  std::optional<RealtimeMetrics> realtime;                     ///< of runs at the sensor's rate
-  std::optional<TrajectoryError> trajectory;                   ///< with ground truth
-  std::optional<Drift> drift;                                  ///< with ground truth
-  std::optional<MapError> map;                                 ///< with a ground-truth map
-  std::optional<MaskAgreement> masks;                          ///< with masks to compare
-  std::optional<TrackingError> objects;                        ///< with ground-truth objects
+  std::int64_t implausible_masks = 0;  ///< dropped, since they cannot be objects in 3D
+  std::int64_t overruled_frames = 0;   ///< frames with masks that the pose did not follow
+  double overruled_share = 0.0;        ///< mean share of these points over all frames, in [0, 1]
+  std::int64_t tracks = 0;             ///< confirmed tracks
+  std::optional<RealtimeMetrics> realtime;    ///< of runs at the sensor's rate
+  std::optional<TrajectoryError> trajectory;  ///< with ground truth
+  std::optional<Drift> drift;                 ///< with ground truth
+  std::optional<MapError> map;                ///< with a ground-truth map
+  std::optional<MaskAgreement> masks;         ///< with masks to compare
+  std::optional<TrackingError> objects;       ///< with ground-truth objects
   std::optional<TrackingError> live_objects;  ///< of the live output; with ground-truth objects
   bool stood_still = true;  ///< by ground truth; tables omit the drift of a moving sensor
 };

@@ -8,6 +8,7 @@
 #include "mms/fusion/clusters/grid_relabel.hpp"
 #include "mms/fusion/clusters/scan_geometry.hpp"
 #include "mms/fusion/masks/mask_labels.hpp"
+#include "mms/fusion/masks/mask_plausibility.hpp"
 #include "mms/fusion/planes/grid_planes.hpp"
 
 namespace mms {
@@ -57,6 +58,9 @@ LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& 
     mark_dynamic_pixels(mask.dilated, cloud);
     return cloud;
   }
+  cloud.implausible_masks =
+      config_.plausibility ? clear_implausible_masks(cloud, segmentation.instances, config_, mask)
+                           : 0;
   std::vector<Instance> instances = segmentation.instances;
   memory_.recall(cloud, mask, instances);
   std::vector<DynamicObjects::Object> objects;

@@ -54,15 +54,30 @@ Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
       noise_(noise),
       motion_(config.motion) {}
 
-OdometryEstimate Odometry::estimate(FeatureCloud measured) {
+Odometry::Alignment Odometry::align(FeatureCloud measured) const {
   const Timestamp stamp = measured.stamp;
-  const FeatureCloud features = at_pose_time(std::move(measured));
+  Alignment alignment = align_at_pose_time(at_pose_time(std::move(measured)));
+  alignment.stamp = stamp;
+  return alignment;
+}
+
+OdometryEstimate Odometry::accept(const Alignment& alignment) {
   const std::optional<FeatureCloud> first = std::exchange(first_scan_, std::nullopt);
-  OdometryEstimate estimate = maps_ ? track(features) : initialize(features);
-  if (first && !lost_) estimate = begin_in_motion(*first, features);
-  estimate.stamp = stamp;
-  estimate.T_world_sensor = Transform<World, Sensor>(motion_.predict(stamp).T_world_sensor);
+  OdometryEstimate estimate =
+      alignment.registration ? track(alignment) : initialize(alignment.features);
+  if (first && !lost_) estimate = begin_in_motion(*first, alignment.features);
+  estimate.stamp = alignment.stamp;
+  estimate.T_world_sensor =
+      Transform<World, Sensor>(motion_.predict(alignment.stamp).T_world_sensor);
   return estimate;
+}
+
+Odometry::Alignment Odometry::align_at_pose_time(FeatureCloud features) const {
+  Alignment alignment{features.stamp, std::move(features), {}, false};
+  if (!maps_) return alignment;
+  alignment.registration = register_best(alignment.features);
+  alignment.is_valid = is_valid(alignment.features, *alignment.registration);
+  return alignment;
 }
 
 /// A scan takes the time between two frames. Its pose is estimated at the center of that time,
@@ -75,9 +90,9 @@ FeatureCloud Odometry::at_pose_time(FeatureCloud features) const {
   return features;
 }
 
-OdometryEstimate Odometry::track(const FeatureCloud& features) {
-  const RegistrationResult result = register_best(features);
-
+OdometryEstimate Odometry::track(const Alignment& alignment) {
+  const FeatureCloud& features = alignment.features;
+  const RegistrationResult& result = *alignment.registration;
   OdometryEstimate estimate;
   estimate.information = result.information;
   estimate.edge_inliers = result.geometric.edges.inliers;
@@ -87,7 +102,7 @@ OdometryEstimate Odometry::track(const FeatureCloud& features) {
   estimate.degenerate_directions = result.degenerate_directions;
   estimate.plane_rms =
       std::sqrt(result.geometric.plane_square_sum / std::max(1, result.geometric.planes.inliers));
-  if (is_valid(features, result)) {
+  if (alignment.is_valid) {
     estimate.status = lost_                              ? Status::kRecovered
                       : result.degenerate_directions > 0 ? Status::kDegenerate
                                                          : Status::kTracking;
@@ -162,7 +177,7 @@ OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud seco
   deskew(second, velocity());
   motion_.place(first.stamp, se3::exp(velocity() * to_seconds(first.points_offset)));
   begin_maps(static_cast<double>(maps_->voxel_size()), first);
-  return track(second);
+  return track(align_at_pose_time(std::move(second)));
 }
 
 std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {

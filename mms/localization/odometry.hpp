@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "mms/core/config_visitor.hpp"
 #include "mms/core/odometry_estimate.hpp"
@@ -28,8 +29,22 @@ class Odometry {
  public:
   Odometry(const OdometryConfig& config, const DepthNoise& noise);
 
-  /// The frames must come in the order of their stamps. Never throws for bad frames: see Status.
-  OdometryEstimate estimate(FeatureCloud features);
+  /// A frame registered against the local maps, which it has not changed yet.
+  struct Alignment {
+    Timestamp stamp;                                 ///< of the frame
+    FeatureCloud features;                           ///< at the time of the pose
+    std::optional<RegistrationResult> registration;  ///< nothing before the first frame
+    bool is_valid = false;                           ///< whether the frame is not lost
+  };
+
+  /// Estimates a frame's pose. The frames must come in the order of their stamps.
+  Alignment align(FeatureCloud features) const;
+
+  /// Takes an alignment of the next frame: moves the sensor and updates the local maps.
+  /// Never throws for bad frames: see Status.
+  OdometryEstimate accept(const Alignment& alignment);
+
+  OdometryEstimate estimate(FeatureCloud features) { return accept(align(std::move(features))); }
 
   /// Of the sensor in its own frame [m/s, rad/s]; zero until two frames were tracked.
   const Vector6d& velocity() const { return motion_.velocity(); }
@@ -43,7 +58,8 @@ class Odometry {
 
   FeatureCloud at_pose_time(FeatureCloud features) const;
   OdometryEstimate initialize(const FeatureCloud& features);
-  OdometryEstimate track(const FeatureCloud& features);
+  Alignment align_at_pose_time(FeatureCloud features) const;
+  OdometryEstimate track(const Alignment& alignment);
   OdometryEstimate begin_in_motion(FeatureCloud first, FeatureCloud second);
   void begin_maps(double voxel, const FeatureCloud& features);
   RegistrationResult register_best(const FeatureCloud& features) const;

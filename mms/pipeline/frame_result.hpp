@@ -30,6 +30,7 @@ struct FrameResult {
   LabeledCloud cloud;
   bool keyframe = false;
   double dynamic_share = 0.0;          ///< of the valid points, in [0, 1]
+  double overruled_share = 0.0;        ///< of the valid points: masked, but static for the pose
   std::vector<TrackedObject> objects;  ///< of the dynamic map, by id
   StageTimes stage_ms{};
 };

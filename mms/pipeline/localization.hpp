@@ -1,7 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
+#include "mms/core/image.hpp"
 #include "mms/core/thread_confinement.hpp"
+#include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
+#include "mms/mapping/motion_segmentation/mask_check.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
 #include "mms/pipeline/frame_result.hpp"
@@ -10,8 +16,8 @@
 
 namespace mms {
 
-/// The stage that estimates the pose. Owns the local maps, the motion model, the free space of
-/// recent views and the choice of keyframes.
+/// The stage that estimates the pose. Owns the local maps, the motion model, the free space and
+/// surfaces of recent views and the choice of keyframes.
 class Localization {
  public:
   explicit Localization(const SystemConfig& config);
@@ -25,9 +31,15 @@ class Localization {
 
  private:
   void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
+  Odometry::Alignment align(LabeledCloud& cloud, FeatureCloud features) const;
+  Odometry::Alignment align_first(LabeledCloud& cloud, double masked) const;
+  Odometry::Alignment align_overruled(LabeledCloud& cloud, Image<std::uint8_t> overruled) const;
 
   Odometry odometry_;
   MotionSegmentation motion_segmentation_;
+  MaskCheck mask_check_;
+  FeatureExtractor extractor_;  ///< of frames whose masks were overruled
+  std::array<ObjectSize, kObjectClassCount> sizes_;
   KeyframeSelector keyframes_;
   ThreadConfinement thread_;
 };

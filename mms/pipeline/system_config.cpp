@@ -12,6 +12,7 @@ void SystemConfig::visit(ConfigVisitor& v) {
   v.group({"odometry", "", "data association and pose (III-C.2, III-C.3)"}, odometry);
   v.group({"motion_segmentation", "", "moving objects without a mask", "movement"},
           motion_segmentation);
+  v.group({"mask_check", "", "masks that recent views contradict"}, mask_check);
   v.group({"keyframes", "", "which frames update the static map (III-C.4)"}, keyframes);
   v.group({"static_map", "", "dense coloured map of static surfaces (III-D)"}, static_map);
   v.group({"occupancy", "", "free and occupied space, for robots"}, occupancy);

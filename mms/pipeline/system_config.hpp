@@ -5,6 +5,7 @@
 #include "mms/geometry/sensor_noise.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
+#include "mms/mapping/motion_segmentation/mask_check_config.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation_config.hpp"
 #include "mms/mapping/occupancy/occupancy_config.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
@@ -23,6 +24,7 @@ struct SystemConfig {
   FeatureConfig features;
   OdometryConfig odometry;
   MotionSegmentationConfig motion_segmentation;
+  MaskCheckConfig mask_check;
   KeyframeConfig keyframes;
   StaticMapConfig static_map;
   OccupancyConfig occupancy;

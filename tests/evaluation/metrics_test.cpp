@@ -20,6 +20,9 @@ RunMetrics sample() {
   metrics.status[static_cast<std::size_t>(Status::kTracking)] = 119;
   metrics.status[static_cast<std::size_t>(Status::kInitialized)] = 1;
   metrics.dynamic_share = 0.25;
+  metrics.implausible_masks = 5;
+  metrics.overruled_frames = 7;
+  metrics.overruled_share = 0.125;
   metrics.tracks = 3;
   return metrics;
 }
@@ -55,6 +58,9 @@ TEST(Metrics, JsonHasExactlyDocumentedKeys) {
     "recovered": 0
   },
   "dynamic_share": 0.25,
+  "implausible_masks": 5,
+  "overruled_frames": 7,
+  "overruled_share": 0.125,
   "tracks": 3
 }
 )");

@@ -68,7 +68,8 @@ TEST(Run, MetricsHaveDocumentedKeys) {
   const auto metrics = json_file(folder.path() / "out/metrics.json");
   EXPECT_EQ(keys_of(metrics),
             (Keys{"frames", "frames_skipped", "hz", "ms_per_frame", "stages", "peak_rss_mb",
-                  "status", "dynamic_share", "tracks", "trajectory", "drift"}));
+                  "status", "dynamic_share", "implausible_masks", "overruled_frames",
+                  "overruled_share", "tracks", "trajectory", "drift"}));
   EXPECT_EQ(metrics["frames"], kFrames);
   EXPECT_EQ(metrics["frames_skipped"], 0);
   expect_time_statistics(metrics["ms_per_frame"]);

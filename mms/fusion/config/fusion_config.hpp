@@ -71,7 +71,8 @@ struct FusionConfig {
   double division_distance = 0.25;  ///< across the floor between the objects of one cluster [m]
   double relabel_radius = 0.10;     ///< "close" and "nearby" of III-B.2, before noise [m]
 
-  double memory = 0.5;  ///< how long an object stays dynamic without a mask [s]
+  bool plausibility = true;  ///< whether masks that cannot be objects in 3D are dropped
+  double memory = 0.5;       ///< how long an object stays dynamic without a mask [s]
 
   double lidar_max_range = 100.0;  ///< [m]
   double lidar_voxel = 0.10;       ///< [m]

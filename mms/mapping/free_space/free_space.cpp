@@ -14,12 +14,14 @@ constexpr int kTileSize = 8;
 constexpr float kOutOfView = -1.0F;
 
 /// Depth of every pixel, 0 for none.
-Image<float> depth_of(const LabeledCloud& cloud) {
+Image<float> depth_of(const LabeledCloud& cloud, FreeSpace::Returns returns) {
   Image<float> depth(cloud.width, cloud.height);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const float z = cloud.points[i].z();
-    const bool measured = cloud.labels[i] != PointLabel::kInvalid && std::isfinite(z) && z > 0.0F;
-    depth[i] = measured ? z : 0.0F;
+    const bool is_used =
+        cloud.labels[i] == PointLabel::kStatic ||
+        (cloud.labels[i] == PointLabel::kDynamic && returns == FreeSpace::Returns::kAll);
+    depth[i] = is_used && std::isfinite(z) && z > 0.0F ? z : 0.0F;
   }
   return depth;
 }
@@ -59,14 +61,15 @@ Image<float> farthest_of_tiles(const Image<float>& depth) {
 
 }  // namespace
 
-FreeSpace::FreeSpace(const LabeledCloud& cloud, double margin, const DepthNoise& noise)
+FreeSpace::FreeSpace(const LabeledCloud& cloud, double margin, const DepthNoise& noise,
+                     Returns returns)
     : camera_(cloud.camera),
       distorted_(cloud.camera.distortion != decltype(cloud.camera.distortion){}),
       focal_(Eigen::Array2d(cloud.camera.fx, cloud.camera.fy).cast<float>()),
       center_(Eigen::Array2d(cloud.camera.cx, cloud.camera.cy).cast<float>()),
       margin_(static_cast<float>(margin)),
       noise_(noise),
-      nearest_(nearest_of_neighbours(depth_of(cloud))),
+      nearest_(nearest_of_neighbours(depth_of(cloud, returns))),
       farthest_(farthest_of_tiles(nearest_)) {}
 
 Eigen::Vector2f FreeSpace::pixel_of(const Eigen::Vector3f& point) const {

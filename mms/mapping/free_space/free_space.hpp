@@ -34,7 +34,12 @@ struct CarvingConfig {
 /// nearest of them, so that holes and the boundaries of objects carve nothing.
 class FreeSpace {
  public:
-  FreeSpace(const LabeledCloud& cloud, double margin, const DepthNoise& noise);
+  /// The points that are used.
+  enum class Returns { kAll, kStatic };
+
+  /// @param margin  by which a point has to lie before another, above noise [m]
+  FreeSpace(const LabeledCloud& cloud, double margin, const DepthNoise& noise,
+            Returns returns = Returns::kAll);
 
   /// True where the measured surface is clearly behind `point` (sensor frame [m]).
   bool sees_through(const Eigen::Vector3f& point) const;

@@ -8,7 +8,6 @@
 
 #include "mms/core/time.hpp"
 #include "mms/core/transform.hpp"
-#include "mms/mapping/motion_segmentation/motion_segmentation_config.hpp"
 
 namespace mms {
 
@@ -25,12 +24,14 @@ enum class SpaceState : std::uint8_t {
 template <class Space>
 class FreeSpaceHistory {
  public:
-  explicit FreeSpaceHistory(const MotionSegmentationConfig& config) : config_(config) {}
+  /// @param memory    age of the oldest view [s]
+  /// @param interval  time between the views [s]
+  FreeSpaceHistory(double memory, double interval) : memory_(memory), interval_(interval) {}
 
   /// Whether a view at this time is to be added; views older than `memory` are removed.
   bool wants(Timestamp stamp) {
     while (!views_.empty() && is_too_old(views_.front(), stamp)) views_.pop_front();
-    return views_.empty() || to_seconds(stamp - views_.back().stamp) >= config_.interval;
+    return views_.empty() || to_seconds(stamp - views_.back().stamp) >= interval_;
   }
 
   void add(Timestamp stamp, Space space, const Transform<World, Sensor>& T_world_sensor) {
@@ -43,6 +44,13 @@ class FreeSpaceHistory {
   /// The views in the sensor frame of a new frame.
   class Query {
    public:
+    /// Calls visit(space, point in its view's sensor frame [m]) for every view.
+    /// @param point  in the frame's sensor frame [m]
+    template <class Visit>
+    void for_each(const Eigen::Vector3f& point, const Visit& visit) const {
+      for (const auto& [space, T_view_sensor] : views_) visit(*space, T_view_sensor * point);
+    }
+
     /// @param point  in the frame's sensor frame [m]
     SpaceState state_of(const Eigen::Vector3f& point) const {
       SpaceState state = SpaceState::kUnknown;
@@ -79,10 +87,11 @@ class FreeSpaceHistory {
   };
 
   bool is_too_old(const View& view, Timestamp now) const {
-    return to_seconds(now - view.stamp) > config_.memory;
+    return to_seconds(now - view.stamp) > memory_;
   }
 
-  MotionSegmentationConfig config_;
+  double memory_;
+  double interval_;
   std::deque<View> views_;
 };
 

@@ -19,7 +19,10 @@ namespace mms {
 class MotionSegmentation {
  public:
   MotionSegmentation(const MotionSegmentationConfig& config, const SensorNoise& noise)
-      : config_(config), noise_(noise), images_(config), scans_(config) {}
+      : config_(config),
+        noise_(noise),
+        images_(config.memory, config.interval),
+        scans_(config.memory, config.interval) {}
 
   /// Makes static points of `cloud` in free space dynamic where they form components: wider than
   /// what an error of the pose causes at boundaries, and no lines (scans). A component that adjoins

@@ -10,6 +10,9 @@ std::uint8_t mix(std::uint8_t color, int other, int percent) {
 Rgb tinted(const Rgb& c) {
   return {mix(c.r, 255, 55), mix(c.g, 30, 55), mix(c.b, 30, 55)};
 }
+Rgb tinted_blue(const Rgb& c) {
+  return {mix(c.r, 30, 55), mix(c.g, 90, 55), mix(c.b, 255, 55)};
+}
 Rgb dimmed(const Rgb& c) {
   return {mix(c.r, 0, 60), mix(c.g, 0, 60), mix(c.b, 0, 60)};
 }
@@ -23,7 +26,11 @@ Image<Rgb> draw_overlay(const LabeledCloud& cloud) {
     const bool dynamic = cloud.labels[i] == PointLabel::kDynamic ||
                          (!cloud.dynamic_pixels.empty() && cloud.dynamic_pixels[i] != 0);
     const bool missing = cloud.labels[i] == PointLabel::kInvalid;
-    picture[i] = dynamic ? tinted(color) : missing ? dimmed(color) : color;
+    const bool overruled = !cloud.overruled.empty() && cloud.overruled[i] != 0;
+    picture[i] = overruled ? tinted_blue(color)
+                 : dynamic ? tinted(color)
+                 : missing ? dimmed(color)
+                           : color;
   }
   return picture;
 }

@@ -5,7 +5,8 @@
 
 namespace mms {
 
-/// Image of an organized cloud with colors: dynamic points tinted red, pixels without depth dimmed.
+/// Image of an organized cloud with colors: dynamic points tinted red, those
+/// of overruled masks blue, pixels without depth dimmed.
 Image<Rgb> draw_overlay(const LabeledCloud& cloud);
 
 }  // namespace mms

@@ -42,8 +42,8 @@ void RunLog::add(const Processed& processed) {
   last_ = now;
   frames_.push_back({processed.frame.name, processed.frame.stamp, processed.frame.index,
                      result.odometry.T_world_sensor, result.odometry.status, result.keyframe,
-                     result.dynamic_share, processed.read_ms, interval.count(), result.stage_ms,
-                     processed.latency_ms});
+                     result.dynamic_share, result.overruled_share, result.cloud.implausible_masks,
+                     processed.read_ms, interval.count(), result.stage_ms, processed.latency_ms});
   smoother_.add(processed.frame.stamp, result.objects);
   ObjectFrame& seen = live_objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
   for (const TrackedObject& object : result.objects) seen.objects.push_back(object.box);
@@ -76,6 +76,9 @@ void RunLog::finish(std::size_t skipped, const AsyncPipeline& pipeline, const Sl
   metrics_.peak_rss_mb = peak_memory_mb();
   for (const LoggedFrame& frame : frames_) {
     ++metrics_.status[static_cast<std::size_t>(frame.status)];
+    metrics_.implausible_masks += frame.implausible_masks;
+    metrics_.overruled_frames += frame.overruled_share > 0.0;
+    metrics_.overruled_share += frame.overruled_share / static_cast<double>(frames_.size());
     metrics_.dynamic_share += frame.dynamic_share / static_cast<double>(frames_.size());
   }
   metrics_.tracks = system.dynamic_map().confirmed();

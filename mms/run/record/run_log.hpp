@@ -25,6 +25,8 @@ struct LoggedFrame {
   Status status = Status::kInitialized;
   bool keyframe = false;
   double dynamic_share = 0.0;
+  double overruled_share = 0.0;
+  int implausible_masks = 0;
   double read_ms = 0.0;
   double interval_ms = 0.0;  ///< wall time since the end of the previous frame
   StageTimes stage_ms{};

@@ -22,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kFramesHeader = "stamp,index,status,dynamic_share";
+constexpr std::string_view kFramesHeader =
+    "stamp,index,status,dynamic_share,overruled_share,implausible_masks";
 
 std::string absolute_path(const fs::path& path) {
   std::error_code error;
@@ -51,8 +52,9 @@ std::optional<CameraIntrinsics> camera_of(const Json& json) {
 std::string frames_csv(const RunLog& log) {
   std::string text = std::string(kFramesHeader) + "\n";
   for (const LoggedFrame& frame : log.frames()) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{:.5f}\n", frame.stamp.to_string(),
-                   frame.index, to_string(frame.status), frame.dynamic_share);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{:.5f},{:.5f},{}\n", frame.stamp.to_string(),
+                   frame.index, to_string(frame.status), frame.dynamic_share, frame.overruled_share,
+                   frame.implausible_masks);
   }
   return text;
 }
@@ -65,7 +67,8 @@ std::optional<Status> status_of(std::string_view name) {
 }
 
 std::optional<FrameRecord> frame_of(const TextLine& line) {
-  if (line.fields.size() != 4) return std::nullopt;
+  // Runs of earlier versions end with the dynamic share.
+  if (line.fields.size() != 4 && line.fields.size() != 6) return std::nullopt;
   const auto stamp = parse_stamp(line.fields[0]);
   const auto index = parse_integer(line.fields[1]);
   const auto status = status_of(line.fields[2]);

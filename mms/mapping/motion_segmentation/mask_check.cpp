@@ -1,0 +1,171 @@
+#include "mms/mapping/motion_segmentation/mask_check.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace mms {
+namespace {
+
+/// [-]: cloud points per node along either axis. Source: computing time, 1.5 ms/frame at most.
+constexpr int kStep = 2;
+
+/// [-]: share of a cluster's nodes that recent views must know to decide on the whole cluster.
+/// Source: scene stop_and_go with false masks; with 0.3, a vehicle beside a wall under one false
+/// mask became a part of the wall.
+constexpr double kMinKnown = 0.7;
+
+/// [nodes]: half width of the neighborhood that decides on a node of any other cluster.
+/// Source: initial choice; as wide as the neighborhood of a feature.
+constexpr int kReach = 2;
+
+/// What the views observed at the position of a node, the stronger evidence later.
+enum class Seen : std::uint8_t { kNothing, kMasked, kSurface, kFree };
+
+using SeenNodes = Image<Seen>;  ///< every second point of a cloud along either axis
+
+bool is_against(Seen seen) {
+  return seen == Seen::kFree || seen == Seen::kMasked;
+}
+
+/// What the views observed of a set of nodes.
+struct Votes {
+  int nodes = 0;
+  int surface = 0;
+  int against = 0;
+
+  void add(Seen seen) {
+    ++nodes;
+    surface += seen == Seen::kSurface;
+    against += is_against(seen);
+  }
+  bool are_static(double agreement) const {
+    const int known = surface + against;
+    return known > 0 && known >= kMinKnown * nodes && surface >= agreement * known;
+  }
+};
+
+std::size_t point_of(const LabeledCloud& cloud, int node_x, int node_y) {
+  return static_cast<std::size_t>(kStep * node_y) * static_cast<std::size_t>(cloud.width) +
+         static_cast<std::size_t>(kStep * node_x);
+}
+
+template <class Query>
+SeenNodes observe(const LabeledCloud& cloud, const Query& views) {
+  SeenNodes nodes(cloud.width / kStep, cloud.height / kStep, Seen::kNothing);
+  for (int y = 0; y < nodes.height(); ++y) {
+    for (int x = 0; x < nodes.width(); ++x) {
+      const std::size_t i = point_of(cloud, x, y);
+      if (cloud.labels[i] == PointLabel::kInvalid) continue;
+      Seen& seen = nodes(x, y);
+      views.for_each(cloud.points[i], [&](const auto& view, const Eigen::Vector3f& there) {
+        if (seen == Seen::kFree) return;
+        const Seen here = view.all.sees_through(there)  ? Seen::kFree
+                          : view.statics.touches(there) ? Seen::kSurface
+                          : view.all.touches(there)     ? Seen::kMasked
+                                                        : Seen::kNothing;
+        seen = std::max(seen, here);
+      });
+    }
+  }
+  return nodes;
+}
+
+/// The votes of each cluster's nodes.
+std::vector<Votes> count_votes(const LabeledCloud& cloud, const SeenNodes& nodes) {
+  std::vector<Votes> votes(cloud.clusters.size());
+  for (int y = 0; y < nodes.height(); ++y) {
+    for (int x = 0; x < nodes.width(); ++x) {
+      const std::size_t i = point_of(cloud, x, y);
+      if (cloud.labels[i] != PointLabel::kDynamic || cloud.cluster[i] < 0) continue;
+      votes[static_cast<std::size_t>(cloud.cluster[i])].add(nodes(x, y));
+    }
+  }
+  return votes;
+}
+
+/// Whether the views agree with the nodes around one.
+bool agree_around(const SeenNodes& nodes, int x, int y, double agreement) {
+  if (is_against(nodes(x, y))) return false;
+  Votes votes;
+  for (int v = std::max(0, y - kReach); v <= std::min(y + kReach, nodes.height() - 1); ++v) {
+    for (int u = std::max(0, x - kReach); u <= std::min(x + kReach, nodes.width() - 1); ++u) {
+      votes.add(nodes(u, v));
+    }
+  }
+  return votes.are_static(agreement);
+}
+
+/// Share of the nodes with a return, masked or not, that are on static surfaces.
+double share_on_surfaces(const LabeledCloud& cloud, const SeenNodes& nodes) {
+  int valid = 0;
+  int on_surface = 0;
+  for (int y = 0; y < nodes.height(); ++y) {
+    for (int x = 0; x < nodes.width(); ++x) {
+      valid += cloud.labels[point_of(cloud, x, y)] != PointLabel::kInvalid;
+      on_surface += nodes(x, y) == Seen::kSurface;
+    }
+  }
+  return valid == 0 ? 0.0 : static_cast<double>(on_surface) / valid;
+}
+
+/// Non-zero at the dynamic points that are on static surfaces.
+Image<std::uint8_t> overruled_points(const LabeledCloud& cloud, const SeenNodes& nodes,
+                                     double agreement) {
+  const std::vector<Votes> votes = count_votes(cloud, nodes);
+  Image<std::uint8_t> overruled(cloud.width, cloud.height);
+  for (int y = 0; y < cloud.height; ++y) {
+    for (int x = 0; x < cloud.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
+                            static_cast<std::size_t>(x);
+      if (cloud.labels[i] != PointLabel::kDynamic) continue;
+      const int cluster = cloud.cluster[i];
+      const bool whole =
+          cluster >= 0 && votes[static_cast<std::size_t>(cluster)].are_static(agreement);
+      const int u = std::min(x / kStep, nodes.width() - 1);
+      const int v = std::min(y / kStep, nodes.height() - 1);
+      const bool with_cluster = whole && !is_against(nodes(u, v));
+      overruled[i] = with_cluster || agree_around(nodes, u, v, agreement) ? 1 : 0;
+    }
+  }
+  return overruled;
+}
+
+}  // namespace
+
+MaskCheck::View::View(const LabeledCloud& cloud, double margin, const DepthNoise& noise)
+    : all(cloud, margin, noise), statics(cloud, margin, noise, FreeSpace::Returns::kStatic) {}
+
+MaskEvidence MaskCheck::compare(const LabeledCloud& cloud,
+                                const Transform<World, Sensor>& T_world_sensor) const {
+  const SeenNodes nodes = observe(cloud, views_.query(cloud.stamp, T_world_sensor));
+  MaskEvidence evidence;
+  evidence.supported_share = share_on_surfaces(cloud, nodes);
+  evidence.overruled = overruled_points(cloud, nodes, config_.agreement);
+  evidence.overruled_share = overruled_share(cloud, evidence.overruled);
+  if (evidence.overruled_share == 0.0) evidence.overruled = {};
+  return evidence;
+}
+
+void MaskCheck::remember(const LabeledCloud& cloud,
+                         const Transform<World, Sensor>& T_world_sensor) {
+  if (!config_.enabled || !cloud.organised() || !views_.wants(cloud.stamp)) return;
+  if (cloud.overruled.empty()) {
+    views_.add(cloud.stamp, View(cloud, config_.margin, noise_), T_world_sensor);
+    return;
+  }
+  LabeledCloud labeled = cloud;
+  labeled.labels = labels_for_pose(cloud);
+  views_.add(cloud.stamp, View(labeled, config_.margin, noise_), T_world_sensor);
+}
+
+std::vector<PointLabel> labels_for_pose(const LabeledCloud& cloud) {
+  std::vector<PointLabel> labels = cloud.labels;
+  for (std::size_t i = 0; i < cloud.overruled.size(); ++i) {
+    if (cloud.overruled[i] != 0) labels[i] = PointLabel::kStatic;
+  }
+  return labels;
+}
+
+}  // namespace mms

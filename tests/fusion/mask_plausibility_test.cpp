@@ -1,0 +1,126 @@
+#include "mms/fusion/masks/mask_plausibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mms/fusion/semantic_fusion.hpp"
+#include "tests/fusion/scene.hpp"
+
+namespace mms {
+namespace {
+
+using testing::mask_of;
+using testing::render;
+using testing::room_with_person;
+using testing::Scene;
+using testing::segmentation_of;
+using testing::Surface;
+using testing::View;
+
+/// A floor and a wall `distance` [m] away.
+Scene room(float distance) {
+  return Scene()
+      .add(Surface::kFloor, {-10, 1.2F, 0}, {10, 1.3F, 20})
+      .add(Surface::kWall, {-10, -5, distance}, {10, 1.2F, distance + 0.1F});
+}
+
+/// A rectangle of the image as one instance.
+Instance rectangle(int x, int y, int width, int height,
+                   ObjectClass object_class = ObjectClass::kPerson) {
+  Instance instance;
+  instance.object_class = object_class;
+  instance.x = x;
+  instance.y = y;
+  instance.mask = Image<std::uint8_t>(width, height, 1);
+  return instance;
+}
+
+LabeledCloud fuse(const View& view, const Instance& instance, bool plausibility = true) {
+  FusionConfig config;
+  config.plausibility = plausibility;
+  return SemanticFusion(config).fuse(view.frame, segmentation_of(view, {instance}));
+}
+
+int implausible(const View& view, const Instance& instance) {
+  return fuse(view, instance).implausible_masks;
+}
+
+/// The image's central part with half of its sides.
+Instance center(const View& view, ObjectClass object_class = ObjectClass::kPerson) {
+  const int width = view.frame.depth.width();
+  const int height = view.frame.depth.height();
+  return rectangle(width / 4, height / 4, width / 2, height / 2, object_class);
+}
+
+TEST(MaskPlausibility, DropsAPersonThatIsAWall) {
+  const View view = render(room(2.0F));
+  const LabeledCloud cloud = fuse(view, center(view));
+  EXPECT_EQ(cloud.implausible_masks, 1);
+  EXPECT_EQ(std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kDynamic), 0);
+  EXPECT_EQ(fuse(view, center(view), false).implausible_masks, 0);
+}
+
+TEST(MaskPlausibility, DropsAPersonThatIsATable) {
+  const View view =
+      render(room(4.0F).add(Surface::kDesk, {-0.8F, 0.5F, 1.0F}, {0.8F, 0.55F, 2.0F}));
+  EXPECT_EQ(implausible(view, mask_of(view, Surface::kDesk)), 1);
+}
+
+TEST(MaskPlausibility, KeepsAPerson) {
+  const View view = render(room_with_person());
+  EXPECT_EQ(implausible(view, mask_of(view, Surface::kPerson)), 0);
+  EXPECT_EQ(implausible(view, mask_of(view, Surface::kPerson, 6)), 0);
+}
+
+TEST(MaskPlausibility, KeepsAPersonAtArmsLength) {
+  const View view =
+      render(room(4.0F).add(Surface::kPerson, {-0.25F, -0.3F, 0.6F}, {0.25F, 1.2F, 0.9F}));
+  EXPECT_EQ(implausible(view, mask_of(view, Surface::kPerson)), 0);
+}
+
+TEST(MaskPlausibility, KeepsPeopleSideBySideUnderOneMask) {
+  Scene scene = room(4.0F);
+  for (int i = -2; i <= 2; ++i) {
+    const auto x = 0.6F * static_cast<float>(i);
+    const float z = 2.0F + 0.3F * static_cast<float>(i % 2);
+    scene.add(Surface::kPerson, {x - 0.25F, -0.5F, z}, {x + 0.25F, 1.2F, z + 0.3F});
+  }
+  const View view = render(scene);
+  EXPECT_EQ(implausible(view, mask_of(view, Surface::kPerson)), 0);
+}
+
+TEST(MaskPlausibility, KeepsTheFlatSideOfAVehicle) {
+  const View view = render(room(2.0F));
+  EXPECT_EQ(implausible(view, center(view, ObjectClass::kAgv)), 0);
+}
+
+TEST(MaskPlausibility, DropsAPersonLargerThanARoom) {
+  // Too far to tell whether it is flat.
+  const View view = render(room(8.0F));
+  Instance all = center(view);
+  all.y = 0;
+  all.mask = Image<std::uint8_t>(all.mask.width(), view.frame.depth.height() / 2, 1);
+  EXPECT_EQ(implausible(view, all), 1);
+}
+
+TEST(MaskPlausibility, KeepsAMaskWithFewPoints) {
+  View view = render(room(2.0F));
+  for (float& depth : view.frame.depth.pixels()) depth = 0.0F;
+  EXPECT_EQ(implausible(view, center(view)), 0);
+}
+
+TEST(MaskPlausibility, ClearsOnlyTheImplausibleMask) {
+  const View view =
+      render(room_with_person(0.6F).add(Surface::kDesk, {-1.0F, 0.5F, 1.0F}, {0.5F, 0.55F, 2.0F}));
+  FusionConfig config;
+  const LabeledCloud cloud = SemanticFusion(config).fuse(
+      view.frame,
+      segmentation_of(view, {mask_of(view, Surface::kDesk), mask_of(view, Surface::kPerson)}));
+  EXPECT_EQ(cloud.implausible_masks, 1);
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  EXPECT_NEAR(cloud.clusters[0].centroid.x(), 0.85F, 0.1F);
+}
+
+}  // namespace
+}  // namespace mms
