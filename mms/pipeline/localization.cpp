@@ -135,10 +135,12 @@ Odometry::Alignment Localization::align(LabeledCloud& cloud, FeatureCloud featur
     return masked <= kMuchMasked ? trusting : align_first(cloud, masked);
   }
   if (!mask_check_.has_views()) return trusting;
-  MaskEvidence evidence = mask_check_.compare(cloud, pose_of(trusting));
+  const bool may_be_poor = !trusting.is_valid || trusting.registration->degenerate_directions > 0 ||
+                           masked > kMuchMasked;
+  MaskEvidence evidence = mask_check_.compare(
+      cloud, pose_of(trusting), may_be_poor ? MaskCheck::Points::kAll : MaskCheck::Points::kMasked);
   std::optional<Odometry::Alignment> ignoring;
-  if (!trusting.is_valid || trusting.registration->degenerate_directions > 0 ||
-      masked > kMuchMasked) {
+  if (may_be_poor) {
     ignoring = align_overruled(cloud, dynamic_points(cloud));
     MaskEvidence other = mask_check_.compare(cloud, pose_of(*ignoring));
     ignoring->is_valid = ignoring->is_valid && other.supported_share > kMinSupported;

@@ -147,6 +147,17 @@ TEST(MaskCheck, BelievesTheMaskOfAnObjectBesideASurfaceUnderOneCluster) {
   EXPECT_GT(of_wall, cloud.points.size() / 2);
 }
 
+TEST(MaskCheck, ComparingMaskedPointsAloneGivesTheSame) {
+  LabeledCloud cloud = wall_with_box(0.5, 3.0F);
+  for (std::size_t i = 0; i < cloud.points.size(); i += 3) cloud.points[i] *= 0.5F;
+  cloud = masked(cloud);
+  const MaskCheck check = check_with(wall_with_box(0.0, 3.0F));
+  const MaskEvidence all = check.compare(cloud, pose({0, 0, 0}), MaskCheck::Points::kAll);
+  const MaskEvidence some = check.compare(cloud, pose({0, 0, 0}), MaskCheck::Points::kMasked);
+  EXPECT_EQ(all.overruled.pixels(), some.overruled.pixels());
+  EXPECT_EQ(all.overruled_share, some.overruled_share);
+}
+
 TEST(MaskCheck, RemembersOverruledPointsAsStatic) {
   LabeledCloud view = masked(wall_with_box(0.0, 2.0F));
   view.overruled = Image<std::uint8_t>(view.width, view.height, 1);

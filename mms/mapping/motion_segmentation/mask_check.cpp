@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -51,11 +52,41 @@ std::size_t point_of(const LabeledCloud& cloud, int node_x, int node_y) {
          static_cast<std::size_t>(kStep * node_x);
 }
 
+/// Non-zero at the nodes that decide on a masked one: those within `kReach` of it.
+Image<std::uint8_t> nodes_around_masks(const LabeledCloud& cloud) {
+  Image<std::uint8_t> around(cloud.width / kStep, cloud.height / kStep);
+  for (int y = 0; y < around.height(); ++y) {
+    for (int x = 0; x < around.width(); ++x) {
+      // A point beyond the last whole node counts to that one.
+      bool is_masked = false;
+      for (int dy = 0; dy <= kStep && !is_masked; ++dy) {
+        for (int dx = 0; dx <= kStep && !is_masked; ++dx) {
+          const int px = std::min(kStep * x + dx, cloud.width - 1);
+          const int py = std::min(kStep * y + dy, cloud.height - 1);
+          const auto i = static_cast<std::size_t>(py) * static_cast<std::size_t>(cloud.width) +
+                         static_cast<std::size_t>(px);
+          is_masked = cloud.labels[i] == PointLabel::kDynamic;
+        }
+      }
+      if (!is_masked) continue;
+      for (int v = std::max(0, y - kReach); v <= std::min(y + kReach, around.height() - 1); ++v) {
+        for (int u = std::max(0, x - kReach); u <= std::min(x + kReach, around.width() - 1); ++u) {
+          around(u, v) = 1;
+        }
+      }
+    }
+  }
+  return around;
+}
+
+/// @param wanted  non-zero at the nodes to be observed; empty: all
 template <class Query>
-SeenNodes observe(const LabeledCloud& cloud, const Query& views) {
+SeenNodes observe(const LabeledCloud& cloud, const Query& views,
+                  const Image<std::uint8_t>& wanted) {
   SeenNodes nodes(cloud.width / kStep, cloud.height / kStep, Seen::kNothing);
   for (int y = 0; y < nodes.height(); ++y) {
     for (int x = 0; x < nodes.width(); ++x) {
+      if (!wanted.empty() && wanted(x, y) == 0) continue;
       const std::size_t i = point_of(cloud, x, y);
       if (cloud.labels[i] == PointLabel::kInvalid) continue;
       Seen& seen = nodes(x, y);
@@ -138,10 +169,14 @@ MaskCheck::View::View(const LabeledCloud& cloud, double margin, const DepthNoise
     : all(cloud, margin, noise), statics(cloud, margin, noise, FreeSpace::Returns::kStatic) {}
 
 MaskEvidence MaskCheck::compare(const LabeledCloud& cloud,
-                                const Transform<World, Sensor>& T_world_sensor) const {
-  const SeenNodes nodes = observe(cloud, views_.query(cloud.stamp, T_world_sensor));
+                                const Transform<World, Sensor>& T_world_sensor,
+                                Points points) const {
+  const bool all = points == Points::kAll;
+  const SeenNodes nodes = observe(cloud, views_.query(cloud.stamp, T_world_sensor),
+                                  all ? Image<std::uint8_t>() : nodes_around_masks(cloud));
   MaskEvidence evidence;
-  evidence.supported_share = share_on_surfaces(cloud, nodes);
+  evidence.supported_share =
+      all ? share_on_surfaces(cloud, nodes) : std::numeric_limits<double>::quiet_NaN();
   evidence.overruled = overruled_points(cloud, nodes, config_.agreement);
   evidence.overruled_share = overruled_share(cloud, evidence.overruled);
   if (evidence.overruled_share == 0.0) evidence.overruled = {};

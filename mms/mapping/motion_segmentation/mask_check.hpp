@@ -19,7 +19,9 @@ struct MaskEvidence {
   /// Non-zero at dynamic points that are on static surfaces; empty without any.
   Image<std::uint8_t> overruled;
   double overruled_share = 0.0;  ///< of the valid points
-  double supported_share = 0.0;  ///< of the valid points, masked or not, on static surfaces
+  /// Of the valid points, masked or not, on static surfaces; NaN where only masked ones were
+  /// compared.
+  double supported_share = 0.0;
 };
 
 /// Compares masked points of depth images with the static surfaces of recent views (beyond the
@@ -36,9 +38,15 @@ class MaskCheck {
   /// Whether there is a view to compare with.
   bool has_views() const { return !views_.empty(); }
 
+  /// The points that are compared.
+  enum class Points {
+    kMasked,  ///< the masked ones; `MaskEvidence::supported_share` is not known then
+    kAll,
+  };
+
   /// @param cloud  organized
-  MaskEvidence compare(const LabeledCloud& cloud,
-                       const Transform<World, Sensor>& T_world_sensor) const;
+  MaskEvidence compare(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor,
+                       Points points = Points::kAll) const;
 
   /// Adds a view with its estimated pose; a view too soon after the last one is ignored. Its
   /// overruled points count as static.
