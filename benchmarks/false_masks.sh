@@ -12,8 +12,7 @@ seeds="${1:-1 2 3}"
 data="${2:-}"
 folder="${3:-$out}"
 shift $(($# < 3 ? $# : 3))
-tool="$(dirname "$mms")/benchmarks/mms_false_masks"
-[ -x "$tool" ] || tool="$(dirname "$mms")/../benchmark/benchmarks/mms_false_masks"
+add_false_masks="$(tool mms_false_masks)"
 
 # prepare NAME SEED: exact and false recordings in FOLDER, unless they are there.
 prepare() {
@@ -29,7 +28,7 @@ prepare() {
   for entry in "$exact"/*; do ln -s "$(realpath "$entry")" "$false_.part/"; done
   rm -f "$false_.part/masks"
   if [ -d "$exact/masks" ]; then cp -rL "$exact/masks" "$false_.part/masks"; fi
-  "$tool" "$false_.part" "$seed"
+  "$add_false_masks" "$false_.part" "$seed"
   mv "$false_.part" "$false_"
 }
 

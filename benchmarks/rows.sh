@@ -4,6 +4,16 @@ mms="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/mms"
 out="$(mktemp -d)"
 trap 'rm -rf "$out"' EXIT
 
+# tool NAME: path of a program of the preset bench, or of one built beside mms.
+tool() {
+  local place
+  for place in "$(dirname "$mms")" "$(dirname "$mms")/../bench"; do
+    if [ -x "$place/benchmarks/$1" ]; then echo "$place/benchmarks/$1" && return; fi
+  done
+  echo "$1 is missing: cmake --preset bench && cmake --build --preset bench" >&2
+  return 1
+}
+
 # value FILE KEY [PATTERN]: the first number of "KEY" in a JSON file, after PATTERN if given; nan if
 # there is none.
 value() {

@@ -6,10 +6,10 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
 data="${1:?folder with fr1_xyz_clip, desk_crowd and lab_crowd}"
 shift
-tool="$(dirname "$mms")/benchmarks/mms_shake_recording"
+shake="$(tool mms_shake_recording)"
 mkdir "$out/shaken"
 # 75 frames a swing, up to 3.8 degrees a frame.
-quietly "$tool" "$data/fr1_xyz_clip" "$out/shaken/fr1_xyz_clip" 2.5
-quietly "$tool" "$data/desk_crowd" "$out/shaken/desk_crowd" 5
-quietly "$tool" "$data/lab_crowd" "$out/shaken/lab_crowd" 15
+quietly "$shake" "$data/fr1_xyz_clip" "$out/shaken/fr1_xyz_clip" 2.5
+quietly "$shake" "$data/desk_crowd" "$out/shaken/desk_crowd" 5
+quietly "$shake" "$data/lab_crowd" "$out/shaken/lab_crowd" 15
 SCENES=" " "$(dirname "${BASH_SOURCE[0]}")/filter_gain.sh" "1" "$out/shaken" "$@"

@@ -6,6 +6,7 @@ Writes below the output folder:
   empty/        images of rooms without people
   empty_holdout/  500 of them, for evaluation only
   holdout/      images and instances.json (people in the wild), for evaluation only
+  people.json   with --people: that file without images like a hold-out, and of COCO val
   near_pairs.csv  images that look like one of a hold-out
 
 Repositories are folders 'owner+name': work trees, or bare git folders (also below 'repo').
@@ -759,6 +760,26 @@ class Collection:
                 continue
             self.holdout.add(entry["file_name"], Image.open(path).convert("RGB"))
 
+    def collect_people(self, file):
+        """A COCO file's images for training that are neither of COCO val nor like a hold-out."""
+        content = json.loads(file.read_text())
+        kept = []
+        for entry in content["images"]:
+            if entry.get("split") == "holdout" or entry.get("source", "").startswith("coco_val"):
+                continue
+            path = file.parent / "images" / entry["file_name"]
+            if not path.is_file():
+                print(f"{file.name}: {entry['file_name']}: image is missing")
+                continue
+            value = perceptual_hash(Image.open(path).convert("RGB"))
+            if self.holdout.nearest(value)[0] > SAME_DISTANCE:
+                kept.append(entry)
+        ids = {entry["id"] for entry in kept}
+        annotations = [e for e in content["annotations"] if e["image_id"] in ids]
+        content.update(images=kept, annotations=annotations)
+        (self.output / "people.json").write_text(json.dumps(content, separators=(",", ":")))
+        print(f"people.json: {len(kept)} images")
+
     def collect_holdout(self):
         """Copies images and annotations as they are."""
         coco = CocoFile()
@@ -932,6 +953,9 @@ def main(arguments=None):
         "--holdout", action="append", default=[], metavar="JSON",
         help="COCO file whose images (of the split 'holdout') must not be trained on",
     )
+    parser.add_argument(
+        "--people", type=Path, metavar="JSON", help="COCO file of other people, beside images/"
+    )
     options = parser.parse_args(arguments)
     left_out = set(options.leave_out.read_text().splitlines()) if options.leave_out else set()
     try:
@@ -939,6 +963,8 @@ def main(arguments=None):
         for file in options.holdout:
             collection.add_known(file)
         wild = collection.collect_holdout()
+        if options.people:
+            collection.collect_people(options.people)
         empty, held = collection.collect_empty()
         training = collection.collect_training()
     except FileNotFoundError as error:

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "mms/core/error.hpp"
 #include "mms/core/image.hpp"
 #include "mms/core/random_stream.hpp"
 #include "mms/io/image/image_io.hpp"
@@ -86,7 +87,11 @@ class Burst {
     dy_ = random.between(-0.005F, 0.005F) * static_cast<float>(width);
     const float wanted = random.between(kSmallest, kLargest);
     size_ = 0.2F * static_cast<float>(height);
-    while (share(draw(shape_, x_, y_, size_, width, height)) < wanted) size_ *= 1.05F;
+    // A blob with a gap at its center never covers all.
+    const float largest = 20.0F * static_cast<float>(width);
+    while (size_ < largest && share(draw(shape_, x_, y_, size_, width, height)) < wanted) {
+      size_ *= 1.05F;
+    }
   }
 
   Image<std::uint8_t> next() {
@@ -127,6 +132,7 @@ std::vector<std::size_t> plan_bursts(RandomStream& random, std::size_t frames) {
 void add_false_masks(const fs::path& recording, std::uint64_t seed) {
   RandomStream random(seed);
   const std::vector<fs::path> pictures = list_pictures(recording / "rgb");
+  if (pictures.empty()) throw DataError(recording.string(), "has no pictures in rgb/");
   const std::vector<std::size_t> bursts = plan_bursts(random, pictures.size());
   fs::create_directories(recording / "masks");
   std::size_t burst_end = 0;

@@ -12,7 +12,8 @@ namespace {
 /// [-]: cloud points per sample along either axis. Source: computing time.
 constexpr int kStep = 4;
 
-/// [-]: samples of a mask that can be judged. Source: initial choice; a person at 5 m has 60.
+/// [-]: samples of a mask that can be judged. Source: initial choice; the box of
+/// a person at 8 m has 57 in the image of a Kinect.
 constexpr std::size_t kMinSamples = 40;
 
 /// [-]: share of the samples cut off at either end of an axis. Source: initial choice; masks cover

@@ -10,7 +10,7 @@
 namespace mms {
 
 /// Clears masks that cannot be what they claim, by their points in 3D:
-/// - larger along two axes than several objects of the class beside each other are tall;
+/// - larger along two axes than 1.2 times the length of its class;
 /// - of a person: a flat surface larger than a body, as a wall, a table or a monitor.
 /// A mask with few returns is kept.
 /// @param cloud      organized, static
