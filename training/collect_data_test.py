@@ -245,6 +245,26 @@ class NeverTrainedOn(Sources):
             "human: 1; 1, 0; 0; 0, 0; 1 looks like hold-out",
         )
 
+    def test_people_without_val_and_hold_outs(self):
+        folder = self.output.parent / "people"
+        images = []
+        for number, (split, source) in enumerate(
+            [("train", "a"), ("train", "coco_val_single"), ("holdout", "a"), ("train", "a")], 1
+        ):
+            file = f"{number}.jpg"
+            write(folder / "images" / file, noise(30 if number == 4 else 20 + number))
+            images.append({"id": number, "file_name": file, "split": split, "source": source})
+        write(folder / "instances.json",
+              {"images": images, "annotations": [{"image_id": 1}, {"image_id": 2}]})
+        self.at("developer0hye+COCO128", "train2017/000000000030.jpg", noise(30))
+        write(self.root / "developer0hye+COCO128/annotations/instances_train2017.json",
+              coco([(30, "000000000030.jpg")], [{"image_id": 30}]))
+        messages = self.collect("--people", str(folder / "instances.json"))
+        people = json.loads((self.output / "people.json").read_text())
+        self.assertEqual([image["id"] for image in people["images"]], [1])
+        self.assertEqual(people["annotations"], [{"image_id": 1}])
+        self.assertIn("people.json: 1 images", messages)
+
     def test_boxes_of_coco(self):
         self.at("yuanyl00+miniCOCO", "COCO/train2017/000000000036.jpg", noise(36))
         self.collect()
