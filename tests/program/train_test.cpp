@@ -39,6 +39,30 @@ TEST(Train, TrainsUsableWeights) {
   expect_success(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}));  // has ended
 }
 
+TEST(Train, GoesOnWithoutBadAnnotations) {
+  if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  expect_success(
+      run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
+  std::string text = read_file(folder.path() / "data/annotations.json");
+  const std::size_t box = text.find("\"bbox\":[");
+  ASSERT_NE(box, std::string::npos);
+  text.insert(box + 8, "9");
+  folder.write("data/annotations.json", text);
+  folder.write("train.yaml", R"(
+network: {long_side: 128, short_side: 96}
+data: [{annotations: data/annotations.json}]
+half_precision: false
+schedule: {images: 2, batch: 2}
+)");
+  const Outcome outcome = run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"});
+  expect_success(outcome);
+  expect_in("warning: data/annotations.json: annotations[", outcome.err);
+  expect_in("outside of its image", outcome.err);
+  expect_in("left out: 1 image or annotation, see left_out.txt", outcome.err);
+  expect_in("outside of its image", read_file(folder.path() / "out/left_out.txt"));
+}
+
 /// A network with more parts starts from the shipped weights of a simpler one.
 TEST(Train, StartsFromSimplerNetwork) {
   if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";

@@ -164,8 +164,9 @@ TEST(TrainingRun, ErrorsNameInvalidData) {
   expect_in("has no images in the split 'train'",
             message_of<DataError>([&] { TrainingRun(config, folder.path() / "out", 1).train(); }));
   config.data[0].split = "";
+  write_png(folder.path() / "images/0.png", Image<Rgb>(64, 96));
   write_png(folder.path() / "images/1.png", Image<Rgb>(64, 96));
-  expect_in("1.png: is 64x96, annotated as 128x96",
+  expect_in("0.png: is 64x96, annotated as 128x96",
             message_of<DataError>([&] { TrainingRun(config, folder.path() / "out", 1).train(); }));
   config.data.clear();
   expect_in("data: is empty",

@@ -2,14 +2,33 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "apps/mms/console/warnings.hpp"
+
 namespace mms {
+namespace {
+
+constexpr std::size_t kShownFaults = 20;  // lines; left_out.txt has all
+
+void show_left_out(const std::vector<std::string>& messages) {
+  const std::size_t shown = std::min(messages.size(), kShownFaults);
+  print_warnings({messages.begin(), messages.begin() + static_cast<std::ptrdiff_t>(shown)});
+  fmt::print(stderr, "left out: {} {}, see left_out.txt\n", messages.size(),
+             messages.size() == 1 ? "image or annotation" : "images and annotations");
+}
+
+}  // namespace
 
 void TrainingProgress::show(const TrainingEvent& event) {
   if (event.kind == TrainingEvent::Kind::kLoading) {
     loading_.show(event.done, event.total);
     if (event.done == event.total) loading_.finish();
+    return;
+  }
+  if (event.kind == TrainingEvent::Kind::kLeftOut) {
+    show_left_out(event.left_out);
     return;
   }
   if (!training_) training_.emplace("image");

@@ -66,6 +66,20 @@ CocoAnnotation coco_annotation(std::int64_t id, std::int64_t image_id, int categ
 /// unknown images and categories, or masks of a wrong size.
 CocoDataset read_coco(const std::filesystem::path& path);
 
+/// Images and annotations that cannot be used: one message each, as of `read_coco`.
+struct CocoFaults {
+  std::vector<std::string> images{};
+  std::vector<std::string> annotations{};
+};
+
+/// As `read_coco`, but leaves out images and annotations with faults, and boxes that reach outside
+/// of the image or have no area. An image that loses an annotation gets all categories as
+/// `partial`: what is unannotated there is not background.
+/// @param faults  what was left out is appended; annotations of such images are not listed
+/// @throws FileError, DataError if the file or one of its three lists cannot be read, or for a
+/// category.
+CocoDataset read_coco(const std::filesystem::path& path, CocoFaults& faults);
+
 /// Inverse of `read_coco`, with compressed RLE.
 /// @throws FileError
 void write_coco(const std::filesystem::path& path, const CocoDataset& dataset);

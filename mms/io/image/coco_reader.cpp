@@ -6,6 +6,7 @@
 #include "mms/core/error.hpp"
 #include "mms/io/config/json_entry.hpp"
 #include "mms/io/image/polygon_mask.hpp"
+#include "mms/io/text/numbers.hpp"
 
 namespace mms {
 namespace {
@@ -14,6 +15,7 @@ constexpr Range kSize = {1, 65535};  // of an image [px]
 constexpr Range kCategory = {0, 1e6};
 constexpr Range kCount = {0, 4294967295.0};
 constexpr Range kNotNegative = {0.0};
+constexpr double kBoxTolerance = 1.0;  // [px]: rounding of boxes given as shares of the image
 
 template <class Action>
 auto naming(const JsonEntry& entry, const Action& action) {
@@ -72,6 +74,12 @@ Rle box_mask(const std::array<double, 4>& box, int width, int height) {
   return rasterise(outline, width, height);
 }
 
+std::string text_of(const std::array<double, 4>& box) {
+  std::string text;
+  for (const double value : box) text += (text.empty() ? "" : ", ") + format_number(value);
+  return "[" + text + "]";
+}
+
 /// Reads the three lists and indexes the ids for references between them.
 class CocoReader {
  public:
@@ -84,7 +92,72 @@ class CocoReader {
     return std::move(dataset_);
   }
 
+  CocoDataset read(CocoFaults& faults) {
+    std::set<std::int64_t> lost;
+    for (const JsonEntry& entry : root_.at("categories").elements()) read_category(entry);
+    for (const JsonEntry& entry : root_.at("images").elements()) {
+      read_or_note([&] { read_image(entry); }, faults.images,
+                   [&] { lost.insert(id_of(entry, "id")); });
+    }
+    for (const JsonEntry& entry : root_.at("annotations").elements()) {
+      const std::int64_t image = id_of(entry, "image_id");
+      if (lost.contains(image) && !images_.contains(image)) continue;
+      read_or_note(
+          [&] {
+            read_annotation(entry);
+            check_box(entry);
+          },
+          faults.annotations, [&] { mark_incomplete(image); });
+    }
+    return std::move(dataset_);
+  }
+
  private:
+  template <class Read, class Handle>
+  static void read_or_note(const Read& read, std::vector<std::string>& messages,
+                           const Handle& handle) {
+    try {
+      read();
+    } catch (const DataError& error) {
+      messages.emplace_back(error.what());
+      handle();
+    }
+  }
+
+  /// -1 if there is none.
+  static std::int64_t id_of(const JsonEntry& entry, const std::string& key) {
+    try {
+      return entry.at(key).integer();
+    } catch (const DataError&) {
+      return -1;
+    }
+  }
+
+  void mark_incomplete(std::int64_t id) {
+    const auto found = images_.find(id);
+    if (found == images_.end()) return;
+    std::vector<std::string>& partial = dataset_.images[found->second].partial;
+    partial.clear();
+    for (const CocoCategory& category : dataset_.categories) partial.push_back(category.name);
+  }
+
+  /// Removes the last annotation if its box is outside of the image or empty.
+  void check_box(const JsonEntry& entry) {
+    const CocoAnnotation annotation = dataset_.annotations.back();
+    const CocoImage& image = dataset_.images[images_.at(annotation.image_id)];
+    const auto [x, y, width, height] = annotation.bbox;
+    const bool outside = x < -kBoxTolerance || y < -kBoxTolerance ||
+                         x + width > image.width + kBoxTolerance ||
+                         y + height > image.height + kBoxTolerance;
+    const bool empty = width <= 0.0 || height <= 0.0 || rle_area(annotation.segmentation) == 0;
+    if (!outside && !empty) return;
+    dataset_.annotations.pop_back();
+    if (empty) entry.fail("has no area");
+    entry.at("bbox").fail("is " + text_of(annotation.bbox) + ", outside of its image " +
+                          image.file_name + " of " + std::to_string(image.width) + " x " +
+                          std::to_string(image.height) + " px");
+  }
+
   void read_image(const JsonEntry& entry) {
     CocoImage image;
     image.id = entry.at("id").integer();
@@ -151,16 +224,27 @@ class CocoReader {
   std::set<int> categories_;
 };
 
-}  // namespace
-
-CocoDataset read_coco(const std::filesystem::path& path) {
-  const nlohmann::json json = parse_json(path);
-  const JsonEntry root(json, path.string());
+JsonEntry dataset_root(const nlohmann::json& json, const std::filesystem::path& path) {
+  JsonEntry root(json, path.string());
   if (root.is_list()) {
     root.fail("is a list, as of results",
               "expected an object with images, annotations and categories");
   }
+  return root;
+}
+
+}  // namespace
+
+CocoDataset read_coco(const std::filesystem::path& path) {
+  const nlohmann::json json = parse_json(path);
+  const JsonEntry root = dataset_root(json, path);
   return CocoReader(root).read();
+}
+
+CocoDataset read_coco(const std::filesystem::path& path, CocoFaults& faults) {
+  const nlohmann::json json = parse_json(path);
+  const JsonEntry root = dataset_root(json, path);
+  return CocoReader(root).read(faults);
 }
 
 std::vector<CocoResult> read_coco_results(const std::filesystem::path& path) {

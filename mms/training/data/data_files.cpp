@@ -30,16 +30,28 @@ std::map<int, int> category_indices(const CocoDataset& dataset,
   return indices;
 }
 
+CocoDataset usable_dataset(const std::string& path, CocoFaults& faults) {
+  CocoFaults found;
+  CocoDataset dataset = read_coco(path, found);
+  const auto append = [](std::vector<std::string>& all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  append(faults.images, found.images);
+  append(faults.annotations, found.annotations);
+  check_share(path, found.images, found.images.size() + dataset.images.size(), "images");
+  check_share(path, found.annotations, found.annotations.size() + dataset.annotations.size(),
+              "annotations");
+  return dataset;
+}
+
 std::vector<DataImage> annotated_images(const TrainingData& set,
-                                        const std::vector<std::string>& classes) {
-  const CocoDataset dataset = read_coco(set.annotations);
+                                        const std::vector<std::string>& classes,
+                                        CocoFaults& faults) {
+  const CocoDataset dataset = usable_dataset(set.annotations, faults);
   const fs::path folder =
       set.images.empty() ? fs::path(set.annotations).parent_path() : fs::path(set.images);
   std::vector<DataImage> images;
   std::map<std::int64_t, std::size_t> places;
-  const auto index_of = [&](const std::string& name) {
-    return static_cast<int>(std::find(classes.begin(), classes.end(), name) - classes.begin());
-  };
   for (const CocoImage& image : dataset.images) {
     if (!set.split.empty() && image.split != set.split) continue;
     places[image.id] = images.size();
@@ -47,7 +59,11 @@ std::vector<DataImage> annotated_images(const TrainingData& set,
                       .id = image.id,
                       .width = image.width,
                       .height = image.height});
-    for (const std::string& name : image.partial) images.back().partial.push_back(index_of(name));
+    for (const std::string& name : image.partial) {
+      const auto found = std::find(classes.begin(), classes.end(), name);
+      if (found == classes.end()) continue;
+      images.back().partial.push_back(static_cast<int>(found - classes.begin()));
+    }
   }
   const std::map<int, int> indices = category_indices(dataset, classes);
   for (const CocoAnnotation& annotation : dataset.annotations) {
@@ -77,21 +93,34 @@ void keep_containing(const std::string& name, const std::vector<std::string>& cl
 
 }  // namespace
 
-std::vector<DataImage> list_images(const TrainingData& set,
-                                   const std::vector<std::string>& classes) {
+const std::string& name_of(const TrainingData& set) {
+  return set.annotations.empty() ? set.images : set.annotations;
+}
+
+void check_share(const std::string& name, std::span<const std::string> bad, std::size_t total,
+                 const std::string& what) {
+  if (2 * bad.size() <= total) return;
+  throw DataError(name,
+                  std::to_string(bad.size()) + " of " + std::to_string(total) + " " + what +
+                      " cannot be used, allowed: at most half; first: " + bad.front(),
+                  "correct them, or remove the set");
+}
+
+std::vector<DataImage> list_images(const TrainingData& set, const std::vector<std::string>& classes,
+                                   CocoFaults& faults) {
   if (set.annotations.empty() && set.images.empty()) {
     throw ConfigError("data", "has a set with neither annotations nor images",
                       "set at least one of them");
   }
   std::vector<DataImage> images =
-      set.annotations.empty() ? folder_images(set.images) : annotated_images(set, classes);
+      set.annotations.empty() ? folder_images(set.images) : annotated_images(set, classes, faults);
   if (!set.containing.empty()) keep_containing(set.containing, classes, images);
   if (set.limit > 0) images.resize(std::min(images.size(), static_cast<std::size_t>(set.limit)));
   if (images.empty()) {
     std::string what = "has no images";
     if (!set.split.empty()) what += " in the split '" + set.split + "'";
     if (!set.containing.empty()) what += " with the class '" + set.containing + "'";
-    throw DataError(set.annotations.empty() ? set.images : set.annotations, what);
+    throw DataError(name_of(set), what);
   }
   return images;
 }

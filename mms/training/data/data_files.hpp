@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,20 @@ struct DataImage {
 };
 
 /// The images of a set with their objects of the given classes.
-/// @throws FileError, DataError if the annotations cannot be read, or no image is left.
-std::vector<DataImage> list_images(const TrainingData& set,
-                                   const std::vector<std::string>& classes);
+/// @param faults  what cannot be used is left out and appended
+/// @throws FileError, DataError if the annotations cannot be read, no image is left, or more than
+/// half of the images or annotations have faults.
+std::vector<DataImage> list_images(const TrainingData& set, const std::vector<std::string>& classes,
+                                   CocoFaults& faults);
+
+/// The annotation file of a set, or else its folder.
+const std::string& name_of(const TrainingData& set);
+
+/// @param bad   messages
+/// @param what  "images" or "annotations"
+/// @throws DataError with the first message if more than half are bad.
+void check_share(const std::string& name, std::span<const std::string> bad, std::size_t total,
+                 const std::string& what);
 
 /// @throws DataError if an image differs from its annotated size.
 void check_size(const DataImage& image, int width, int height);

@@ -49,23 +49,43 @@ Sample load_sample(const DataImage& source, int largest_side) {
 SampleStore::SampleStore(const std::vector<TrainingData>& sets,
                          const std::vector<std::string>& classes, int largest_side,
                          const std::function<void(int, int)>& progress) {
-  std::vector<DataImage> images;
-  double sum = 0.0;
+  std::vector<std::vector<DataImage>> images;
+  std::size_t total = 0;
   for (const TrainingData& set : sets) {
-    for (DataImage& image : list_images(set, classes)) {
-      images.push_back(std::move(image));
-      shares_.push_back(sum += set.repeat);
-    }
+    images.push_back(list_images(set, classes, faults_));
+    total += images.back().size();
   }
-  samples_.resize(images.size());
   std::mutex mutex;
   int done = 0;
-  parallel_chunks(images.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) samples_[i] = load_sample(images[i], largest_side);
-    const std::scoped_lock lock(mutex);
-    done += static_cast<int>(end - begin);
-    if (progress) progress(done, static_cast<int>(images.size()));
-  });
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    std::vector<Loaded> loaded(images[k].size());
+    parallel_chunks(loaded.size(), 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        try {
+          loaded[i].sample = load_sample(images[k][i], largest_side);
+        } catch (const Error& error) {
+          loaded[i].fault = error.what();
+        }
+      }
+      const std::scoped_lock lock(mutex);
+      done += static_cast<int>(end - begin);
+      if (progress) progress(done, static_cast<int>(total));
+    });
+    keep_readable(sets[k], std::move(loaded));
+  }
+}
+
+void SampleStore::keep_readable(const TrainingData& set, std::vector<Loaded> loaded) {
+  const std::size_t before = faults_.images.size();
+  for (Loaded& one : loaded) {
+    if (!one.fault.empty()) {
+      faults_.images.push_back(std::move(one.fault));
+      continue;
+    }
+    samples_.push_back(std::move(one.sample));
+    shares_.push_back((shares_.empty() ? 0.0 : shares_.back()) + set.repeat);
+  }
+  check_share(name_of(set), std::span(faults_.images).subspan(before), loaded.size(), "images");
 }
 
 const Sample& SampleStore::draw(RandomStream& random) const {

@@ -2,7 +2,9 @@
 
 #include <ATen/Parallel.h>
 
+#include <set>
 #include <thread>
+#include <utility>
 
 #include "mms/core/error.hpp"
 #include "mms/core/segmentation.hpp"
@@ -70,7 +72,7 @@ TrainingRun::TrainingRun(const TrainingConfig& config, const fs::path& folder, i
         return Trainer(config);
       }()) {
   for (const TrainingData& set : config.validation) {
-    validation_.emplace_back(set, training_classes(), config.validation_images);
+    validation_.emplace_back(set, training_classes(), config.validation_images, validation_faults_);
   }
   start_or_resume();
 }
@@ -124,11 +126,31 @@ bool TrainingRun::tell(const TrainingEvent& event) {
   return !callback_ || callback_(event);
 }
 
+void TrainingRun::tell_left_out(const CocoFaults& of_training) {
+  TrainingEvent event;
+  event.kind = TrainingEvent::Kind::kLeftOut;
+  std::set<std::string> known;  // a file may be part of several sets
+  for (const auto* messages :
+       {&of_training.images, &of_training.annotations, &std::as_const(validation_faults_.images),
+        &std::as_const(validation_faults_.annotations)}) {
+    for (const std::string& message : *messages) {
+      if (known.insert(message).second) event.left_out.push_back(message);
+    }
+  }
+  fs::remove(left_out_path());
+  if (event.left_out.empty()) return;
+  std::string text;
+  for (const std::string& message : event.left_out) text += message + "\n";
+  write_file(left_out_path(), text);
+  tell(event);
+}
+
 bool TrainingRun::train() {
   const SampleStore store(
       config_.data, training_classes(), config_.cache_side, [this](int done, int total) {
         tell({.kind = TrainingEvent::Kind::kLoading, .done = done, .total = total, .fresh = done});
       });
+  tell_left_out(store.faults());
   clock_ = std::chrono::steady_clock::now();
   const int last = total_steps(config_.schedule);
   BatchLoader loader(store, config_, trainer_.steps(), last);

@@ -14,13 +14,14 @@ namespace mms {
 
 /// Progress of a training, for the callback.
 struct TrainingEvent {
-  enum class Kind { kLoading, kStep, kValidation };
+  enum class Kind { kLoading, kLeftOut, kStep, kValidation };
   Kind kind = Kind::kStep;
-  int done = 0;                ///< images read (kLoading) or used
-  int total = 0;               ///< images
-  int fresh = 0;               ///< of `done`, since this start
-  LossPoint loss{};            ///< kStep: mean since the last event
-  std::vector<ApPoint> aps{};  ///< kValidation
+  int done = 0;                         ///< images read (kLoading) or used
+  int total = 0;                        ///< images
+  int fresh = 0;                        ///< of `done`, since this start
+  std::vector<std::string> left_out{};  ///< kLeftOut: why each image or annotation is not used
+  LossPoint loss{};                     ///< kStep: mean since the last event
+  std::vector<ApPoint> aps{};           ///< kValidation
 };
 
 /// A training in a folder: checkpoint.pt and log.json for continuation, config.yaml,
@@ -41,11 +42,14 @@ class TrainingRun {
 
   std::filesystem::path weights_path() const { return folder_ / "weights.safetensors"; }
   std::filesystem::path report_path() const { return folder_ / "report.html"; }
+  /// Why images and annotations are not used; absent if all are.
+  std::filesystem::path left_out_path() const { return folder_ / "left_out.txt"; }
 
  private:
   void start_or_resume();
   void initialise();
   bool tell(const TrainingEvent& event);
+  void tell_left_out(const CocoFaults& of_training);
   bool after_step(const StepResult& result);
   bool log_losses();
   void checkpoint();
@@ -60,6 +64,7 @@ class TrainingRun {
   Trainer trainer_;
   TrainingLog log_;
   std::vector<ValidationSet> validation_;
+  CocoFaults validation_faults_;
   std::vector<StepResult> recent_;  ///< not yet logged
   std::function<bool(const TrainingEvent&)> callback_;
   int first_image_ = 0;  ///< images before this start

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mms/core/error.hpp"
 #include "mms/io/image/image_io.hpp"
-#include "mms/training/data/data_files.hpp"
 
 namespace mms {
 namespace {
 
-std::string name_of(const TrainingData& set) {
+std::string display_name(const TrainingData& set) {
   const std::string folder =
       std::filesystem::path(set.annotations).parent_path().filename().string();
   return set.split.empty() ? folder : folder + " " + set.split;
@@ -18,28 +18,38 @@ std::string name_of(const TrainingData& set) {
 }  // namespace
 
 ValidationSet::ValidationSet(const TrainingData& set, const std::vector<std::string>& classes,
-                             int most)
-    : name_(name_of(set)) {
+                             int most, CocoFaults& faults)
+    : name_(display_name(set)) {
   for (std::size_t i = 0; i < classes.size(); ++i) {
     truth_.categories.push_back({static_cast<int>(i) + 1, classes[i]});
   }
-  const std::vector<DataImage> all = list_images(set, classes);
+  const std::vector<DataImage> all = list_images(set, classes, faults);
   const std::size_t count = std::min(all.size(), static_cast<std::size_t>(most));
+  const std::size_t before = faults.images.size();
   for (std::size_t k = 0; k < count; ++k) {
-    const DataImage& image = all[k * all.size() / count];
-    images_.push_back(read_color(image.path));
-    check_size(image, images_.back().width(), images_.back().height());
-    const auto id = static_cast<std::int64_t>(k);
-    truth_.images.push_back({.id = id,
-                             .file_name = image.path.filename().string(),
-                             .width = images_.back().width(),
-                             .height = images_.back().height()});
-    for (const Annotated& object : image.objects) {
-      const auto number = static_cast<std::int64_t>(truth_.annotations.size()) + 1;
-      truth_.annotations.push_back(
-          coco_annotation(number, id, 1 + object.category, object.segmentation));
-      truth_.annotations.back().iscrowd = object.crowd;
+    try {
+      add(all[k * all.size() / count]);
+    } catch (const Error& error) {
+      faults.images.emplace_back(error.what());
     }
+  }
+  check_share(name_of(set), std::span(faults.images).subspan(before), count, "images");
+}
+
+void ValidationSet::add(const DataImage& source) {
+  Image<Rgb> image = read_color(source.path);
+  check_size(source, image.width(), image.height());
+  const auto id = static_cast<std::int64_t>(images_.size());
+  truth_.images.push_back({.id = id,
+                           .file_name = source.path.filename().string(),
+                           .width = image.width(),
+                           .height = image.height()});
+  images_.push_back(std::move(image));
+  for (const Annotated& object : source.objects) {
+    const auto number = static_cast<std::int64_t>(truth_.annotations.size()) + 1;
+    truth_.annotations.push_back(
+        coco_annotation(number, id, 1 + object.category, object.segmentation));
+    truth_.annotations.back().iscrowd = object.crowd;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "mms/evaluation/segmentation/segmentation_error.hpp"
 #include "mms/segmentation/solo/solo_decoder.hpp"
+#include "mms/training/data/data_files.hpp"
 #include "mms/training/data/training_config.hpp"
 
 namespace mms {
@@ -17,8 +18,11 @@ using DetectFunction = std::function<std::vector<Detection>(const Image<Rgb>&)>;
 class ValidationSet {
  public:
   /// Evenly spaced images of a set, at most `most`.
-  /// @throws FileError, DataError if annotations or images cannot be read.
-  ValidationSet(const TrainingData& set, const std::vector<std::string>& classes, int most);
+  /// @param faults  what cannot be used is left out and appended
+  /// @throws FileError, DataError as `list_images`, or if more than half of the images cannot be
+  /// read.
+  ValidationSet(const TrainingData& set, const std::vector<std::string>& classes, int most,
+                CocoFaults& faults);
 
   /// The annotation file's folder, and the split.
   const std::string& name() const { return name_; }
@@ -27,6 +31,8 @@ class ValidationSet {
   SegmentationErrors measure(const DetectFunction& detect) const;
 
  private:
+  void add(const DataImage& source);
+
   std::string name_;
   CocoDataset truth_;
   std::vector<Image<Rgb>> images_;
