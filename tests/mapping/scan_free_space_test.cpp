@@ -34,12 +34,11 @@ TEST(ScanFreeSpace, EndsAtPointsInAllDirections) {
   for (int i = 0; i < 2000; ++i) {
     const Eigen::Vector3f direction =
         Eigen::Vector3f(normal(random), normal(random), normal(random)).normalized();
-    EXPECT_TRUE(space.sees_through(4.85F * direction));
-    EXPECT_FALSE(space.sees_through(4.95F * direction));
-    EXPECT_TRUE(space.touches(4.95F * direction));
-    EXPECT_TRUE(space.touches(5.05F * direction));
-    EXPECT_FALSE(space.touches(5.2F * direction));
-    EXPECT_FALSE(space.has_no_return(6.0F * direction));
+    EXPECT_EQ(space.state_at(4.85F * direction), SpaceState::kFree);
+    EXPECT_EQ(space.state_at(4.95F * direction), SpaceState::kSurface);
+    EXPECT_EQ(space.state_at(5.05F * direction), SpaceState::kSurface);
+    EXPECT_NE(space.state_at(5.2F * direction), SpaceState::kSurface);
+    EXPECT_NE(space.state_at(6.0F * direction), SpaceState::kNoReturn);
   }
 }
 
@@ -48,10 +47,10 @@ TEST(ScanFreeSpace, EndsAtNearestNeighborPoint) {
   cloud.points.emplace_back(2.0F, 0.0F, 0.0F);
   cloud.labels.push_back(PointLabel::kDynamic);  // occludes the space behind it
   const ScanFreeSpace space(cloud, kMargin);
-  EXPECT_FALSE(space.sees_through({3.0F, 0.0F, 0.0F}));
-  EXPECT_FALSE(space.sees_through({3.0F, 0.05F, 0.0F}));
-  EXPECT_TRUE(space.sees_through({3.0F, 0.3F, 0.0F}));
-  EXPECT_TRUE(space.sees_through({1.5F, 0.0F, 0.0F}));
+  EXPECT_NE(space.state_at({3.0F, 0.0F, 0.0F}), SpaceState::kFree);
+  EXPECT_NE(space.state_at({3.0F, 0.05F, 0.0F}), SpaceState::kFree);
+  EXPECT_EQ(space.state_at({3.0F, 0.3F, 0.0F}), SpaceState::kFree);
+  EXPECT_EQ(space.state_at({1.5F, 0.0F, 0.0F}), SpaceState::kFree);
 }
 
 TEST(ScanFreeSpace, IsUnknownWithoutReturns) {
@@ -59,11 +58,9 @@ TEST(ScanFreeSpace, IsUnknownWithoutReturns) {
   cloud.points.emplace_back(1.0F, 1.0F, 1.0F);
   cloud.labels.push_back(PointLabel::kInvalid);
   const ScanFreeSpace space(cloud, kMargin);
-  EXPECT_TRUE(space.has_no_return({2.0F, 0.0F, 0.0F}));
-  EXPECT_TRUE(space.has_no_return({0.5F, 0.5F, 0.5F}));
-  EXPECT_FALSE(space.sees_through({2.0F, 0.0F, 0.0F}));
-  EXPECT_FALSE(space.touches({2.0F, 0.0F, 0.0F}));
-  EXPECT_TRUE(space.sees_through({-2.0F, 0.0F, 0.0F}));
+  EXPECT_EQ(space.state_at({2.0F, 0.0F, 0.0F}), SpaceState::kNoReturn);
+  EXPECT_EQ(space.state_at({0.5F, 0.5F, 0.5F}), SpaceState::kNoReturn);
+  EXPECT_EQ(space.state_at({-2.0F, 0.0F, 0.0F}), SpaceState::kFree);
 }
 
 }  // namespace

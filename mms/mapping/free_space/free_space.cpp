@@ -98,9 +98,14 @@ bool FreeSpace::sees_through(const Eigen::Vector3f& point) const {
   return depth > 0.0F && depth > needed_depth(point.z());
 }
 
-bool FreeSpace::touches(const Eigen::Vector3f& point) const {
+SpaceState FreeSpace::state_at(const Eigen::Vector3f& point) const {
   const float depth = depth_at(point);
-  return depth > 0.0F && std::abs(depth - point.z()) <= needed_depth(point.z()) - point.z();
+  if (depth == 0.0F) return SpaceState::kNoReturn;
+  if (depth == kOutOfView) return SpaceState::kUnknown;
+  const float needed = needed_depth(point.z());
+  if (depth > needed) return SpaceState::kFree;
+  const bool touches = std::abs(depth - point.z()) <= needed - point.z();
+  return touches ? SpaceState::kSurface : SpaceState::kUnknown;
 }
 
 bool FreeSpace::may_see_into(const Eigen::Vector3f& center, float radius) const {

@@ -7,6 +7,7 @@
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/geometry/camera.hpp"
 #include "mms/geometry/depth_noise.hpp"
+#include "mms/mapping/free_space/space_state.hpp"
 
 namespace mms {
 
@@ -44,11 +45,8 @@ class FreeSpace {
   /// True where the measured surface is clearly behind `point` (sensor frame [m]).
   bool sees_through(const Eigen::Vector3f& point) const;
 
-  /// True where the measured surface is at `point` (sensor frame [m]).
-  bool touches(const Eigen::Vector3f& point) const;
-
-  /// True where `point` (sensor frame [m]) is in view without a reliable depth there.
-  bool has_no_return(const Eigen::Vector3f& point) const { return depth_at(point) == 0.0F; }
+  /// What was observed at `point` (sensor frame [m]); never kNone.
+  SpaceState state_at(const Eigen::Vector3f& point) const;
 
   /// False where no point of the ball (sensor frame [m]) can be seen through; cheap.
   bool may_see_into(const Eigen::Vector3f& center, float radius) const;

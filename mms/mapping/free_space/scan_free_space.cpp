@@ -46,19 +46,12 @@ const ScanFreeSpace::Span& ScanFreeSpace::span_of(const Eigen::Vector3f& point) 
   return faces_[pixel.face](pixel.x, pixel.y);
 }
 
-bool ScanFreeSpace::sees_through(const Eigen::Vector3f& point) const {
-  return span_of(point).nearest > point.norm() + margin_;
-}
-
-bool ScanFreeSpace::touches(const Eigen::Vector3f& point) const {
+SpaceState ScanFreeSpace::state_at(const Eigen::Vector3f& point) const {
   const Span& span = span_of(point);
+  if (span.farthest == 0.0F) return SpaceState::kNoReturn;
   const float range = point.norm();
-  return span.farthest > 0.0F && range >= span.nearest - margin_ &&
-         range <= span.farthest + margin_;
-}
-
-bool ScanFreeSpace::has_no_return(const Eigen::Vector3f& point) const {
-  return span_of(point).farthest == 0.0F;
+  if (span.nearest > range + margin_) return SpaceState::kFree;
+  return range <= span.farthest + margin_ ? SpaceState::kSurface : SpaceState::kUnknown;
 }
 
 }  // namespace mms

@@ -4,6 +4,7 @@
 
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/mapping/free_space/cube_pixel.hpp"
+#include "mms/mapping/free_space/space_state.hpp"
 
 namespace mms {
 
@@ -16,14 +17,9 @@ class ScanFreeSpace {
   /// @param margin  by which a point has to lie behind another, noise included [m]
   ScanFreeSpace(const LabeledCloud& cloud, double margin);
 
-  /// True where the measured surface is clearly behind `point` (sensor frame [m]).
-  bool sees_through(const Eigen::Vector3f& point) const;
-
-  /// True where points were measured at `point` (sensor frame [m]), or both nearer and farther.
-  bool touches(const Eigen::Vector3f& point) const;
-
-  /// True where nothing was measured in the direction of `point` (sensor frame [m]).
-  bool has_no_return(const Eigen::Vector3f& point) const;
+  /// What was observed at `point` (sensor frame [m]); a surface also between nearer and farther
+  /// points, never kNone.
+  SpaceState state_at(const Eigen::Vector3f& point) const;
 
  private:
   /// Of the points in a direction, by their distance [m]; none where `farthest` is 0.

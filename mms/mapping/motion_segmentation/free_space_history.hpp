@@ -1,24 +1,15 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <deque>
 #include <utility>
 #include <vector>
 
 #include "mms/core/time.hpp"
 #include "mms/core/transform.hpp"
+#include "mms/mapping/free_space/space_state.hpp"
 
 namespace mms {
-
-/// What recent views observed at the position of a point.
-enum class SpaceState : std::uint8_t {
-  kNone,      ///< not a static point
-  kSurface,   ///< a surface
-  kUnknown,   ///< occluded or out of view
-  kNoReturn,  ///< in view, but without a return at or behind it
-  kFree,      ///< free space
-};
 
 /// Free space of the recent views; `Space` is that of one view.
 template <class Space>
@@ -55,11 +46,10 @@ class FreeSpaceHistory {
     SpaceState state_of(const Eigen::Vector3f& point) const {
       SpaceState state = SpaceState::kUnknown;
       for (const auto& [space, T_view_sensor] : views_) {
-        const Eigen::Vector3f there = T_view_sensor * point;
-        if (space->sees_through(there)) return SpaceState::kFree;
-        if (space->touches(there)) state = SpaceState::kSurface;
-        if (state == SpaceState::kUnknown && space->has_no_return(there))
-          state = SpaceState::kNoReturn;
+        const SpaceState here = space->state_at(T_view_sensor * point);
+        if (here == SpaceState::kFree) return here;
+        if (here == SpaceState::kSurface) state = here;
+        if (here == SpaceState::kNoReturn && state == SpaceState::kUnknown) state = here;
       }
       return state;
     }
