@@ -68,8 +68,8 @@ CocoDataset read_coco(const std::filesystem::path& path);
 
 /// Images and annotations that cannot be used: one message each, as of `read_coco`.
 struct CocoFaults {
-  std::vector<std::string> images{};
-  std::vector<std::string> annotations{};
+  std::vector<std::string> images{};       ///< what is wrong with an image
+  std::vector<std::string> annotations{};  ///< what is wrong with an annotation
 };
 
 /// As `read_coco`, but leaves out images and annotations with faults, and boxes that reach outside
