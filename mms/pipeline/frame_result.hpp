@@ -13,6 +13,8 @@ namespace mms {
 
 /// The steps of a frame that are timed.
 enum class Stage { kSegmentation, kFusion, kFeatures, kOdometry, kMapping };
+
+/// [-]: the number of them. Source: `Stage`.
 inline constexpr std::size_t kStageCount = 5;
 
 constexpr std::string_view to_string(Stage stage) {

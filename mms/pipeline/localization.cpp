@@ -1,36 +1,14 @@
 #include "mms/pipeline/localization.hpp"
 
 #include <cassert>
-#include <cstdint>
-#include <optional>
 #include <utility>
-#include <vector>
 
-#include "mms/core/image.hpp"
-#include "mms/fusion/clusters/dynamic_parts.hpp"
 #include "mms/localization/features/feature_exclusion.hpp"
 #include "mms/localization/motion/motion_compensation.hpp"
 #include "mms/pipeline/stage_timer.hpp"
 
 namespace mms {
 namespace {
-
-/// [-]: share of the valid points that overruled masks must cover to change the pose.
-/// Source: initial choice; saves computing time, since fewer points hardly change it.
-constexpr double kMinOverruledShare = 0.03;
-
-/// [-]: share of the valid points under masks from which on the rest may be too little for a pose,
-/// or for a map to begin with. Source: initial choice; people cover 52 % of the recording
-/// `desk_crowd` at most.
-constexpr double kMuchMasked = 0.5;
-
-/// [-]: factor by which ignoring the masks must increase the points on known surfaces.
-/// Source: as `kMinInlierGain` of the odometry.
-constexpr double kMinSupportGain = 1.05;
-
-/// [-]: share of the valid points on known surfaces from which on a pose that ignores the masks is
-/// believed. Source: initial choice; people before the lens are on none.
-constexpr double kMinSupported = 0.5;
 
 /// The modes without the method's geometry are baselines: they get none of the steps beyond it.
 template <class Config>
@@ -39,60 +17,13 @@ Config for_mode(Config step, FusionMode mode) {
   return step;
 }
 
-Transform<World, Sensor> pose_of(const Odometry::Alignment& alignment) {
-  return Transform<World, Sensor>(alignment.registration->T_world_sensor);
-}
-
-/// All dynamic points.
-Image<std::uint8_t> dynamic_points(const LabeledCloud& cloud) {
-  Image<std::uint8_t> points(cloud.width, cloud.height);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = cloud.labels[i] == PointLabel::kDynamic ? 1 : 0;
-  }
-  return points;
-}
-
-/// Those of clusters that exceed the size of one object of their class.
-Image<std::uint8_t> points_of_large_clusters(
-    const LabeledCloud& cloud, const std::array<ObjectSize, kObjectClassCount>& sizes) {
-  std::vector<bool> is_large;
-  for (const DynamicCluster& cluster : cloud.clusters) {
-    const auto object_class = static_cast<std::size_t>(cluster.object_class);
-    const Eigen::AlignedBox3f box(cluster.box_min, cluster.box_max);
-    is_large.push_back(object_class < sizes.size() && !fits(box, sizes[object_class]));
-  }
-  Image<std::uint8_t> points(cloud.width, cloud.height);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const int cluster = cloud.cluster[i];
-    const bool is_dynamic = cloud.labels[i] == PointLabel::kDynamic;
-    points[i] = is_dynamic && cluster >= 0 && is_large[static_cast<std::size_t>(cluster)] ? 1 : 0;
-  }
-  return points;
-}
-
-/// Features of the static and the overruled points.
-FeatureCloud extract_for_pose(const FeatureExtractor& extractor, LabeledCloud& cloud) {
-  std::vector<PointLabel> labels = labels_for_pose(cloud);
-  Image<std::uint8_t> dynamic_pixels = cloud.dynamic_pixels;
-  for (std::size_t i = 0; i < cloud.overruled.size(); ++i) {
-    if (cloud.overruled[i] != 0) dynamic_pixels[i] = 0;
-  }
-  std::swap(labels, cloud.labels);
-  std::swap(dynamic_pixels, cloud.dynamic_pixels);
-  FeatureCloud features = extractor.extract(cloud);
-  std::swap(labels, cloud.labels);
-  std::swap(dynamic_pixels, cloud.dynamic_pixels);
-  return features;
-}
-
 }  // namespace
 
 Localization::Localization(const SystemConfig& config)
     : odometry_(config.odometry, config.noise.depth),
       motion_segmentation_(for_mode(config.motion_segmentation, config.fusion.mode), config.noise),
-      mask_check_(for_mode(config.mask_check, config.fusion.mode), config.noise.depth),
-      extractor_(with_noise(config.features, config.noise)),
-      sizes_(config.fusion.sizes),
+      hypotheses_(for_mode(config.mask_check, config.fusion.mode),
+                  with_noise(config.features, config.noise), config.fusion.sizes),
       keyframes_(config.keyframes) {}
 
 FrameResult Localization::localize(PerceivedFrame frame) {
@@ -103,12 +34,12 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
     deskew(result.cloud, odometry_.velocity());
     exclude_moving_points(result.cloud, frame.features);
-    OdometryEstimate estimate = odometry_.accept(
-        align(result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
-    result.keyframe = keyframes_.is_keyframe(estimate);   // III-C.4
+    const OdometryEstimate estimate = odometry_.accept(hypotheses_.align(
+        odometry_, result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
+    result.keyframe = keyframes_.is_keyframe(estimate);        // III-C.4
     if (result.keyframe) {
       motion_segmentation_.remember(result.cloud, estimate.T_world_sensor);
-      mask_check_.remember(result.cloud, estimate.T_world_sensor);
+      hypotheses_.remember(result.cloud, estimate.T_world_sensor);
     }
     return estimate;
   });
@@ -122,56 +53,6 @@ void Localization::exclude_moving_points(LabeledCloud& cloud, FeatureCloud& feat
   if (!expected) return;
   const Image<std::uint8_t> moved = motion_segmentation_.relabel(cloud, *expected);
   if (!moved.empty()) exclude(moved, cloud, features);
-}
-
-/// The pose is estimated with the masks, and where recent views contradict them, without those that
-/// are wrong. Where too little may be left beside the masks, a pose that ignores them is estimated,
-/// too; the masks are judged from the pose under which more points are on known surfaces.
-Odometry::Alignment Localization::align(LabeledCloud& cloud, FeatureCloud features) const {
-  Odometry::Alignment trusting = odometry_.align(std::move(features));
-  const double masked = dynamic_share(cloud);
-  if (!mask_check_.enabled() || !cloud.organised() || masked == 0.0) return trusting;
-  if (!trusting.registration) {
-    return masked <= kMuchMasked ? trusting : align_first(cloud, masked);
-  }
-  if (!mask_check_.has_views()) return trusting;
-  const bool may_be_poor = !trusting.is_valid || trusting.registration->degenerate_directions > 0 ||
-                           masked > kMuchMasked;
-  MaskEvidence evidence = mask_check_.compare(
-      cloud, pose_of(trusting), may_be_poor ? MaskCheck::Points::kAll : MaskCheck::Points::kMasked);
-  std::optional<Odometry::Alignment> ignoring;
-  if (may_be_poor) {
-    ignoring = align_overruled(cloud, dynamic_points(cloud));
-    MaskEvidence other = mask_check_.compare(cloud, pose_of(*ignoring));
-    ignoring->is_valid = ignoring->is_valid && other.supported_share > kMinSupported;
-    if (other.supported_share > kMinSupportGain * evidence.supported_share) {
-      evidence = std::move(other);
-    }
-  }
-  if (evidence.overruled_share >= kMinOverruledShare) {
-    Odometry::Alignment checked = align_overruled(cloud, std::move(evidence.overruled));
-    if (checked.is_valid) return checked;
-  }
-  if (!trusting.is_valid && ignoring && ignoring->is_valid) {
-    cloud.overruled = dynamic_points(cloud);
-    return *std::move(ignoring);
-  }
-  cloud.overruled = {};
-  return trusting;
-}
-
-/// A first frame under masks: those of clusters larger than an object are overruled, and if that is
-/// not enough, all.
-Odometry::Alignment Localization::align_first(LabeledCloud& cloud, double masked) const {
-  Image<std::uint8_t> large = points_of_large_clusters(cloud, sizes_);
-  const bool is_enough = masked - overruled_share(cloud, large) <= kMuchMasked;
-  return align_overruled(cloud, is_enough ? std::move(large) : dynamic_points(cloud));
-}
-
-Odometry::Alignment Localization::align_overruled(LabeledCloud& cloud,
-                                                  Image<std::uint8_t> overruled) const {
-  cloud.overruled = std::move(overruled);
-  return odometry_.align(extract_for_pose(extractor_, cloud));
 }
 
 }  // namespace mms

@@ -1,17 +1,12 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-
-#include "mms/core/image.hpp"
 #include "mms/core/thread_confinement.hpp"
-#include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
-#include "mms/mapping/motion_segmentation/mask_check.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
 #include "mms/pipeline/frame_result.hpp"
 #include "mms/pipeline/perception.hpp"
+#include "mms/pipeline/pose_hypotheses.hpp"
 #include "mms/pipeline/system_config.hpp"
 
 namespace mms {
@@ -31,15 +26,10 @@ class Localization {
 
  private:
   void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
-  Odometry::Alignment align(LabeledCloud& cloud, FeatureCloud features) const;
-  Odometry::Alignment align_first(LabeledCloud& cloud, double masked) const;
-  Odometry::Alignment align_overruled(LabeledCloud& cloud, Image<std::uint8_t> overruled) const;
 
   Odometry odometry_;
   MotionSegmentation motion_segmentation_;
-  MaskCheck mask_check_;
-  FeatureExtractor extractor_;  ///< of frames whose masks were overruled
-  std::array<ObjectSize, kObjectClassCount> sizes_;
+  PoseHypotheses hypotheses_;
   KeyframeSelector keyframes_;
   ThreadConfinement thread_;
 };

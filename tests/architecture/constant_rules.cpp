@@ -12,8 +12,8 @@ namespace mms::testing {
 namespace fs = std::filesystem;
 namespace {
 
-const std::set<std::string> kUnits = {"-",   "1",   "m",      "px",    "s",
-                                      "deg", "rad", "voxels", "nodes", "grey levels"};
+const std::set<std::string> kUnits = {"-",   "1",      "m",     "px",     "s",  "deg",
+                                      "rad", "voxels", "nodes", "frames", "ms", "grey levels"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

@@ -7,7 +7,8 @@ namespace {
 
 using testing::constant_faults;
 
-constexpr const char* kCheckedFolders[] = {"mms/localization", "mms/fusion", "mms/mapping"};
+constexpr const char* kCheckedFolders[] = {"mms/localization", "mms/fusion", "mms/mapping",
+                                           "mms/pipeline"};
 
 std::vector<std::string> faults_of(const std::string& source) {
   return constant_faults("a.cpp", source);
