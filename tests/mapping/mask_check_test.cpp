@@ -69,6 +69,7 @@ TEST(MaskCheck, OverrulesAMaskOnASurfaceSeenBefore) {
   const MaskEvidence evidence = compare(wall_with_box(0.0, 2.0F), cloud);
   EXPECT_EQ(count(evidence.overruled), static_cast<std::size_t>(kWidth * kHeight));
   EXPECT_NEAR(evidence.overruled_share, 40.0 * 60.0 / (160.0 * 120.0), 1e-9);
+  EXPECT_EQ(evidence.masked_agreement, 1.0);
 }
 
 TEST(MaskCheck, BelievesAMaskInFreeSpace) {
@@ -76,6 +77,7 @@ TEST(MaskCheck, BelievesAMaskInFreeSpace) {
   const MaskEvidence evidence = compare(wall_with_box(0.0, 3.0F), cloud);
   EXPECT_TRUE(evidence.overruled.empty());
   EXPECT_EQ(evidence.overruled_share, 0.0);
+  EXPECT_LT(evidence.masked_agreement, 0.01);
 }
 
 TEST(MaskCheck, BelievesAMaskThatWasThereBefore) {
@@ -91,7 +93,9 @@ TEST(MaskCheck, BelievesAMaskBehindASurfaceSeenBefore) {
 TEST(MaskCheck, BelievesMasksWithoutAView) {
   const MaskCheck check({}, {});
   EXPECT_FALSE(check.has_views());
-  EXPECT_TRUE(check.compare(masked(wall_with_box(0.0, 2.0F)), pose({0, 0, 0})).overruled.empty());
+  const MaskEvidence evidence = check.compare(masked(wall_with_box(0.0, 2.0F)), pose({0, 0, 0}));
+  EXPECT_TRUE(evidence.overruled.empty());
+  EXPECT_EQ(evidence.masked_agreement, 0.0);
 }
 
 TEST(MaskCheck, ComparesFromAnotherPose) {
@@ -123,6 +127,7 @@ TEST(MaskCheck, OverrulesThePartOfAMaskOnASurfaceSeenBefore) {
   }
   EXPECT_EQ(upper, 0U);
   EXPECT_GT(count(evidence.overruled), static_cast<std::size_t>(kWidth * kHeight / 3));
+  EXPECT_NEAR(evidence.masked_agreement, 0.5, 0.05);
 }
 
 /// A vehicle that moves with the sensor, and a wall beside it, in one cluster under a false mask.

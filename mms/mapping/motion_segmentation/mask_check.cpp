@@ -47,9 +47,13 @@ struct Votes {
     surface += seen == Seen::kSurface;
     against += is_against(seen);
   }
-  bool are_static(double agreement) const {
+  /// Share of the known nodes that are on surfaces; 0 without any.
+  double agreement() const {
+    return surface == 0 ? 0.0 : static_cast<double>(surface) / (surface + against);
+  }
+  bool are_static(double least) const {
     const int known = surface + against;
-    return known > 0 && known >= kMinKnown * nodes && surface >= agreement * known;
+    return known > 0 && known >= kMinKnown * nodes && surface >= least * known;
   }
 };
 
@@ -125,6 +129,17 @@ SeenNodes observe(const LabeledCloud& cloud, const Query& views,
     });
   });
   return nodes;
+}
+
+/// The votes of the masked nodes.
+Votes masked_votes(const LabeledCloud& cloud, const SeenNodes& nodes) {
+  Votes votes;
+  for (int y = 0; y < nodes.height(); ++y) {
+    for (int x = 0; x < nodes.width(); ++x) {
+      if (cloud.labels[point_of(cloud, x, y)] == PointLabel::kDynamic) votes.add(nodes(x, y));
+    }
+  }
+  return votes;
 }
 
 /// The votes of each cluster's nodes.
@@ -205,6 +220,7 @@ MaskEvidence MaskCheck::compare(const LabeledCloud& cloud,
   MaskEvidence evidence;
   evidence.supported_share =
       all ? share_on_surfaces(cloud, nodes) : std::numeric_limits<double>::quiet_NaN();
+  evidence.masked_agreement = masked_votes(cloud, nodes).agreement();
   evidence.overruled = overruled_points(cloud, nodes, config_.agreement);
   evidence.overruled_share = overruled_share(cloud, evidence.overruled);
   if (evidence.overruled_share == 0.0) evidence.overruled = {};

@@ -22,6 +22,7 @@ struct MaskEvidence {
   /// Of the valid points, masked or not, on static surfaces; NaN where only masked ones were
   /// compared.
   double supported_share = 0.0;
+  double masked_agreement = 0.0;  ///< of the masked points in known space, on static surfaces
 };
 
 /// Compares masked points of depth images with the static surfaces of recent views (beyond the
