@@ -38,6 +38,10 @@ TEST(Pictures, MaskIsOnePlusClass) {
   EXPECT_EQ(closed(1, 1), 2) << "under the vehicle's mask, without depth";
   EXPECT_EQ(closed(0, 0), 1) << "a mask of its own";
   EXPECT_EQ(closed(3, 0), 0);
+  with_mask.overruled = Image<std::uint8_t>(4, 2);
+  with_mask.overruled[7] = 1;
+  EXPECT_EQ(mask_of(with_mask)(3, 1), kOverruledMask);
+  EXPECT_EQ(mask_of(with_mask)(1, 1), 2);
   LabeledCloud lidar = view_of(0)->cloud;
   lidar.width = 8;
   lidar.height = 1;

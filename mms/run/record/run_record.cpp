@@ -74,11 +74,12 @@ std::optional<FrameRecord> frame_of(const TextLine& line) {
   const auto status = status_of(line.fields[2]);
   const auto share = parse_double(line.fields[3]);
   if (!stamp || !index || !status || !share || *index < 0) return std::nullopt;
-  if (line.fields.size() == 6 &&
-      (!parse_double(line.fields[4]) || !parse_integer(line.fields[5]))) {
-    return std::nullopt;
+  FrameRecord frame = {*stamp, *index, *status, *share, std::nullopt};
+  if (line.fields.size() == 6) {
+    frame.overruled_share = parse_double(line.fields[4]);
+    if (!frame.overruled_share || !parse_integer(line.fields[5])) return std::nullopt;
   }
-  return FrameRecord{*stamp, *index, *status, *share};
+  return frame;
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct FrameRecord {
   std::int64_t index = 0;  ///< in the recording
   Status status = Status::kTracking;
   double dynamic_share = 0.0;
+  std::optional<double> overruled_share;  ///< unknown of runs of earlier versions
 };
 
 RunRecord record_of(const RunOptions& options, const std::optional<CameraIntrinsics>& camera,

@@ -42,6 +42,7 @@ std::vector<float> series_of(const Processed& processed, const SceneFrame& frame
   std::vector<float> values = {static_cast<float>(processed.read_ms)};
   for (const double ms : result.stage_ms) values.push_back(static_cast<float>(ms));
   values.push_back(static_cast<float>(result.dynamic_share));
+  values.push_back(static_cast<float>(result.overruled_share));
   values.push_back(static_cast<float>(result.objects.size()));
   append_distances(values, frame, has_truth);
   return values;

@@ -76,8 +76,11 @@ std::vector<float> series_of(const RunFiles& files, const SceneFrame& frame) {
   const auto times = files.times.find(frame.stamp);
   if (times != files.times.end()) values = times->second;
   const auto record = files.frames.find(frame.stamp);
-  values.push_back(record == files.frames.end() ? kUnknown
-                                                : static_cast<float>(record->second.dynamic_share));
+  const bool is_known = record != files.frames.end();
+  values.push_back(is_known ? static_cast<float>(record->second.dynamic_share) : kUnknown);
+  values.push_back(is_known && record->second.overruled_share
+                       ? static_cast<float>(*record->second.overruled_share)
+                       : kUnknown);
   values.push_back(static_cast<float>(frame.objects.size()));
   append_distances(values, frame, !files.truth.empty());
   return values;

@@ -12,6 +12,7 @@ std::vector<SeriesName> run_series(bool has_truth) {
     series.push_back({std::string(to_string(static_cast<Stage>(i))), "ms"});
   }
   series.push_back({"dynamic_share", "ratio"});
+  series.push_back({"overruled_share", "ratio"});
   series.push_back({"objects", "count"});
   series.push_back({"drift_cm", "cm"});
   if (has_truth) series.push_back({"error_cm", "cm"});

@@ -90,6 +90,9 @@ Image<std::uint8_t> mask_of(const LabeledCloud& cloud) {
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (mask[i] == 0 && is_dynamic(cloud, i)) mask[i] = value_of(ObjectClass::kPerson);
   }
+  for (std::size_t i = 0; i < cloud.overruled.size(); ++i) {
+    if (cloud.overruled[i] != 0) mask[i] = kOverruledMask;
+  }
   return mask;
 }
 

@@ -23,8 +23,10 @@ inline constexpr int kMaxImageWidth = 640;  ///< [px]
 /// Image downsampled to at most `max_width` by averaging blocks.
 Image<Rgb> shrunk(const Image<Rgb>& image, int max_width);
 
-/// Dynamic pixels of an organized cloud, one byte per pixel: 0 static, 1 + class id; empty for
-/// others. Mask pixels without depth get the class of the nearest pixel with depth.
+inline constexpr std::uint8_t kOverruledMask = 255;  ///< value of overruled points in `mask_of`
+
+/// Dynamic pixels of an organized cloud, one byte per pixel: 0 static, 1 + class id, or
+/// `kOverruledMask`; empty for others. Mask pixels without depth get the class of the nearest pixel with depth.
 Image<std::uint8_t> mask_of(const LabeledCloud& cloud);
 
 /// Evenly selected valid points of a scan, at most `max_points`.

@@ -86,7 +86,7 @@ const kUnits: Unit[] = ['ms', 'ratio', 'count', 'cm'];
 /** The unit that was sent, or the default one of that name. */
 export function unit(sent: string | undefined, name: string): Unit {
   if (kUnits.includes(sent as Unit)) return sent as Unit;
-  if (name === 'dynamic_share') return 'ratio';
+  if (name.endsWith('_share')) return 'ratio';
   if (name === 'objects') return 'count';
   return name.endsWith('_cm') ? 'cm' : 'ms';
 }

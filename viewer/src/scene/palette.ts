@@ -4,6 +4,7 @@ export const kColors = {
   person: '#ff4d5e',
   vehicle: '#3ddc84',
   object: '#ffb84d',
+  overruled: '#5b7cff',
   trajectory: '#4db8ff',
   truth: '#f2e3b6',
   staticScan: '#62d6e8',

@@ -11,6 +11,7 @@ import { clock, quantity, words } from './format';
 const kStageColors = ['#4db8ff', '#9b8cff', '#ff9f43', '#3ddcc0', '#f2d35e', '#ff6fae', '#8fa3b8', '#b7e06a'];
 const kColorOf: Record<string, string> = {
   dynamic_share: kColors.dynamicScan,
+  overruled_share: kColors.overruled,
   objects: kColors.person,
   error_cm: kColors.truth,
   drift_cm: kColors.trajectory,

@@ -27,7 +27,7 @@ export const kRows: Row[] = [
   { layer: 'trajectory', name: 'Trajectory', key: 'T', colors: [kColors.trajectory], hint: 'Trajectory of the sensor' },
   { layer: 'truth', name: 'Truth', key: 'G', colors: [kColors.truth], hint: 'Where the sensor really was' },
   { layer: 'camera', name: 'Sensor', key: 'C', colors: [kColors.camera], hint: 'Where the sensor looks' },
-  { layer: 'masks', name: 'Image masks', key: 'K', colors: [kColors.person, kColors.vehicle], hint: 'What was found in the image' },
+  { layer: 'masks', name: 'Image masks', key: 'K', colors: [kColors.person, kColors.vehicle], hint: 'What was found in the image; overruled masks are blue' },
   { layer: 'grid', name: 'Floor grid', key: 'F', colors: ['#4a5d75'], hint: 'One line per meter' },
   { layer: 'ceiling', name: 'Upper part', key: 'U', colors: [], hint: 'Also show points more than 1 m above the sensor' },
 ];

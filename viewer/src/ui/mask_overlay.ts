@@ -1,7 +1,10 @@
+import { kColors } from '../scene/palette';
+
+const kOverruled = 255; // gray value of masked points that count as static for the pose
 const kFill = 105;
 const kEdge = 255;
 
-/** A mask (gray value 0: static, 1 + class index) in the classes' colors: pale inside, opaque at the boundary. */
+/** A mask (gray value 0: static, 1 + class index, 255: overruled) in colors: pale inside, opaque at the boundary. */
 export function tintMask(mask: ImageBitmap, colors: string[]): HTMLCanvasElement {
   const { width, height } = mask;
   const canvas = document.createElement('canvas');
@@ -20,7 +23,7 @@ export function tint(pixels: Uint8ClampedArray, width: number, height: number, c
   const labels = Uint8Array.from({ length: width * height }, (_, i) => pixels[4 * i]);
   for (let i = 0; i < labels.length; ++i) {
     const label = labels[i];
-    const color = colors[label - 1] ?? kUnknown;
+    const color = label === kOverruled ? rgb(kColors.overruled) : (colors[label - 1] ?? kUnknown);
     pixels.set(label === 0 ? kClear : [...color, isEdge(labels, i, width) ? kEdge : kFill], 4 * i);
   }
 }

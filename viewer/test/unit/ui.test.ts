@@ -55,4 +55,10 @@ describe('tint', () => {
     expect(at(2, 2)).toEqual([255, 0, 0, 105]);
     expect(at(4, 4)).toEqual([0, 255, 0, 255]);
   });
+
+  it('colors overruled masks blue and unknown classes amber', () => {
+    const pixels = new Uint8ClampedArray([255, 255, 255, 255, 7, 7, 7, 255]);
+    tint(pixels, 2, 1, [[255, 0, 0]]);
+    expect([...pixels]).toEqual([91, 124, 255, 255, 255, 184, 77, 255]);
+  });
 });
