@@ -6,6 +6,10 @@
 #include "mms/dataset/bag/bag_source.hpp"
 #include "mms/dataset/folder/folder_rgbd.hpp"
 #include "mms/dataset/kitti/kitti_lidar.hpp"
+#include "mms/dataset/numbered/open3d.hpp"
+#include "mms/dataset/numbered/replica.hpp"
+#include "mms/dataset/numbered/scannet.hpp"
+#include "mms/dataset/numbered/tartan_air.hpp"
 #include "mms/dataset/simulated/simulated_source.hpp"
 #include "mms/dataset/tum/tum_rgbd.hpp"
 #include "mms/io/text/files.hpp"
@@ -22,9 +26,12 @@ struct FolderLayout {
   std::unique_ptr<FrameSource> (*open)(const fs::path& folder, const SourceOptions& options);
 };
 
-constexpr FolderLayout kLayouts[] = {{is_tum_rgbd_layout, open_tum_rgbd},
-                                     {is_folder_rgbd_layout, open_folder_rgbd},
-                                     {is_kitti_lidar_layout, open_kitti_lidar}};
+/// The first one that matches is used.
+constexpr FolderLayout kLayouts[] = {
+    {is_scannet_layout, open_scannet},        {is_open3d_layout, open_open3d},
+    {is_tum_rgbd_layout, open_tum_rgbd},      {is_replica_layout, open_replica},
+    {is_tartan_air_layout, open_tartan_air},  {is_folder_rgbd_layout, open_folder_rgbd},
+    {is_kitti_lidar_layout, open_kitti_lidar}};
 
 const FolderLayout* layout_of(const Names& names) {
   const auto* found =
@@ -70,8 +77,9 @@ std::string find_recording(const fs::path& folder, const Names& names) {
   throw DataError(folder.string(), found_text(names) + ": no recording found",
                   !nested.empty() ? "did you mean " + nested + "?"
                                   : "expected rgb.txt and depth.txt or associations.txt (TUM "
-                                    "RGB-D), *.color.png and *.depth.png (7-Scenes), or *.bin "
-                                    "scans (KITTI)");
+                                    "RGB-D), numbered images in color/ and depth/ (Open3D, "
+                                    "ScanNet), results/ (Replica), *.color.png and *.depth.png "
+                                    "(7-Scenes), or *.bin scans (KITTI); docs/formats.md has all");
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "tests/dataset/recording.hpp"
@@ -46,6 +49,83 @@ TEST(KittiLidar, ReadsStampsFromTimes) {
   folder.write("times.txt", "3.5\n");
   expect_in("has 1 stamps for 2 scans",
             message_of<DataError>([&] { open_dataset(folder.path()); }));
+}
+
+/// A ring of points 10 m away, with these numbers after x y z.
+std::string ring_of_points(const std::vector<float>& more) {
+  std::string bytes;
+  for (int i = 0; i < 720; ++i) {
+    const double angle = i * M_PI / 360.0;
+    std::vector<float> record = {static_cast<float>(10.0 * std::cos(angle)),
+                                 static_cast<float>(10.0 * std::sin(angle)), 0.5F};
+    record.insert(record.end(), more.begin(), more.end());
+    bytes.append(reinterpret_cast<const char*>(record.data()), record.size() * sizeof(float));
+  }
+  return bytes;
+}
+
+TEST(KittiLidar, RecognizesNumbersOfAPoint) {
+  const std::vector<std::vector<float>> records = {{}, {0.5F}, {30, 7}, {30, 7, 0.1F}};
+  for (const std::vector<float>& more : records) {
+    const TempFolder folder;
+    folder.write("0.bin", "");
+    folder.write("1.bin", ring_of_points(more));
+    const Playback played(open_dataset(folder.path()));
+    ASSERT_EQ(played.frames.size(), 1U);
+    const LidarScan& scan = played.frames[0].scan;
+    ASSERT_EQ(scan.points.size(), 720U) << more.size();
+    for (const Eigen::Vector3f& point : scan.points) {
+      EXPECT_NEAR(point.head<2>().norm(), 10.0F, 1e-4F);
+      EXPECT_EQ(point.z(), 0.5F);
+    }
+    EXPECT_EQ(scan.intensity.size(), more.empty() ? 0U : 720U);
+    EXPECT_TRUE(any_has(played.source->describe(),
+                        "points: " + std::to_string(3 + more.size()) + " float32 each"));
+  }
+}
+
+TEST(KittiLidar, ReadsNuScenes) {
+  const TempFolder folder;
+  folder.write("n008__LIDAR_TOP__1532402927647951.pcd.bin", ring_of_points({30, 7}));
+  folder.write("n008__LIDAR_TOP__1532402927697951.pcd.bin", ring_of_points({30, 7}));
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[0].scan.points.size(), 720U);
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(1'532'402'927'647'951'000));
+  EXPECT_EQ(played.frames[1].stamp - played.frames[0].stamp, std::chrono::milliseconds(50));
+}
+
+/// The layout of the odometry benchmark: poses of camera 0, images of camera 2.
+TEST(KittiLidar, ReadsOdometryBenchmark) {
+  const TempFolder folder;
+  const std::string sequence = "sequences/03/";
+  folder.write(sequence + "velodyne/000000.bin", kPoint);
+  folder.write(sequence + "velodyne/000001.bin", kPoint);
+  folder.write(sequence + "times.txt", "0.0\n0.1\n");
+  // Camera: x right, y down, z forward. LiDAR: x forward, y left, z up, 0.3 m behind the camera.
+  folder.write(sequence + "calib.txt",
+               "P0: 10 0 4 0 0 10 3 0 0 0 1 0\nP2: 10 0 4 0.6 0 10 3 0 0 0 1 0\n"
+               "Tr: 0 -1 0 0 0 0 -1 0 1 0 0 -0.3\n");
+  // Camera 0 moves 2 m forward.
+  folder.write("poses/03.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 2\n");
+  write_color(folder.path() / sequence / "image_2/000000.png");
+  const Playback played(open_dataset(folder.path() / sequence));
+  ASSERT_EQ(played.frames.size(), 2U);
+  const Calibration& calibration = *played.frames[0].calibration;
+  ASSERT_TRUE(calibration.camera);
+  EXPECT_EQ(calibration.camera->width, kWidth);
+  EXPECT_EQ(played.frames[0].color.width(), kWidth);
+  // Camera 0 lies 0.06 m to the right in the frame of camera 2.
+  const Eigen::Vector3d lidar = calibration.T_camera_lidar.isometry().translation();
+  EXPECT_TRUE(lidar.isApprox(Eigen::Vector3d(0.06, 0, -0.3), 1e-9));
+  ASSERT_EQ(played.source->ground_truth().size(), 2U);
+  const Eigen::Isometry3d step =
+      played.source->ground_truth()[0].T_world_sensor.isometry().inverse() *
+      played.source->ground_truth()[1].T_world_sensor.isometry();
+  EXPECT_TRUE(step.translation().isApprox(Eigen::Vector3d(2, 0, 0), 1e-9));
+  folder.write(sequence + "calib.txt", "P2: 10 0 4 0 0 10 3 0 0 0 1 0\n");
+  expect_in("calib.txt: has no line 'Tr:'",
+            message_of<DataError>([&] { open_dataset(folder.path() / sequence); }));
 }
 
 TEST(KittiLidar, SkipsEmptyAndTruncatedScans) {

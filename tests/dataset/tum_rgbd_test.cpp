@@ -209,11 +209,61 @@ TEST(TumRgbd, ErrorNamesLineOfDamagedGroundTruth) {
 }
 
 TEST(TumCalibration, IsDerivedFromFolderName) {
-  EXPECT_EQ(tum_default_calibration("/d/rgbd_dataset_freiburg1_xyz")->camera->fx, 517.3);
-  EXPECT_EQ(tum_default_calibration("/d/FR2_desk/")->camera->fx, 520.9);
-  EXPECT_EQ(tum_default_calibration("fr3_walking")->camera->distortion, (std::array<double, 5>{}));
-  EXPECT_EQ(tum_default_calibration("fr3_walking")->depth_scale, 5000.0);
-  EXPECT_FALSE(tum_default_calibration("/fr1/kitchen"));
+  EXPECT_EQ(default_calibration("/d/rgbd_dataset_freiburg1_xyz")->camera->fx, 517.3);
+  EXPECT_EQ(default_calibration("/d/FR2_desk/")->camera->fx, 520.9);
+  EXPECT_EQ(default_calibration("fr3_walking")->camera->distortion, (std::array<double, 5>{}));
+  EXPECT_EQ(default_calibration("fr3_walking")->depth_scale, 5000.0);
+  EXPECT_EQ(default_calibration("/d/rgbd_bonn_crowd")->camera->fx, 542.822841);
+  EXPECT_FALSE(default_calibration("/fr1/kitchen"));
+}
+
+TEST(TumRgbd, ReadsCalibrationOfEth3d) {
+  const TempFolder folder;
+  write_tum(folder, 1);
+  std::filesystem::remove(folder.path() / "calibration.yaml");
+  folder.write("calibration.txt", "10 11 4 3\n");
+  const Frame frame = Playback(open_dataset(folder.path())).frames.at(0);
+  EXPECT_EQ(frame.calibration->camera->fy, 11.0);
+  EXPECT_EQ(frame.calibration->camera->width, kWidth);
+  EXPECT_NEAR(frame.depth(0, 0), 1500.0 / 5000.0, 1e-6);
+  folder.write("calibration.txt", "10 11 4\n");
+  expect_in("calibration.txt: has 3 numbers (expected fx fy cx cy", error_of(folder));
+}
+
+TEST(TumRgbd, ReadsListsOfOpenLoris) {
+  const TempFolder folder;
+  write_tum(folder, 2);
+  std::filesystem::rename(folder.path() / "rgb.txt", folder.path() / "color.txt");
+  std::filesystem::rename(folder.path() / "depth.txt", folder.path() / "aligned_depth.txt");
+  EXPECT_EQ(Playback(open_dataset(folder.path())).names(), "f0 f1");
+}
+
+/// ICL-NUIM numbers its images in place of stamps, and the y axis of its camera is up.
+TEST(TumRgbd, ReadsIclNuim) {
+  const TempFolder folder;
+  std::string pairs;
+  for (const char* name : {"0", "1"}) {
+    const std::string file = std::string(name) + ".png";
+    std::filesystem::create_directories(folder.path() / "rgb");
+    std::filesystem::create_directories(folder.path() / "depth");
+    write_png(folder.path() / "rgb" / file, Image<Rgb>(640, 480));
+    write_png(folder.path() / "depth" / file, Image<std::uint16_t>(640, 480, 5000));
+    pairs += std::string(name) + " depth/" + file + " " + name + " rgb/" + file + "\n";
+  }
+  folder.write("associations.txt", pairs);
+  // 30 degrees about x.
+  folder.write("livingRoom0.gt.freiburg", "0 0 0 0 0 0 0 1\n1 1 2 3 0.25881905 0 0 0.96592583\n");
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[1].stamp, Timestamp(33'333'333));
+  EXPECT_EQ(played.frames[1].depth(0, 0), 1.0F);
+  EXPECT_EQ(played.frames[1].calibration->camera->fy, 480.0);
+  ASSERT_EQ(played.source->ground_truth().size(), 2U);
+  const StampedPose& pose = played.source->ground_truth()[1];
+  EXPECT_EQ(pose.stamp, played.frames[1].stamp);
+  EXPECT_TRUE(pose.T_world_sensor.translation().isApprox(Eigen::Vector3d(1, -2, 3)));
+  const Eigen::AngleAxisd back(-30.0 * M_PI / 180.0, Eigen::Vector3d::UnitX());
+  EXPECT_TRUE(pose.T_world_sensor.isometry().linear().isApprox(back.toRotationMatrix(), 1e-6));
 }
 
 TEST(TumRgbd, ReadsSharedRecordings) {

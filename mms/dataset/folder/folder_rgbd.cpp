@@ -3,17 +3,16 @@
 #include <algorithm>
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/source/assumed_stamp.hpp"
+#include "mms/dataset/source/pose_file.hpp"
 #include "mms/dataset/source/rgbd_source.hpp"
 #include "mms/io/config/calibration_io.hpp"
 #include "mms/io/text/files.hpp"
-#include "mms/io/text/pose_text.hpp"
-#include "mms/io/text/text_table.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::int64_t kRate = 30;
 constexpr std::string_view kColorEndings[] = {".color.png", ".color.jpg", ".color.jpeg"};
 
 /// Prefix of a color image's name; empty for other files.
@@ -43,27 +42,6 @@ void read_calibration_of(RgbdRecording& recording) {
   recording.calibration = std::make_shared<const Calibration>(calibration);
 }
 
-StampedPose read_pose(const fs::path& path, Timestamp stamp) {
-  const TextTable table(path);
-  std::vector<std::string_view> fields;
-  for (const TextLine& line : table.lines()) {
-    fields.insert(fields.end(), line.fields.begin(), line.fields.end());
-  }
-  const std::string where = path.string();
-  return {stamp, Transform<World, Sensor>(isometry_from_rows(parse_finite(fields, where), where))};
-}
-
-/// 7-Scenes writes NaN where tracking was lost: a frame without ground truth.
-void add_pose(RgbdRecording& recording, const std::string& name, Timestamp stamp) {
-  const fs::path path = recording.folder / (name + ".pose.txt");
-  if (!fs::exists(path)) return;
-  try {
-    recording.ground_truth.push_back(read_pose(path, stamp));
-  } catch (const Error& error) {
-    recording.warnings.push_back(std::string("pose skipped: ") + error.what());
-  }
-}
-
 }  // namespace
 
 bool is_folder_rgbd_layout(const std::vector<std::string>& names) {
@@ -77,15 +55,17 @@ std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
   recording.folder = folder;
   recording.invalid_depth = 65535;
   recording.facts.emplace_back("layout: folder of color, depth and pose files (7-Scenes)");
+  std::vector<fs::path> poses;
   for (const std::string& file : list_folder(folder)) {
     const std::string name = frame_name(file);
     if (name.empty()) continue;
     const auto index = static_cast<std::int64_t>(recording.frames.size());
-    const Timestamp stamp(index * 1'000'000'000 / kRate);
+    const Timestamp stamp = assumed_stamp(index);
     recording.frames.push_back(
         {stamp, Duration::zero(), folder / file, folder / (name + ".depth.png"), {}, name});
-    add_pose(recording, name, stamp);
+    poses.push_back(folder / (name + ".pose.txt"));
   }
+  add_pose_files(recording, poses);  // NaN where tracking was lost
   read_calibration_of(recording);
   find_masks(recording, options);
   return std::make_unique<RgbdSource>(std::move(recording));

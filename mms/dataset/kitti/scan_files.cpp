@@ -83,7 +83,7 @@ void find_companions(std::vector<ScanFiles>& scans, const fs::path& folder,
   const fs::path images = folder / "image_2";
   if (!calibration.camera) {
     if (fs::is_directory(images)) {
-      facts.emplace_back("images: not used, calibration.yaml has no camera");
+      facts.emplace_back("images: not used, the calibration has no camera");
     }
     return;
   }
@@ -92,11 +92,11 @@ void find_companions(std::vector<ScanFiles>& scans, const fs::path& folder,
   if (options.load_masks) find_masks(scans, folder, options, facts);
 }
 
-Frame read_scan_frame(const ScanFiles& files,
+Frame read_scan_frame(const ScanFiles& files, int floats,
                       const std::shared_ptr<const Calibration>& calibration) {
   Frame frame;
   frame.calibration = calibration;
-  frame.scan = read_kitti_scan(files.scan);
+  frame.scan = read_kitti_scan(files.scan, floats);
   if (!files.times.empty()) {
     frame.scan.time_offset = read_point_times(files.times);
     if (frame.scan.time_offset.size() != frame.scan.points.size()) {

@@ -30,9 +30,10 @@ void find_companions(std::vector<ScanFiles>& scans, const std::filesystem::path&
                      std::vector<std::string>& facts);
 
 /// The frame without index, stamp and name.
+/// @param floats  numbers of a point (floats_per_point)
 /// @throws FileError, DataError if a file is damaged, the number of times is not that of the
 /// points, or an image has a size other than the calibration's.
-Frame read_scan_frame(const ScanFiles& files,
+Frame read_scan_frame(const ScanFiles& files, int floats,
                       const std::shared_ptr<const Calibration>& calibration);
 
 }  // namespace mms

@@ -1,8 +1,10 @@
 #include "mms/dataset/source/rgbd_source.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/source/depth_file.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/io/text/numbers.hpp"
@@ -23,14 +25,22 @@ void check_size(const Image<T>& image, const CameraIntrinsics& camera, const fs:
                                      size_text(camera.width, camera.height));
 }
 
-/// Depth in meters of a raw depth image, 0 for no return.
-Image<float> to_metres(const Image<std::uint16_t>& raw, double scale, std::uint16_t invalid) {
-  Image<float> depth(raw.width(), raw.height());
-  const float units = static_cast<float>(scale);
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    depth[i] = raw[i] == invalid ? 0.0F : static_cast<float>(raw[i]) / units;
+/// The pixels of `from` that see the same points as those of `to`, nearest ones; T() beyond the
+/// image. Distortion is ignored.
+template <class T>
+Image<T> sampled(const Image<T>& image, const CameraIntrinsics& from, const CameraIntrinsics& to) {
+  Image<T> result(to.width, to.height);
+  for (int y = 0; y < to.height; ++y) {
+    const long v = std::lround(from.fy * (y - to.cy) / to.fy + from.cy);
+    if (v < 0 || v >= image.height()) continue;
+    for (int x = 0; x < to.width; ++x) {
+      const long u = std::lround(from.fx * (x - to.cx) / to.fx + from.cx);
+      if (u >= 0 && u < image.width()) {
+        result(x, y) = image(static_cast<int>(u), static_cast<int>(v));
+      }
+    }
   }
-  return depth;
+  return result;
 }
 
 }  // namespace
@@ -83,14 +93,19 @@ Frame RgbdSource::read(std::size_t index) const {
   Frame frame;
   frame.calibration = recording_.calibration;
   frame.depth_offset = files.depth_offset;
+  const CameraIntrinsics color_camera = recording_.color_camera.value_or(camera);
   frame.color = read_color(files.color);
-  check_size(frame.color, camera, files.color);
-  const Image<std::uint16_t> raw = read_depth16(files.depth);
-  check_size(raw, camera, files.depth);
-  frame.depth = to_metres(raw, recording_.calibration->depth_scale, recording_.invalid_depth);
+  check_size(frame.color, color_camera, files.color);
+  frame.depth =
+      read_depth(files.depth, recording_.calibration->depth_scale, recording_.invalid_depth);
+  check_size(frame.depth, camera, files.depth);
   if (!files.mask.empty()) {
     frame.mask = read_mask(files.mask);
-    check_size(frame.mask, camera, files.mask);
+    check_size(frame.mask, color_camera, files.mask);
+  }
+  if (recording_.color_camera) {
+    frame.color = sampled(frame.color, color_camera, camera);
+    if (!frame.mask.empty()) frame.mask = sampled(frame.mask, color_camera, camera);
   }
   return frame;
 }

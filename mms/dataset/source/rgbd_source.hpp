@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "mms/dataset/source/recorded_source.hpp"
 #include "mms/dataset/source/source_options.hpp"
@@ -14,7 +17,7 @@ struct RgbdFiles {
   Timestamp stamp;              ///< of the color image
   Duration depth_offset{0};     ///< of the depth image, relative to `stamp`
   std::filesystem::path color;  ///< 8-bit image
-  std::filesystem::path depth;  ///< 16-bit image, registered to `color`
+  std::filesystem::path depth;  ///< as of `read_depth`, registered to `color`
   std::filesystem::path mask;   ///< empty for none
   std::string name;             ///< file name of the frame's mask without ".png"
 };
@@ -24,10 +27,13 @@ struct RgbdRecording {
   std::filesystem::path folder;                    ///< of the recording
   std::vector<RgbdFiles> frames;                   ///< in order of stamps
   std::shared_ptr<const Calibration> calibration;  ///< with a camera
-  std::uint16_t invalid_depth = 0;                 ///< raw value for no return besides 0
-  Trajectory ground_truth;                         ///< empty for none
-  std::vector<std::string> facts;                  ///< lines for `describe`
-  std::vector<std::string> warnings;               ///< non-fatal faults
+  /// Camera of the color images and masks where it is not that of the depth images. It has the
+  /// same place and orientation; colors and masks are sampled for the pixels of the depth images.
+  std::optional<CameraIntrinsics> color_camera;
+  std::uint16_t invalid_depth = 0;    ///< raw value for no return besides 0
+  Trajectory ground_truth;            ///< empty for none
+  std::vector<std::string> facts;     ///< lines for `describe`
+  std::vector<std::string> warnings;  ///< non-fatal faults
 };
 
 /// Finds the frames' masks in `options.masks`, or else in the recording's masks/; adds their number

@@ -7,8 +7,17 @@
 
 namespace mms {
 
-/// The TUM benchmark's published color intrinsics for a folder with freiburg1 (or fr1), 2 or 3 in
-/// its name; nullopt for other names.
-std::optional<Calibration> tum_default_calibration(const std::filesystem::path& folder);
+/// The published color intrinsics of the TUM benchmark for a folder with freiburg1 (or fr1), 2 or 3
+/// in its name, of the Bonn RGB-D Dynamic data set for one with rgbd_bonn; nullopt for other names.
+std::optional<Calibration> default_calibration(const std::filesystem::path& folder);
+
+/// The published intrinsics of ICL-NUIM, for images whose y axis is down.
+Calibration icl_nuim_calibration();
+
+/// Reads calibration.txt of ETH3D: fx fy cx cy [px]. Images have no distortion, and their size is
+/// that of `image`.
+/// @throws FileError if a file cannot be read; DataError for other content.
+Calibration read_eth3d_calibration(const std::filesystem::path& file,
+                                   const std::filesystem::path& image);
 
 }  // namespace mms

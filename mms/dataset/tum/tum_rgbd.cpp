@@ -1,15 +1,17 @@
 #include "mms/dataset/tum/tum_rgbd.hpp"
 
-#include <algorithm>
 #include <chrono>
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/source/assumed_stamp.hpp"
+#include "mms/dataset/source/folder_names.hpp"
 #include "mms/dataset/source/frame_association.hpp"
 #include "mms/dataset/source/image_list.hpp"
 #include "mms/dataset/source/rgbd_source.hpp"
 #include "mms/dataset/tum/tum_calibration.hpp"
 #include "mms/io/config/calibration_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/files.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -32,9 +34,17 @@ std::vector<Timestamp> stamps_of(const std::vector<ListedImage>& images) {
   return stamps;
 }
 
-void match_lists(RgbdRecording& recording) {
-  const auto color = read_image_list(recording.folder / "rgb.txt", recording.warnings);
-  const auto depth = read_image_list(recording.folder / "depth.txt", recording.warnings);
+/// Lists of the color images and of the depth images registered to them.
+struct ListNames {
+  const char* color;
+  const char* depth;
+};
+constexpr ListNames kListNames[] = {{"rgb.txt", "depth.txt"},
+                                    {"color.txt", "aligned_depth.txt"}};  // OpenLORIS
+
+void match_lists(RgbdRecording& recording, const ListNames& names) {
+  const auto color = read_image_list(recording.folder / names.color, recording.warnings);
+  const auto depth = read_image_list(recording.folder / names.depth, recording.warnings);
   for (const auto& [i, j] : associate(stamps_of(color), stamps_of(depth), kMaxDifference)) {
     add_frame(recording, color[i], depth[j]);
   }
@@ -52,12 +62,15 @@ void match_lists(RgbdRecording& recording) {
 }
 
 void read_lists(RgbdRecording& recording) {
+  for (const ListNames& names : kListNames) {
+    if (!fs::exists(recording.folder / names.color)) continue;
+    if (!fs::exists(recording.folder / names.depth)) continue;
+    return match_lists(recording, names);
+  }
   const bool color = fs::exists(recording.folder / "rgb.txt");
   const bool depth = fs::exists(recording.folder / "depth.txt");
   const fs::path associations = recording.folder / "associations.txt";
-  if (color && depth) {
-    match_lists(recording);
-  } else if (fs::exists(associations)) {
+  if (fs::exists(associations)) {
     for (const ListedPair& pair : read_associations(associations, recording.warnings)) {
       add_frame(recording, pair.color, pair.depth);
     }
@@ -73,16 +86,28 @@ void read_lists(RgbdRecording& recording) {
   }
 }
 
-void read_calibration_of(RgbdRecording& recording) {
-  const fs::path file = recording.folder / "calibration.yaml";
-  std::optional<Calibration> calibration;
-  if (fs::exists(file)) {
-    calibration = read_calibration(file);
+std::optional<Calibration> find_calibration(RgbdRecording& recording,
+                                            const std::optional<fs::path>& icl_truth) {
+  const fs::path own = recording.folder / "calibration.yaml";
+  const fs::path eth3d = recording.folder / "calibration.txt";
+  if (fs::exists(own)) {
     recording.facts.emplace_back("calibration: calibration.yaml");
-  } else {
-    calibration = tum_default_calibration(recording.folder);
-    recording.facts.emplace_back("calibration: TUM default of the folder name");
+    return read_calibration(own);
   }
+  if (fs::exists(eth3d)) {
+    recording.facts.emplace_back("calibration: calibration.txt (ETH3D)");
+    return read_eth3d_calibration(eth3d, recording.frames.front().color);
+  }
+  if (icl_truth) {
+    recording.facts.emplace_back("calibration: default of ICL-NUIM");
+    return icl_nuim_calibration();
+  }
+  recording.facts.emplace_back("calibration: default of the folder name");
+  return default_calibration(recording.folder);
+}
+
+void read_calibration_of(RgbdRecording& recording, const std::optional<fs::path>& icl_truth) {
+  const std::optional<Calibration> calibration = find_calibration(recording, icl_truth);
   if (!calibration || !calibration->camera) {
     throw DataError(recording.folder.string(), "has no camera calibration",
                     "add calibration.yaml with fx, fy, cx, cy, width, height in pixels and "
@@ -91,14 +116,43 @@ void read_calibration_of(RgbdRecording& recording) {
   recording.calibration = std::make_shared<const Calibration>(*calibration);
 }
 
+/// Converts stamps that are image numbers, as those of ICL-NUIM, to stamps at 30 Hz.
+void count_at_30_hz(RgbdRecording& recording) {
+  const auto stamp_of = [](Timestamp number) {
+    return Timestamp(number.nanoseconds() / kAssumedRate);
+  };
+  for (RgbdFiles& frame : recording.frames) frame.stamp = stamp_of(frame.stamp);
+  for (StampedPose& pose : recording.ground_truth) pose.stamp = stamp_of(pose.stamp);
+  recording.facts.emplace_back("stamps: image numbers, 30 Hz assumed");
+}
+
+/// Ground truth of ICL-NUIM, as livingRoom0.gt.freiburg.
+std::optional<fs::path> find_icl_truth(const fs::path& folder) {
+  for (const std::string& name : list_folder(folder)) {
+    if (name.ends_with(".gt.freiburg")) return folder / name;
+  }
+  return std::nullopt;
+}
+
+/// Poses of a camera whose y axis is up, in a left-handed world, as poses of ours.
+Trajectory mirrored(Trajectory trajectory) {
+  const Eigen::DiagonalMatrix<double, 3> mirror(1.0, -1.0, 1.0);
+  for (StampedPose& pose : trajectory) {
+    Eigen::Isometry3d T = pose.T_world_sensor.isometry();
+    T.linear() = mirror * T.linear() * mirror;
+    T.translation() = mirror * T.translation();
+    pose.T_world_sensor = Transform<World, Sensor>(T);
+  }
+  return trajectory;
+}
+
 }  // namespace
 
 bool is_tum_rgbd_layout(const std::vector<std::string>& names) {
-  const auto has = [&](const char* name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  return has("rgb.txt") || has("depth.txt") || has("associations.txt") ||
-         (has("rgb") && has("depth"));
+  return has_name(names, "rgb.txt") || has_name(names, "depth.txt") ||
+         has_name(names, "associations.txt") ||
+         (has_name(names, "color.txt") && has_name(names, "aligned_depth.txt")) ||
+         (has_name(names, "rgb") && has_name(names, "depth"));
 }
 
 std::unique_ptr<FrameSource> open_tum_rgbd(const fs::path& folder, const SourceOptions& options) {
@@ -106,10 +160,18 @@ std::unique_ptr<FrameSource> open_tum_rgbd(const fs::path& folder, const SourceO
   recording.folder = folder;
   recording.facts.emplace_back("layout: TUM RGB-D");
   read_lists(recording);
-  read_calibration_of(recording);
+  const std::optional<fs::path> icl_truth = find_icl_truth(folder);
+  read_calibration_of(recording, icl_truth);
   find_masks(recording, options);
   const fs::path truth = folder / "groundtruth.txt";
-  if (fs::exists(truth)) recording.ground_truth = read_trajectory_tum(truth);
+  if (fs::exists(truth)) {
+    recording.ground_truth = read_trajectory_tum(truth);
+  } else if (icl_truth) {
+    recording.ground_truth = mirrored(read_trajectory_tum(*icl_truth));
+    count_at_30_hz(recording);
+    recording.facts.push_back("ground truth: " + icl_truth->filename().string() +
+                              ", mirrored since its camera's y axis is up");
+  }
   return std::make_unique<RgbdSource>(std::move(recording));
 }
 

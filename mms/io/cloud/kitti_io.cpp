@@ -1,5 +1,6 @@
 #include "mms/io/cloud/kitti_io.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -20,23 +21,26 @@ std::string_view bytes_of(const std::vector<float>& values) {
 
 }  // namespace
 
-LidarScan read_kitti_scan(const std::filesystem::path& path) {
+LidarScan read_kitti_scan(const std::filesystem::path& path, int floats) {
   const std::string bytes = read_file(path);
-  float record[4];
+  const std::size_t size = static_cast<std::size_t>(floats) * sizeof(float);
   if (bytes.empty()) throw DataError(path.string(), "is empty");
-  if (bytes.size() % sizeof record != 0) {
-    throw DataError(path.string(),
-                    "has " + std::to_string(bytes.size()) + " bytes, not a multiple of 16",
-                    "a point is x y z reflectance as float32; the scan may be truncated");
+  if (bytes.size() % size != 0) {
+    throw DataError(
+        path.string(),
+        "has " + std::to_string(bytes.size()) + " bytes, not a multiple of " + std::to_string(size),
+        "a point is x y z" + std::string(floats > 3 ? " reflectance" : "") +
+            std::string(floats > 4 ? " ..." : "") + " as float32; the scan may be truncated");
   }
-  const std::size_t count = bytes.size() / sizeof record;
+  const std::size_t count = bytes.size() / size;
   LidarScan scan;
   scan.points.reserve(count);
-  scan.intensity.reserve(count);
+  if (floats > 3) scan.intensity.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    std::memcpy(record, bytes.data() + i * sizeof record, sizeof record);
+    float record[4] = {};
+    std::memcpy(record, bytes.data() + i * size, std::min(size, sizeof record));
     scan.points.emplace_back(record[0], record[1], record[2]);
-    scan.intensity.push_back(record[3]);
+    if (floats > 3) scan.intensity.push_back(record[3]);
   }
   return scan;
 }

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "mms/core/error.hpp"
+#include "mms/io/config/calibration_ranges.hpp"
 #include "mms/io/config/yaml_map.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/numbers.hpp"
@@ -12,11 +13,7 @@
 namespace mms {
 namespace {
 
-constexpr Range kFocal{1e-3, 1e5};
-constexpr Range kCentre{-1e5, 1e5};
-constexpr Range kSide{1, kMaxImageSide};
 constexpr Range kLens{-1e4, 1e4};
-constexpr Range kDepthScale{1e-3, 1e6};
 constexpr Range kMaxDepth{0.1, 1000.0};
 constexpr std::string_view kCameraKeys[] = {
     "fx", "fy", "cx", "cy", "width", "height", "distortion", "depth_scale", "max_depth"};
@@ -35,9 +32,10 @@ std::vector<double> matrix_numbers(const YamlMap& map, const YAML::Node& node,
   std::vector<double> numbers;
   for (const YAML::Node& element : node) {
     if (element.IsSequence()) {
-      for (const YAML::Node& number : element) numbers.push_back(map.number(number, key, kCentre));
+      for (const YAML::Node& number : element)
+        numbers.push_back(map.number(number, key, kPrincipalPointRange));
     } else {
-      numbers.push_back(map.number(element, key, kCentre));
+      numbers.push_back(map.number(element, key, kPrincipalPointRange));
     }
   }
   return numbers;
@@ -59,13 +57,13 @@ CameraIntrinsics read_camera(YamlMap& map, const std::string& file) {
     return map.number(required(map, file, key), key, range);
   };
   const auto integer = [&](std::string_view key) {
-    return map.integer(required(map, file, key), key, kSide);
+    return map.integer(required(map, file, key), key, kImageSideRange);
   };
   CameraIntrinsics camera;
-  camera.fx = number("fx", kFocal);
-  camera.fy = number("fy", kFocal);
-  camera.cx = number("cx", kCentre);
-  camera.cy = number("cy", kCentre);
+  camera.fx = number("fx", kFocalRange);
+  camera.fy = number("fy", kFocalRange);
+  camera.cx = number("cx", kPrincipalPointRange);
+  camera.cy = number("cy", kPrincipalPointRange);
   camera.width = integer("width");
   camera.height = integer("height");
   if (const auto node = map.find("distortion")) camera.distortion = read_distortion(map, *node);
@@ -102,7 +100,7 @@ Calibration read_calibration(const std::filesystem::path& path) {
   if (camera == 0) return calibration;
   calibration.camera = read_camera(map, path.string());
   calibration.depth_scale =
-      map.number(required(map, path.string(), "depth_scale"), "depth_scale", kDepthScale);
+      map.number(required(map, path.string(), "depth_scale"), "depth_scale", kDepthScaleRange);
   if (const auto node = map.find("max_depth")) {
     calibration.max_depth = map.number(*node, "max_depth", kMaxDepth);
   }

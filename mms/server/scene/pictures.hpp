@@ -26,7 +26,8 @@ Image<Rgb> shrunk(const Image<Rgb>& image, int max_width);
 inline constexpr std::uint8_t kOverruledMask = 255;  ///< value of overruled points in `mask_of`
 
 /// Dynamic pixels of an organized cloud, one byte per pixel: 0 static, 1 + class id, or
-/// `kOverruledMask`; empty for others. Mask pixels without depth get the class of the nearest pixel with depth.
+/// `kOverruledMask`; empty for others. Mask pixels without depth get the class of the nearest pixel
+/// with depth.
 Image<std::uint8_t> mask_of(const LabeledCloud& cloud);
 
 /// Evenly selected valid points of a scan, at most `max_points`.

@@ -1,0 +1,85 @@
+#include "mms/dataset/numbered/numbered_images.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/source/assumed_stamp.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/io/text/numbers.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// Number of a file of the series; nullopt for other files.
+std::optional<std::int64_t> number_of(std::string_view name, const ImageSeries& series) {
+  if (!name.starts_with(series.prefix)) return std::nullopt;
+  name.remove_prefix(series.prefix.size());
+  for (const std::string& ending : series.endings) {
+    if (!name.ends_with(ending)) continue;
+    const std::string_view digits = name.substr(0, name.size() - ending.size());
+    if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) continue;
+    return parse_integer(digits);
+  }
+  return std::nullopt;
+}
+
+std::string text_of(const ImageSeries& series) {
+  return (series.folder.filename() / (series.prefix + "N" + series.endings.front())).string();
+}
+
+}  // namespace
+
+std::map<std::int64_t, fs::path> find_numbered(const ImageSeries& series) {
+  std::map<std::int64_t, fs::path> files;
+  for (const std::string& name : list_folder(series.folder)) {
+    if (const auto number = number_of(name, series)) files.emplace(*number, series.folder / name);
+  }
+  return files;
+}
+
+std::vector<std::int64_t> add_numbered_frames(RgbdRecording& recording, const ImageSeries& color,
+                                              const ImageSeries& depth) {
+  const auto colors = find_numbered(color);
+  const auto depths = find_numbered(depth);
+  std::vector<std::int64_t> numbers;
+  for (const auto& [number, file] : colors) {
+    const auto other = depths.find(number);
+    if (other == depths.end()) continue;
+    recording.frames.push_back(
+        {assumed_stamp(number), Duration::zero(), file, other->second, {}, file.stem().string()});
+    numbers.push_back(number);
+  }
+  const std::string counts = std::to_string(colors.size()) + " color images " + text_of(color) +
+                             " and " + std::to_string(depths.size()) + " depth images " +
+                             text_of(depth);
+  if (numbers.empty()) {
+    throw DataError(recording.folder.string(), "has " + counts + ", and no number N with both");
+  }
+  recording.facts.push_back("images: " + counts + ", " + std::to_string(numbers.size()) +
+                            " with both");
+  recording.facts.emplace_back("stamps: none, 30 Hz assumed");
+  return numbers;
+}
+
+void add_pose_lines(RgbdRecording& recording, const std::vector<std::int64_t>& numbers,
+                    const fs::path& file, const PoseOfLine& pose_of) {
+  const TextTable table(file);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto row = static_cast<std::size_t>(numbers[i]);
+    if (row >= table.lines().size()) break;
+    const TextLine& line = table.lines()[row];
+    recording.ground_truth.push_back(
+        {recording.frames[i].stamp, Transform<World, Sensor>(pose_of(line, table.where(line)))});
+  }
+  recording.facts.push_back("poses: " + file.filename().string() + ", " +
+                            std::to_string(recording.ground_truth.size()));
+}
+
+}  // namespace mms

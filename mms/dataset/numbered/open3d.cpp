@@ -1,0 +1,115 @@
+#include "mms/dataset/numbered/open3d.hpp"
+
+#include <algorithm>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/numbered/numbered_images.hpp"
+#include "mms/dataset/source/assumed_stamp.hpp"
+#include "mms/dataset/source/folder_names.hpp"
+#include "mms/io/config/calibration_io.hpp"
+#include "mms/io/config/camera_json.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/text/numbers.hpp"
+#include "mms/io/text/pose_text.hpp"
+#include "mms/io/text/text_table.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kColorFolders[] = {"color", "image", "rgb"};
+constexpr const char* kCameraFiles[] = {"camera_intrinsic.json", "intrinsic.json"};
+constexpr const char* kTumLists[] = {"rgb.txt", "color.txt", "depth.txt", "associations.txt"};
+constexpr std::size_t kLinesPerPose = 5;  // one with numbers, four with a matrix
+
+bool has_camera_file(const std::vector<std::string>& names) {
+  return std::any_of(std::begin(kCameraFiles), std::end(kCameraFiles),
+                     [&](const char* file) { return has_name(names, file); });
+}
+
+fs::path color_folder(const fs::path& folder) {
+  for (const char* name : kColorFolders) {
+    if (fs::is_directory(folder / name)) return folder / name;
+  }
+  return folder / kColorFolders[0];
+}
+
+Calibration primesense_camera() {
+  Calibration calibration;
+  calibration.camera = CameraIntrinsics{525.0, 525.0, 319.5, 239.5, 640, 480, {}};
+  calibration.depth_scale = 1000.0;
+  return calibration;
+}
+
+Calibration find_camera(RgbdRecording& recording) {
+  const fs::path own = recording.folder / "calibration.yaml";
+  if (fs::exists(own)) {
+    recording.facts.emplace_back("calibration: calibration.yaml");
+    return read_calibration(own);
+  }
+  for (const char* name : kCameraFiles) {
+    if (!fs::exists(recording.folder / name)) continue;
+    recording.facts.push_back(std::string("calibration: ") + name);
+    return read_camera_json(recording.folder / name);
+  }
+  const Image<Rgb> image = read_color(recording.frames.front().color);
+  const Calibration camera = primesense_camera();
+  if (image.width() != camera.camera->width || image.height() != camera.camera->height) {
+    throw DataError(recording.folder.string(), "has no camera calibration",
+                    "add camera_intrinsic.json as of Open3D, or calibration.yaml");
+  }
+  recording.facts.emplace_back("calibration: none; a PrimeSense camera (525 px) is assumed");
+  return camera;
+}
+
+/// Poses of an Open3D trajectory: their number, and a camera-to-world matrix.
+void read_poses(RgbdRecording& recording) {
+  const fs::path file = recording.folder / "trajectory.log";
+  if (!fs::exists(file)) return;
+  const TextTable table(file);
+  const auto& lines = table.lines();
+  for (std::size_t i = 0; i + kLinesPerPose <= lines.size(); i += kLinesPerPose) {
+    const std::string where = table.where(lines[i]);
+    const auto number = parse_integer(lines[i].fields[0]);
+    if (!number || lines[i].fields.size() != 3) {
+      throw DataError(where, "is not the head of a pose", "expected three whole numbers");
+    }
+    std::vector<std::string_view> fields;
+    for (std::size_t row = 1; row < kLinesPerPose; ++row) {
+      fields.insert(fields.end(), lines[i + row].fields.begin(), lines[i + row].fields.end());
+    }
+    const auto pose = isometry_from_rows(parse_finite(fields, where), where);
+    recording.ground_truth.push_back({assumed_stamp(*number), Transform<World, Sensor>(pose)});
+  }
+  recording.facts.push_back("poses: trajectory.log, " +
+                            std::to_string(recording.ground_truth.size()));
+}
+
+}  // namespace
+
+bool is_open3d_layout(const std::vector<std::string>& names) {
+  const bool has_colors = has_name(names, "color") || has_name(names, "image") ||
+                          (has_name(names, "rgb") && has_camera_file(names));
+  const bool has_lists = std::any_of(std::begin(kTumLists), std::end(kTumLists),
+                                     [&](const char* list) { return has_name(names, list); });
+  return has_colors && has_name(names, "depth") && !has_lists;
+}
+
+std::unique_ptr<FrameSource> open_open3d(const fs::path& folder, const SourceOptions& options) {
+  RgbdRecording recording;
+  recording.folder = folder;
+  recording.facts.emplace_back("layout: Open3D, numbered color and depth images");
+  add_numbered_frames(recording, {color_folder(folder), "", {".jpg", ".jpeg", ".png"}},
+                      {folder / "depth", "", {".png"}});
+  const Calibration calibration = find_camera(recording);
+  if (!calibration.camera) {
+    throw DataError((folder / "calibration.yaml").string(), "has no camera",
+                    "add fx fy cx cy width height depth_scale");
+  }
+  recording.calibration = std::make_shared<const Calibration>(calibration);
+  read_poses(recording);
+  find_masks(recording, options);
+  return std::make_unique<RgbdSource>(std::move(recording));
+}
+
+}  // namespace mms

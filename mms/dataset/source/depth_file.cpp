@@ -1,0 +1,35 @@
+#include "mms/dataset/source/depth_file.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/image/npy_io.hpp"
+
+namespace mms {
+namespace {
+
+Image<float> to_metres(const Image<std::uint16_t>& raw, double scale, std::uint16_t invalid) {
+  Image<float> depth(raw.width(), raw.height());
+  const float units = static_cast<float>(scale);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    depth[i] = raw[i] == invalid ? 0.0F : static_cast<float>(raw[i]) / units;
+  }
+  return depth;
+}
+
+Image<float> without_invalid(Image<float> depth) {
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (!(std::isfinite(depth[i]) && depth[i] > 0.0F)) depth[i] = 0.0F;
+  }
+  return depth;
+}
+
+}  // namespace
+
+Image<float> read_depth(const std::filesystem::path& path, double scale, std::uint16_t invalid) {
+  if (path.extension() == ".npy") return without_invalid(read_npy(path));
+  return to_metres(read_depth16(path), scale, invalid);
+}
+
+}  // namespace mms

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "mms/core/image.hpp"
+
+namespace mms {
+
+/// Reads a depth image in meters, 0 for no return: a 16-bit PNG in units of 1/scale m, or a NumPy
+/// file (.npy) in meters, whose infinite and negative values are no returns, too.
+/// @param scale    units per meter of a PNG
+/// @param invalid  raw value of a PNG that means no return besides 0
+/// @throws FileError if the file cannot be read; DataError if it is damaged or no such image.
+Image<float> read_depth(const std::filesystem::path& path, double scale, std::uint16_t invalid);
+
+}  // namespace mms

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "mms/core/config_visitor.hpp"
+#include "mms/core/image.hpp"
+
+namespace mms {
+
+/// Ranges of the numbers of calibration files.
+inline constexpr Range kFocalRange{1e-3, 1e5};             ///< [px]
+inline constexpr Range kPrincipalPointRange{-1e5, 1e5};    ///< [px]
+inline constexpr Range kImageSideRange{1, kMaxImageSide};  ///< [px]
+inline constexpr Range kDepthScaleRange{1e-3, 1e6};        ///< [units/m]
+
+}  // namespace mms

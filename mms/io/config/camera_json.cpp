@@ -1,0 +1,50 @@
+#include "mms/io/config/camera_json.hpp"
+
+#include <array>
+
+#include "mms/io/config/calibration_ranges.hpp"
+#include "mms/io/config/json_entry.hpp"
+
+namespace mms {
+namespace {
+
+Calibration read_nice_slam(const JsonEntry& camera) {
+  Calibration calibration;
+  calibration.camera = CameraIntrinsics{camera.at("fx").number(kFocalRange),
+                                        camera.at("fy").number(kFocalRange),
+                                        camera.at("cx").number(kPrincipalPointRange),
+                                        camera.at("cy").number(kPrincipalPointRange),
+                                        static_cast<int>(camera.at("w").integer(kImageSideRange)),
+                                        static_cast<int>(camera.at("h").integer(kImageSideRange)),
+                                        {}};
+  calibration.depth_scale = camera.at("scale").number(kDepthScaleRange);
+  return calibration;
+}
+
+Calibration read_open3d(const JsonEntry& file) {
+  const auto matrix = file.at("intrinsic_matrix").elements();
+  if (matrix.size() != 9) file.at("intrinsic_matrix").fail("has not nine numbers");
+  Calibration calibration;
+  calibration.camera =
+      CameraIntrinsics{matrix[0].number(kFocalRange),
+                       matrix[4].number(kFocalRange),
+                       matrix[6].number(kPrincipalPointRange),
+                       matrix[7].number(kPrincipalPointRange),
+                       static_cast<int>(file.at("width").integer(kImageSideRange)),
+                       static_cast<int>(file.at("height").integer(kImageSideRange)),
+                       {}};
+  if (file.has("depth_scale")) {
+    calibration.depth_scale = file.at("depth_scale").number(kDepthScaleRange);
+  }
+  return calibration;
+}
+
+}  // namespace
+
+Calibration read_camera_json(const std::filesystem::path& path) {
+  const nlohmann::json json = parse_json(path);
+  const JsonEntry file(json, path.string());
+  return file.has("camera") ? read_nice_slam(file.at("camera")) : read_open3d(file);
+}
+
+}  // namespace mms

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "mms/core/image.hpp"
+
+namespace mms {
+
+/// Reads an image from a NumPy file: an array of two dimensions in C order, of little-endian 32- or
+/// 64-bit floating-point numbers or 16-bit unsigned integers.
+/// @throws FileError if the file cannot be read; DataError if it is truncated or has another array.
+Image<float> read_npy(const std::filesystem::path& path);
+
+}  // namespace mms
