@@ -5,7 +5,7 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_source.hpp"
 #include "mms/dataset/folder/folder_rgbd.hpp"
-#include "mms/dataset/kitti/kitti_lidar.hpp"
+#include "mms/dataset/lidar/lidar_scans.hpp"
 #include "mms/dataset/numbered/open3d.hpp"
 #include "mms/dataset/numbered/replica.hpp"
 #include "mms/dataset/numbered/scannet.hpp"
@@ -31,7 +31,7 @@ constexpr FolderLayout kLayouts[] = {
     {is_scannet_layout, open_scannet},        {is_open3d_layout, open_open3d},
     {is_tum_rgbd_layout, open_tum_rgbd},      {is_replica_layout, open_replica},
     {is_tartan_air_layout, open_tartan_air},  {is_folder_rgbd_layout, open_folder_rgbd},
-    {is_kitti_lidar_layout, open_kitti_lidar}};
+    {is_lidar_scans_layout, open_lidar_scans}};
 
 const FolderLayout* layout_of(const Names& names) {
   const auto* found =
@@ -79,7 +79,7 @@ std::string find_recording(const fs::path& folder, const Names& names) {
                                   : "expected rgb.txt and depth.txt or associations.txt (TUM "
                                     "RGB-D), numbered images in color/ and depth/ (Open3D, "
                                     "ScanNet), results/ (Replica), *.color.png and *.depth.png "
-                                    "(7-Scenes), or *.bin scans (KITTI); docs/formats.md has all");
+                                    "(7-Scenes), or scans of a LiDAR; docs/formats.md has all");
 }
 
 }  // namespace

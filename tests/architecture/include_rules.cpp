@@ -203,7 +203,7 @@ IncludeRules make_rules() {
       {"simulation",
        {"models", "people", "vehicles", "sensors", "config", "building", "world", "truth", ""}},
       {"dataset",
-       {"source", "recorder", "bag", "folder", "kitti", "numbered", "simulated", "tum", ""}},
+       {"source", "recorder", "bag", "folder", "lidar", "numbered", "simulated", "tum", ""}},
       {"evaluation", {"scores", "trajectory", "map", "segmentation", "tracking", ""}},
       {"training", {"data", "run"}},
       {"server", {"scene", "viewer", "http"}},

@@ -1,6 +1,5 @@
 #include "mms/io/cloud/kitti_io.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -21,26 +20,23 @@ std::string_view bytes_of(const std::vector<float>& values) {
 
 }  // namespace
 
-LidarScan read_kitti_scan(const std::filesystem::path& path, int floats) {
+LidarScan read_kitti_scan(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
-  const std::size_t size = static_cast<std::size_t>(floats) * sizeof(float);
+  float record[4];
   if (bytes.empty()) throw DataError(path.string(), "is empty");
-  if (bytes.size() % size != 0) {
-    throw DataError(
-        path.string(),
-        "has " + std::to_string(bytes.size()) + " bytes, not a multiple of " + std::to_string(size),
-        "a point is x y z" + std::string(floats > 3 ? " reflectance" : "") +
-            std::string(floats > 4 ? " ..." : "") + " as float32; the scan may be truncated");
+  if (bytes.size() % sizeof record != 0) {
+    throw DataError(path.string(),
+                    "has " + std::to_string(bytes.size()) + " bytes, not a multiple of 16",
+                    "a point is x y z reflectance as float32; the scan may be truncated");
   }
-  const std::size_t count = bytes.size() / size;
+  const std::size_t count = bytes.size() / sizeof record;
   LidarScan scan;
   scan.points.reserve(count);
-  if (floats > 3) scan.intensity.reserve(count);
+  scan.intensity.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    float record[4] = {};
-    std::memcpy(record, bytes.data() + i * size, std::min(size, sizeof record));
+    std::memcpy(record, bytes.data() + i * sizeof record, sizeof record);
     scan.points.emplace_back(record[0], record[1], record[2]);
-    if (floats > 3) scan.intensity.push_back(record[3]);
+    scan.intensity.push_back(record[3]);
   }
   return scan;
 }

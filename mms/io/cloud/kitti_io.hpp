@@ -9,11 +9,9 @@ namespace mms {
 
 /// Reads a KITTI velodyne scan: x y z [m] and reflectance per point as little-endian float32. Keeps
 /// NaN and infinite points.
-/// @param floats  numbers of a point, at least 3; without a fourth one there are no intensities,
-///                and those after it are ignored
 /// @throws FileError if the file cannot be read; DataError if it is empty or its size is not a
-/// multiple of that of a point.
-LidarScan read_kitti_scan(const std::filesystem::path& path, int floats = 4);
+/// multiple of 16 bytes.
+LidarScan read_kitti_scan(const std::filesystem::path& path);
 
 /// Inverse of `read_kitti_scan`; without intensities the reflectance is 0.
 /// @throws FileError if the file cannot be written; DataError if the number of intensities is not

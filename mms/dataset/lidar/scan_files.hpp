@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mms/core/frame.hpp"
+#include "mms/dataset/lidar/scan_format.hpp"
 #include "mms/dataset/source/source_options.hpp"
 
 namespace mms {
@@ -18,10 +19,6 @@ struct ScanFiles {
   std::filesystem::path mask;
 };
 
-/// Finds the scans *.bin of a folder or of its velodyne/, sorted by name.
-/// @throws DataError if there are none.
-std::vector<ScanFiles> find_scans(const std::filesystem::path& folder);
-
 /// Finds the optional files of each scan by name: point_times/, and with a calibrated camera
 /// image_2/ (.jpg, .jpeg or .png) and masks/ or the options' folder. Adds their numbers to `facts`.
 /// @throws DataError if the options' folder has no mask for any scan.
@@ -30,10 +27,9 @@ void find_companions(std::vector<ScanFiles>& scans, const std::filesystem::path&
                      std::vector<std::string>& facts);
 
 /// The frame without index, stamp and name.
-/// @param floats  numbers of a point (floats_per_point)
 /// @throws FileError, DataError if a file is damaged, the number of times is not that of the
 /// points, or an image has a size other than the calibration's.
-Frame read_scan_frame(const ScanFiles& files, int floats,
+Frame read_scan_frame(const ScanFiles& files, const ScanFormat& format,
                       const std::shared_ptr<const Calibration>& calibration);
 
 }  // namespace mms

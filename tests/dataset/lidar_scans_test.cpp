@@ -1,12 +1,16 @@
-#include "mms/dataset/kitti/kitti_lidar.hpp"
+#include "mms/dataset/lidar/lidar_scans.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
+#include "mms/io/cloud/pcd_io.hpp"
+#include "mms/io/cloud/ply_io.hpp"
 #include "tests/dataset/recording.hpp"
 
 namespace mms {
@@ -16,7 +20,7 @@ using namespace testing;  // NOLINT: helpers of the tests
 
 const std::string kPoint(16, '\0');
 
-TEST(KittiLidar, ReadsScansAndPoses) {
+TEST(LidarScans, ReadsScansAndPoses) {
   const TempFolder folder;
   folder.write("000000.bin", kPoint);
   folder.write("000001.bin", kPoint + kPoint);
@@ -31,7 +35,7 @@ TEST(KittiLidar, ReadsScansAndPoses) {
   EXPECT_EQ(played.source->ground_truth()[1].T_world_sensor.translation().x(), 7.0);
 }
 
-TEST(KittiLidar, TransformsPosesToLidar) {
+TEST(LidarScans, TransformsPosesToLidar) {
   const TempFolder folder;
   folder.write("velodyne/0.bin", kPoint);
   folder.write("poses.txt", "1 0 0 7 0 1 0 0 0 0 1 0\n");
@@ -40,7 +44,7 @@ TEST(KittiLidar, TransformsPosesToLidar) {
   EXPECT_EQ(source->ground_truth()[0].T_world_sensor.translation().x(), 7.5);
 }
 
-TEST(KittiLidar, ReadsStampsFromTimes) {
+TEST(LidarScans, ReadsStampsFromTimes) {
   const TempFolder folder;
   folder.write("velodyne/0.bin", kPoint);
   folder.write("velodyne/1.bin", kPoint);
@@ -64,7 +68,7 @@ std::string ring_of_points(const std::vector<float>& more) {
   return bytes;
 }
 
-TEST(KittiLidar, RecognizesNumbersOfAPoint) {
+TEST(LidarScans, RecognizesNumbersOfAPoint) {
   const std::vector<std::vector<float>> records = {{}, {0.5F}, {30, 7}, {30, 7, 0.1F}};
   for (const std::vector<float>& more : records) {
     const TempFolder folder;
@@ -84,7 +88,7 @@ TEST(KittiLidar, RecognizesNumbersOfAPoint) {
   }
 }
 
-TEST(KittiLidar, ReadsNuScenes) {
+TEST(LidarScans, ReadsNuScenes) {
   const TempFolder folder;
   folder.write("n008__LIDAR_TOP__1532402927647951.pcd.bin", ring_of_points({30, 7}));
   folder.write("n008__LIDAR_TOP__1532402927697951.pcd.bin", ring_of_points({30, 7}));
@@ -95,8 +99,156 @@ TEST(KittiLidar, ReadsNuScenes) {
   EXPECT_EQ(played.frames[1].stamp - played.frames[0].stamp, std::chrono::milliseconds(50));
 }
 
+/// x of the step between two poses of the ground truth, and the others.
+Eigen::Isometry3d truth_step(const FrameSource& source) {
+  const Trajectory& truth = source.ground_truth();
+  return truth.at(0).T_world_sensor.isometry().inverse() * truth.at(1).T_world_sensor.isometry();
+}
+
+TEST(LidarScans, ReadsKittiRaw) {
+  const TempFolder folder;
+  const std::string drive = "2011_09_26/drive/";
+  for (const char* scan : {"0000000000", "0000000002"}) {
+    folder.write(drive + "velodyne_points/data/" + scan + ".bin", kPoint);
+  }
+  folder.write(drive + "velodyne_points/timestamps.txt",
+               "2011-09-26 13:02:25.500000000\n2011-09-26 13:02:25.600000000\n"
+               "2011-09-26 13:02:25.700000001\n");
+  // One degree of longitude at the equator has 111,319.49 m.
+  folder.write(drive + "oxts/data/0000000000.txt", "0 10 5 0 0 0 1 2 3\n");
+  folder.write(drive + "oxts/data/0000000002.txt", "0 10.00001 5.5 0 0 0 1 2 3\n");
+  folder.write("2011_09_26/calib_imu_to_velo.txt",
+               "calib_time: x\nR: 1 0 0 0 1 0 0 0 1\nT: -0.8 0.3 -0.8\n");
+  const Playback played(open_dataset(folder.path() / drive));
+  ASSERT_EQ(played.names(), "0000000000 0000000002");
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(1'317'042'145'500'000'000));
+  EXPECT_EQ(played.frames[1].stamp, Timestamp(1'317'042'145'700'000'001));
+  ASSERT_EQ(played.source->ground_truth().size(), 2U);
+  EXPECT_TRUE(truth_step(*played.source)
+                  .translation()
+                  .isApprox(Eigen::Vector3d(1.1131949, 0.0, 0.5), 1e-6));
+}
+
+TEST(LidarScans, ReadsMulRan) {
+  const TempFolder folder;
+  folder.write("Ouster/1564718964000000000.bin", ring_of_points({30}));
+  folder.write("Ouster/1564718964100000000.bin", ring_of_points({30}));
+  // The vehicle drives 2 m forward; the LiDAR on it looks backward.
+  folder.write("global_pose.csv",
+               "1564718964000000000,1,0,0,5,0,1,0,6,0,0,1,7\n"
+               "1564718964100000000,1,0,0,7,0,1,0,6,0,0,1,7\n");
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(1'564'718'964'000'000'000));
+  EXPECT_EQ(played.frames[0].scan.points.size(), 720U);
+  EXPECT_NEAR(truth_step(*played.source).translation().x(), -2.0, 1e-3);
+  EXPECT_EQ(played.source->ground_truth()[1].stamp, played.frames[1].stamp);
+}
+
+TEST(LidarScans, ReadsNclt) {
+  const TempFolder folder;
+  const std::string day = "2012-01-08/";
+  // 1 m, 2 m, 3 m; z is down.
+  const std::uint16_t coordinates[] = {20200, 20400, 20600};
+  const std::string record =
+      std::string(reinterpret_cast<const char*>(coordinates), sizeof coordinates) + "\x07\x01";
+  folder.write(day + "velodyne_sync/1326030975726043.bin", record);
+  folder.write(day + "velodyne_sync/1326030975926043.bin", record);
+  folder.write("ground_truth/groundtruth_2012-01-08.csv",
+               "1326030975726043, nan, nan, nan, nan, nan, nan\n"
+               "1326030975826043, 1, 2, 3, 0, 0, 0\n1326030975926043, 1, 2, 4, 0, 0, 0\n");
+  const Playback played(open_dataset(folder.path() / day));
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(1'326'030'975'726'043'000));
+  EXPECT_TRUE(played.frames[0].scan.points[0].isApprox(Eigen::Vector3f(1, -2, -3), 1e-4F));
+  EXPECT_EQ(played.frames[0].scan.intensity[0], 7.0F);
+  ASSERT_EQ(played.source->ground_truth().size(), 2U);
+  EXPECT_TRUE(truth_step(*played.source).translation().isApprox(Eigen::Vector3d(0, 0, -1), 1e-9));
+}
+
+/// A cloud of the size of an Ouster scan, in the order of its columns.
+PointCloudFile ouster_cloud() {
+  PointCloudFile cloud;
+  for (int i = 0; i < 64 * 1024; ++i) {
+    cloud.points.emplace_back(1.0F + 1e-4F * static_cast<float>(i), 2.0F, 3.0F);
+  }
+  return cloud;
+}
+
+TEST(LidarScans, ReadsNewerCollege) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.path() / "raw_format/ouster_scan");
+  for (const char* name : {"cloud_1583836591_182590976", "cloud_1583836591_282590976"}) {
+    write_pcd(folder.path() / "raw_format/ouster_scan" / (std::string(name) + ".pcd"),
+              ouster_cloud());
+  }
+  folder.write("ground_truth/registered_poses.csv",
+               "#sec,nsec,x,y,z,qx,qy,qz,qw\n1583836591,182590976,0,0,0,0,0,0,1\n"
+               "1583836591,282590976,0,0,1.5,0,0,0,1\n");
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(1'583'836'591'182'590'976));
+  const LidarScan& scan = played.frames[0].scan;
+  ASSERT_EQ(scan.time_offset.size(), scan.points.size());
+  EXPECT_EQ(scan.time_offset[63], 0.0F);
+  EXPECT_NEAR(scan.time_offset.back(), 0.1F * 1023.0F / 1024.0F, 1e-6F);
+  EXPECT_TRUE(truth_step(*played.source).translation().isApprox(Eigen::Vector3d(0, 0, 1.5), 1e-9));
+}
+
+/// A record of x y z, further bytes, and the time of the point.
+template <class Time>
+std::string helipr_record(std::size_t bytes, std::size_t time_at, Time time) {
+  const float xyz[] = {1.0F, 2.0F, 3.0F};
+  std::string record(bytes, '\0');
+  std::memcpy(record.data(), xyz, sizeof xyz);
+  std::memcpy(record.data() + time_at, &time, sizeof time);
+  return record;
+}
+
+TEST(LidarScans, ReadsSensorsOfHeLiPR) {
+  constexpr std::uint32_t kNanoseconds = 50'000'000;
+  const std::pair<std::string, std::string> sensors[] = {
+      {"Ouster", helipr_record(26, 16, kNanoseconds)},
+      {"Velodyne", helipr_record(22, 18, 0.05F)},
+      {"Avia", helipr_record(19, 15, kNanoseconds)},
+      {"Aeva", helipr_record(29, 20, kNanoseconds)}};
+  for (const auto& [sensor, record] : sensors) {
+    const TempFolder folder;
+    folder.write("LiDAR/" + sensor + "/1689519062000000000.bin", record + record);
+    folder.write("LiDAR/" + sensor + "/1689519062100000000.bin", record);
+    folder.write("LiDAR_GT/global_" + sensor + "_gt.txt",
+                 "1689519062000000000 1 2 3 0 0 0 1\n1689519062100000000 1.5 2 3 0 0 0 1\n");
+    const Playback played(open_dataset(folder.path() / "LiDAR" / sensor));
+    ASSERT_EQ(played.frames.size(), 2U) << sensor;
+    const LidarScan& scan = played.frames[0].scan;
+    ASSERT_EQ(scan.points.size(), 2U) << sensor;
+    EXPECT_EQ(scan.points[1], Eigen::Vector3f(1, 2, 3)) << sensor;
+    EXPECT_NEAR(scan.time_offset.at(1), 0.05F, 1e-6F) << sensor;
+    EXPECT_NEAR(truth_step(*played.source).translation().x(), 0.5, 1e-9) << sensor;
+  }
+}
+
+TEST(LidarScans, ReadsPcdAndPlyFilesWithNumbersAlone) {
+  const TempFolder folder;
+  PointCloudFile cloud;
+  cloud.points.emplace_back(1.0F, 2.0F, 3.0F);
+  write_pcd(folder.path() / "000000.pcd", cloud);
+  write_pcd(folder.path() / "000001.pcd", cloud);
+  write_pcd(folder.path() / "static_map.pcd", cloud);
+  folder.write("groundtruth.txt", "0 0 0 0 0 0 0 1\n0.1 1 0 0 0 0 0 1\n");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "000000 000001");
+  EXPECT_EQ(played.frames[1].stamp, Timestamp(100'000'000));
+  EXPECT_EQ(truth_step(*played.source).translation().x(), 1.0);
+  const TempFolder result;
+  write_ply(result.path() / "static_map.ply", cloud);
+  expect_in("no recording found", message_of<DataError>([&] { open_dataset(result.path()); }));
+  write_ply(result.path() / "7.ply", cloud);
+  EXPECT_EQ(Playback(open_dataset(result.path())).names(), "7");
+}
+
 /// The layout of the odometry benchmark: poses of camera 0, images of camera 2.
-TEST(KittiLidar, ReadsOdometryBenchmark) {
+TEST(LidarScans, ReadsOdometryBenchmark) {
   const TempFolder folder;
   const std::string sequence = "sequences/03/";
   folder.write(sequence + "velodyne/000000.bin", kPoint);
@@ -128,7 +280,7 @@ TEST(KittiLidar, ReadsOdometryBenchmark) {
             message_of<DataError>([&] { open_dataset(folder.path() / sequence); }));
 }
 
-TEST(KittiLidar, SkipsEmptyAndTruncatedScans) {
+TEST(LidarScans, SkipsEmptyAndTruncatedScans) {
   const TempFolder folder;
   folder.write("0.bin", "");
   folder.write("1.bin", "12345");
@@ -146,7 +298,7 @@ void write_scans_with_camera(const TempFolder& folder) {
   folder.write("calibration.yaml", kCalibration);
 }
 
-TEST(KittiLidar, ReadsImagesMasksAndPointTimes) {
+TEST(LidarScans, ReadsImagesMasksAndPointTimes) {
   const TempFolder folder;
   write_scans_with_camera(folder);
   write_color(folder.path() / "image_2/0.png", 77);
@@ -168,7 +320,7 @@ TEST(KittiLidar, ReadsImagesMasksAndPointTimes) {
   EXPECT_TRUE(any_has(facts, "point times: 1 of 2 scans"));
 }
 
-TEST(KittiLidar, ReadsMasksOnlyWhenEnabled) {
+TEST(LidarScans, ReadsMasksOnlyWhenEnabled) {
   const TempFolder folder;
   write_scans_with_camera(folder);
   std::filesystem::create_directories(folder.path() / "masks");
@@ -181,7 +333,7 @@ TEST(KittiLidar, ReadsMasksOnlyWhenEnabled) {
             }));
 }
 
-TEST(KittiLidar, IgnoresImagesWithoutCamera) {
+TEST(LidarScans, IgnoresImagesWithoutCamera) {
   const TempFolder folder;
   folder.write("velodyne/0.bin", kPoint);
   write_color(folder.path() / "image_2/0.png");
@@ -190,7 +342,7 @@ TEST(KittiLidar, IgnoresImagesWithoutCamera) {
   EXPECT_TRUE(any_has(played.source->describe(), "images: not used"));
 }
 
-TEST(KittiLidar, SkipsFramesWithInconsistentFiles) {
+TEST(LidarScans, SkipsFramesWithInconsistentFiles) {
   const TempFolder folder;
   write_scans_with_camera(folder);
   folder.write("point_times/0.bin", std::string(8, '\0'));
@@ -202,7 +354,7 @@ TEST(KittiLidar, SkipsFramesWithInconsistentFiles) {
   EXPECT_TRUE(any_has(played.warnings, "is 3x3 pixels, the calibration has 8x6"));
 }
 
-TEST(KittiLidar, ReadsSharedScans) {
+TEST(LidarScans, ReadsSharedScans) {
   const std::filesystem::path shared =
       std::filesystem::path(MMS_SOURCE_DIR) / "../shared/data/lidar/kitti00_6scans";
   if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";

@@ -1,6 +1,9 @@
 #pragma once
 
-#include "mms/dataset/kitti/scan_files.hpp"
+#include <filesystem>
+#include <vector>
+
+#include "mms/dataset/lidar/scan_format.hpp"
 
 namespace mms {
 
@@ -8,6 +11,9 @@ namespace mms {
 /// KITTI, 3 without, 5 or 6 with ring or time as in nuScenes. Files have no head that says so:
 /// scans have a whole number of points, and points that follow each other are close together.
 /// 4 where nothing speaks against it.
-int floats_per_point(const std::vector<ScanFiles>& scans);
+int floats_per_point(const std::vector<std::filesystem::path>& scans);
+
+/// The format of such scans.
+ScanFormat float_format(int floats);
 
 }  // namespace mms

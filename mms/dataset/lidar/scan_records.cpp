@@ -1,4 +1,4 @@
-#include "mms/dataset/kitti/scan_records.hpp"
+#include "mms/dataset/lidar/scan_records.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "mms/core/error.hpp"
-#include "mms/io/cloud/kitti_io.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -21,11 +20,11 @@ constexpr double kMaxDistanceRatio = 0.5;  // of another candidate's distance to
 constexpr const char* kNuScenesEnding = ".pcd.bin";
 
 /// Bytes of the first scans that are not empty.
-std::vector<std::uintmax_t> first_sizes(const std::vector<ScanFiles>& scans) {
+std::vector<std::uintmax_t> first_sizes(const std::vector<fs::path>& scans) {
   std::vector<std::uintmax_t> sizes;
-  for (const ScanFiles& files : scans) {
+  for (const fs::path& scan : scans) {
     std::error_code error;
-    const std::uintmax_t size = fs::file_size(files.scan, error);
+    const std::uintmax_t size = fs::file_size(scan, error);
     if (!error && size > 0) sizes.push_back(size);
     if (sizes.size() == kScans) break;
   }
@@ -39,10 +38,10 @@ std::size_t whole_scans(const std::vector<std::uintmax_t>& sizes, int floats) {
 }
 
 /// Median distance between points that follow each other in the first readable scan [m].
-std::optional<double> median_distance(const std::vector<ScanFiles>& scans, int floats) {
+std::optional<double> median_distance(const std::vector<fs::path>& scans, int floats) {
   for (std::size_t i = 0; i < std::min(kScans, scans.size()); ++i) {
     try {
-      const auto points = read_kitti_scan(scans[i].scan, floats).points;
+      const auto points = read_scan(scans[i], float_format(floats)).points;
       if (points.size() < kMinPoints) continue;
       std::vector<double> distances;
       for (std::size_t k = 1; k < points.size(); ++k) {
@@ -62,8 +61,15 @@ std::optional<double> median_distance(const std::vector<ScanFiles>& scans, int f
 
 }  // namespace
 
-int floats_per_point(const std::vector<ScanFiles>& scans) {
-  if (scans.front().scan.string().ends_with(kNuScenesEnding)) return 5;
+ScanFormat float_format(int floats) {
+  ScanFormat format;
+  format.bytes = static_cast<std::size_t>(floats) * sizeof(float);
+  format.has_intensity = floats > 3;
+  return format;
+}
+
+int floats_per_point(const std::vector<fs::path>& scans) {
+  if (scans.front().string().ends_with(kNuScenesEnding)) return 5;
   const std::vector<std::uintmax_t> sizes = first_sizes(scans);
   std::size_t most = 0;
   for (const int floats : kCandidates) most = std::max(most, whole_scans(sizes, floats));

@@ -1,4 +1,4 @@
-#include "mms/dataset/kitti/kitti_calibration.hpp"
+#include "mms/dataset/lidar/kitti_calibration.hpp"
 
 #include <string>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "mms/dataset/kitti/scan_files.hpp"
+#include "mms/dataset/lidar/scan_files.hpp"
 
 #include <algorithm>
 #include <set>
@@ -62,19 +62,6 @@ void check_size(const Image<T>& image, const CameraIntrinsics& camera, const fs:
 
 }  // namespace
 
-std::vector<ScanFiles> find_scans(const fs::path& folder) {
-  std::vector<ScanFiles> scans;
-  for (const fs::path& candidate : {folder, folder / "velodyne"}) {
-    if (!scans.empty() || !fs::is_directory(candidate)) continue;
-    for (const std::string& name : list_folder(candidate)) {
-      if (name.ends_with(".bin")) scans.push_back({candidate / name, {}, {}, {}});
-    }
-  }
-  if (scans.empty())
-    throw DataError(folder.string(), "has no *.bin scans, and neither has velodyne/");
-  return scans;
-}
-
 void find_companions(std::vector<ScanFiles>& scans, const fs::path& folder,
                      const Calibration& calibration, const SourceOptions& options,
                      std::vector<std::string>& facts) {
@@ -92,11 +79,11 @@ void find_companions(std::vector<ScanFiles>& scans, const fs::path& folder,
   if (options.load_masks) find_masks(scans, folder, options, facts);
 }
 
-Frame read_scan_frame(const ScanFiles& files, int floats,
+Frame read_scan_frame(const ScanFiles& files, const ScanFormat& format,
                       const std::shared_ptr<const Calibration>& calibration) {
   Frame frame;
   frame.calibration = calibration;
-  frame.scan = read_kitti_scan(files.scan, floats);
+  frame.scan = read_scan(files.scan, format);
   if (!files.times.empty()) {
     frame.scan.time_offset = read_point_times(files.times);
     if (frame.scan.time_offset.size() != frame.scan.points.size()) {

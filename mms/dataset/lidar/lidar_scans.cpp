@@ -1,0 +1,114 @@
+#include "mms/dataset/lidar/lidar_scans.hpp"
+
+#include <algorithm>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/lidar/kitti_calibration.hpp"
+#include "mms/dataset/lidar/scan_files.hpp"
+#include "mms/dataset/lidar/scan_layout.hpp"
+#include "mms/dataset/lidar/scan_records.hpp"
+#include "mms/dataset/lidar/scan_stamps.hpp"
+#include "mms/dataset/lidar/scan_truth.hpp"
+#include "mms/dataset/source/recorded_source.hpp"
+#include "mms/io/config/calibration_io.hpp"
+#include "mms/io/text/files.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+struct LidarRecording {
+  std::vector<ScanFiles> scans;
+  ScanFormat format;
+  std::vector<Timestamp> stamps;
+  std::shared_ptr<const Calibration> calibration;
+  Trajectory ground_truth;
+  std::vector<std::string> facts;
+};
+
+class LidarSource final : public RecordedSource {
+ public:
+  LidarSource(LidarRecording recording, const fs::path& folder) : recording_(std::move(recording)) {
+    set_ground_truth(std::move(recording_.ground_truth));
+    set_map_truth(folder / "map_truth.ply");
+    set_objects_truth(folder / "objects_truth.json");
+  }
+
+  std::size_t size() const override { return recording_.scans.size(); }
+  bool has_masks() const override {
+    return std::any_of(recording_.scans.begin(), recording_.scans.end(),
+                       [](const ScanFiles& files) { return !files.mask.empty(); });
+  }
+
+ protected:
+  Timestamp stamp_at(std::size_t index) const override { return recording_.stamps[index]; }
+  std::string name_at(std::size_t index) const override {
+    return recording_.scans[index].scan.stem().string();
+  }
+  Frame read(std::size_t index) const override {
+    return read_scan_frame(recording_.scans[index], recording_.format, recording_.calibration);
+  }
+  std::vector<std::string> facts() const override { return recording_.facts; }
+
+ private:
+  LidarRecording recording_;
+};
+
+/// An image of camera 2; empty for none.
+fs::path first_image(const fs::path& folder) {
+  const fs::path images = folder / "image_2";
+  if (!fs::is_directory(images)) return {};
+  for (const std::string& name : list_folder(images)) {
+    if (name.ends_with(".png") || name.ends_with(".jpg")) return images / name;
+  }
+  return {};
+}
+
+KittiCalibration read_calibration_of(const fs::path& folder, std::vector<std::string>& facts) {
+  const fs::path own = folder / "calibration.yaml";
+  const fs::path kitti = folder / "calib.txt";
+  if (fs::exists(own)) {
+    facts.emplace_back("calibration: calibration.yaml");
+    const Calibration calibration = read_calibration(own);
+    return {calibration, calibration.T_camera_lidar.isometry()};
+  }
+  if (fs::exists(kitti)) {
+    facts.emplace_back("calibration: calib.txt (KITTI odometry, camera 2)");
+    return read_kitti_calibration(kitti, first_image(folder));
+  }
+  facts.emplace_back("calibration: none");
+  return {};
+}
+
+/// The format of scans of float32 is recognized.
+ScanFormat format_of(const ScanLayout& layout, std::vector<std::string>& facts) {
+  ScanFormat format = layout.format;
+  if (layout.dataset != ScanDataset::kKitti) return format;
+  const int floats = floats_per_point(layout.scans);
+  facts.push_back("points: " + std::to_string(floats) + " float32 each");
+  return float_format(floats);
+}
+
+}  // namespace
+
+bool is_lidar_scans_layout(const std::vector<std::string>& names) {
+  return has_scans(names);
+}
+
+std::unique_ptr<FrameSource> open_lidar_scans(const fs::path& folder,
+                                              const SourceOptions& options) {
+  const ScanLayout layout = find_scan_layout(folder);
+  LidarRecording recording;
+  recording.facts.push_back(std::string("layout: ") + layout.name);
+  recording.format = format_of(layout, recording.facts);
+  for (const fs::path& scan : layout.scans) recording.scans.push_back({scan, {}, {}, {}});
+  const KittiCalibration calibration = read_calibration_of(folder, recording.facts);
+  recording.calibration = std::make_shared<const Calibration>(calibration.calibration);
+  recording.stamps = read_scan_stamps(folder, layout, recording.facts);
+  recording.ground_truth = read_scan_truth(folder, layout, recording.stamps,
+                                           calibration.T_camera0_lidar, recording.facts);
+  find_companions(recording.scans, folder, *recording.calibration, options, recording.facts);
+  return std::make_unique<LidarSource>(std::move(recording), folder);
+}
+
+}  // namespace mms

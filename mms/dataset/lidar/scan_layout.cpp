@@ -1,0 +1,103 @@
+#include "mms/dataset/lidar/scan_layout.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/source/folder_names.hpp"
+#include "mms/io/text/files.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+struct KnownLayout {
+  const char* name;
+  ScanDataset dataset;
+  const char* folder;  ///< of the scans, in the recording's
+  const char* ending;
+  ScanFormat format{};
+};
+
+using Kind = ScanFormat::Kind;
+constexpr ScanFormat kFloats{};
+constexpr ScanFormat kMulRan{.has_columns = true};
+constexpr ScanFormat kNclt{.kind = Kind::kNclt};
+constexpr ScanFormat kCloudFile{.kind = Kind::kCloudFile};
+constexpr ScanFormat kNewerCollege{.kind = Kind::kCloudFile, .has_columns = true};
+
+/// The first one with scans counts.
+constexpr KnownLayout kLayouts[] = {
+    {"KITTI raw", ScanDataset::kKittiRaw, "velodyne_points/data", ".bin", kFloats},
+    {"MulRan", ScanDataset::kMulRan, "Ouster", ".bin", kMulRan},
+    {"NCLT", ScanDataset::kNclt, "velodyne_sync", ".bin", kNclt},
+    {"Newer College", ScanDataset::kNewerCollege, "raw_format/ouster_scan", ".pcd", kNewerCollege},
+    {"Newer College", ScanDataset::kNewerCollege, "ouster_scan", ".pcd", kNewerCollege},
+    {"KITTI LiDAR scans", ScanDataset::kKitti, "", ".bin", kFloats},
+    {"KITTI LiDAR scans", ScanDataset::kKitti, "velodyne", ".bin", kFloats},
+    {"PCD files", ScanDataset::kOther, "", ".pcd", kCloudFile},
+    {"PLY files", ScanDataset::kOther, "", ".ply", kCloudFile}};
+
+/// Records of HeLiPR's sensors, in folders of their names.
+struct HeLiPRSensor {
+  const char* name;
+  ScanFormat format;
+};
+constexpr HeLiPRSensor kHeLiPRSensors[] = {
+    {"Ouster", {.bytes = 26, .time = PointTime::kIntegerNanoseconds, .time_at = 16}},
+    {"Velodyne", {.bytes = 22, .time = PointTime::kFloatSeconds, .time_at = 18}},
+    {"Avia",
+     {.bytes = 19, .has_intensity = false, .time = PointTime::kIntegerNanoseconds, .time_at = 15}},
+    {"Aeva",
+     {.bytes = 29, .has_intensity = false, .time = PointTime::kIntegerNanoseconds, .time_at = 20}}};
+
+const HeLiPRSensor* helipr_sensor(const fs::path& folder) {
+  const fs::path whole = absolute_folder(folder);
+  if (whole.parent_path().filename() != "LiDAR") return nullptr;
+  const auto* found =
+      std::find_if(std::begin(kHeLiPRSensors), std::end(kHeLiPRSensors),
+                   [&](const HeLiPRSensor& sensor) { return whole.filename() == sensor.name; });
+  return found == std::end(kHeLiPRSensors) ? nullptr : found;
+}
+
+/// Maps and truth clouds are .pcd and .ply, too; the names of scans end with a number.
+bool is_scan(std::string_view name, std::string_view ending) {
+  if (!name.ends_with(ending) || name.size() == ending.size()) return false;
+  const char last = name[name.size() - ending.size() - 1];
+  return ending == ".bin" || (last >= '0' && last <= '9');
+}
+
+std::vector<fs::path> scans_in(const fs::path& folder, std::string_view ending) {
+  std::vector<fs::path> scans;
+  if (!fs::is_directory(folder)) return scans;
+  for (const std::string& name : list_folder(folder)) {
+    if (is_scan(name, ending)) scans.push_back(folder / name);
+  }
+  return scans;
+}
+
+}  // namespace
+
+bool has_scans(const std::vector<std::string>& names) {
+  return std::any_of(std::begin(kLayouts), std::end(kLayouts), [&](const KnownLayout& layout) {
+    const std::string_view folder = layout.folder;
+    if (!folder.empty()) return has_name(names, folder.substr(0, folder.find('/')));
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return is_scan(name, layout.ending); });
+  });
+}
+
+ScanLayout find_scan_layout(const fs::path& folder) {
+  for (const KnownLayout& known : kLayouts) {
+    std::vector<fs::path> scans =
+        scans_in(*known.folder == '\0' ? folder : folder / known.folder, known.ending);
+    if (scans.empty()) continue;
+    const HeLiPRSensor* sensor = helipr_sensor(folder);
+    if (sensor != nullptr)
+      return {"HeLiPR", ScanDataset::kHeLiPR, std::move(scans), sensor->format};
+    return {known.name, known.dataset, std::move(scans), known.format};
+  }
+  throw DataError(folder.string(), "has no *.bin scans, and neither has velodyne/");
+}
+
+}  // namespace mms

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mms/dataset/lidar/scan_format.hpp"
+
+namespace mms {
+
+/// Data sets with files, stamps or ground truth of their own.
+enum class ScanDataset { kKitti, kKittiRaw, kMulRan, kNclt, kNewerCollege, kHeLiPR, kOther };
+
+/// The scans of a recording.
+struct ScanLayout {
+  const char* name = "";  ///< for messages
+  ScanDataset dataset = ScanDataset::kOther;
+  std::vector<std::filesystem::path> scans;  ///< sorted by name
+  ScanFormat format;                         ///< of kOther and kKitti still to be recognized
+};
+
+/// Whether a folder with these file names has scans.
+bool has_scans(const std::vector<std::string>& names);
+
+/// Finds the scans of a recording in its folder or one below it.
+/// @throws DataError if there are none.
+ScanLayout find_scan_layout(const std::filesystem::path& folder);
+
+}  // namespace mms
