@@ -89,7 +89,13 @@ std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOpti
   if (!bag && !options.topics.empty()) {
     throw DataError(path.string(), "is not a bag and has no topics", "omit --topic-*");
   }
-  if (is_simulated(path.string())) return open_simulated(path.string(), options);
+  if (is_simulated(path.string())) {
+    if (!options.camera.empty()) {
+      throw DataError(path.string(), "is a simulation and has its own camera",
+                      "omit --calibration, --intrinsics and --depth-scale");
+    }
+    return open_simulated(path.string(), options);
+  }
   std::error_code error;
   if (!fs::exists(path, error)) throw DataError(path.string(), "no such recording");
   if (bag) return open_bag(path, options);

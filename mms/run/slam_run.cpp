@@ -43,7 +43,8 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
 std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
   auto source = open_dataset(options.data, {.masks = options.masks,
                                             .load_masks = options.segmenter != "none",
-                                            .topics = options.topics});
+                                            .topics = options.topics,
+                                            .camera = options.camera});
   check_range(options, *source);
   return source;
 }

@@ -158,7 +158,7 @@ TEST(Open3d, ReadsCameraOfRecorders) {
 TEST(Open3d, DoesNotGuessCameraOfOtherSizes) {
   const TempFolder folder;
   write_open3d(folder, "color", 1);
-  expect_in("has no camera calibration (add camera_intrinsic.json",
+  expect_in("has no camera calibration (add calibration.yaml",
             message_of<DataError>([&] { open_dataset(folder.path()); }));
   const TempFolder large;
   std::filesystem::create_directories(large.path() / "color");

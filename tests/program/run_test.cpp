@@ -211,6 +211,23 @@ TEST(Run, ReadsMasksFromOtherFolder) {
   EXPECT_GT(json_file(folder.path() / "out/metrics.json")["dynamic_share"], 0.0);
 }
 
+TEST(Run, UsesAndRecordsGivenCalibration) {
+  const TempFolder folder;
+  write_scene(folder.path() / "data", small_scene(2));
+  expect_success(run_recording(
+      folder, {"--segmenter", "none", "--intrinsics", "200,201,80,60", "--depth-scale", "2500"}));
+  const auto record = json_file(folder.path() / "out/run.json");
+  EXPECT_EQ(record["calibration"]["intrinsics"], (nlohmann::json{200.0, 201.0, 80.0, 60.0}));
+  EXPECT_EQ(record["calibration"]["depth_scale"], 2500.0);
+  EXPECT_EQ(record["camera"]["fy"], 201.0);
+  fs::rename(folder.path() / "data/calibration.yaml", folder.path() / "mine.yaml");
+  expect_success(run_recording(folder, {"--segmenter", "none", "--calibration", "mine.yaml"}));
+  EXPECT_EQ(json_file(folder.path() / "out/run.json")["calibration"]["file"],
+            (fs::canonical(folder.path()) / "mine.yaml").string());
+  expect_usage_error(run_recording(folder, {"--intrinsics", "200,0,80,60"}),
+                     "--intrinsics: 200,0,80,60 is not fx,fy,cx,cy in pixels");
+}
+
 TEST(Run, AcceptsOtherNetwork) {
   const TempFolder folder;
   const auto with = [&](const std::vector<std::string>& words) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/mms/commands/camera_options.hpp"
 #include "apps/mms/commands/topic_options.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/io/config/config_yaml.hpp"
@@ -22,13 +23,17 @@ struct InfoOptions {
   std::string data;
   std::string masks;
   BagTopicNames topics;
+  CameraOptions camera;
+
+  std::unique_ptr<FrameSource> open() const {
+    return open_dataset(data, {.masks = masks, .topics = topics, .camera = camera});
+  }
 };
 
 /// Reads one frame of a newly opened recording.
 /// @returns the fault; empty if none
 std::string fault_of_frame(const InfoOptions& options, std::size_t index) {
-  const auto source =
-      open_dataset(options.data, {.masks = options.masks, .topics = options.topics});
+  const auto source = options.open();
   std::vector<std::string> warnings;
   source->on_warning([&](const std::string& message) { warnings.push_back(message); });
   warnings.clear();  // those of opening are shown by print_info
@@ -64,8 +69,7 @@ void print_model(const std::string& path) {
 
 void print_info(const InfoOptions& options) {
   if (options.data.ends_with(".safetensors")) return print_model(options.data);
-  const auto source =
-      open_dataset(options.data, {.masks = options.masks, .topics = options.topics});
+  const auto source = options.open();
   for (const std::string& line : source->describe()) fmt::print("{}\n", line);
   source->on_warning([](const std::string& message) { fmt::print("warning: {}\n", message); });
   if (source->size() > 0) print_frame_checks(options, source->size());
@@ -82,6 +86,7 @@ void add_info_command(CLI::App& app) {
                    "folder of the recording, x.bag, sim:SCENE, or weights.safetensors")
       ->required();
   command->add_option("--masks", options->masks, "folder of label images, named as the frames");
+  add_camera_options(*command, options->camera);
   add_topic_options(*command, options->topics);
   command->callback([options] { print_info(*options); });
 }

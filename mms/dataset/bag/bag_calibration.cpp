@@ -46,12 +46,13 @@ void read_extrinsics(BagRecording& recording, const TransformTree& transforms,
 }  // namespace
 
 Calibration bag_calibration(BagRecording& recording, const std::string& camera_info,
-                            const TransformTree& transforms, const fs::path& path) {
+                            const TransformTree& transforms, const fs::path& path,
+                            const fs::path& given) {
   Calibration calibration;
-  const fs::path file = calibration_file(path);
-  if (fs::exists(file)) {
+  const fs::path file = given.empty() ? calibration_file(path) : given;
+  if (!given.empty() || fs::exists(file)) {
     calibration = read_calibration(file);
-    recording.facts.push_back("calibration: " + file.filename().string());
+    recording.facts.push_back("calibration: " + (given.empty() ? file.filename() : file).string());
   } else {
     read_extrinsics(recording, transforms, calibration);
   }

@@ -7,6 +7,7 @@
 #include "mms/dataset/bag/bag_calibration.hpp"
 #include "mms/dataset/bag/bag_topics.hpp"
 #include "mms/dataset/bag/bag_truth.hpp"
+#include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/frame_association.hpp"
 
 namespace mms {
@@ -157,6 +158,7 @@ BagTopicNames topics_of(const BagReader& bag, const BagTopicNames& given,
 }  // namespace
 
 BagRecording read_bag_recording(const fs::path& path, const SourceOptions& options) {
+  reject_image_options(path, options.camera);
   BagRecording recording;
   recording.bag = std::make_unique<BagReader>(path);
   const BagReader& bag = *recording.bag;
@@ -170,7 +172,7 @@ BagRecording read_bag_recording(const fs::path& path, const SourceOptions& optio
   topics.cloud.empty() ? make_rgbd_frames(recording, path.string()) : make_cloud_frames(recording);
   const TransformTree transforms = read_transforms(bag);
   recording.calibration = std::make_shared<const Calibration>(
-      bag_calibration(recording, topics.camera_info, transforms, path));
+      bag_calibration(recording, topics.camera_info, transforms, path, options.camera.file));
   find_masks(recording, topics.mask, options);
   if (!topics.truth.empty()) {
     const BagStream& sensor = topics.cloud.empty() ? recording.color : recording.cloud;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 
-#include "mms/core/error.hpp"
 #include "mms/dataset/source/assumed_stamp.hpp"
+#include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/pose_file.hpp"
 #include "mms/dataset/source/rgbd_source.hpp"
-#include "mms/io/config/calibration_io.hpp"
 #include "mms/io/text/files.hpp"
 
 namespace mms {
@@ -28,18 +27,6 @@ Calibration seven_scenes_calibration() {
   calibration.camera = CameraIntrinsics{585.0, 585.0, 320.0, 240.0, 640, 480, {}};
   calibration.depth_scale = 1000.0;
   return calibration;
-}
-
-void read_calibration_of(RgbdRecording& recording) {
-  const fs::path file = recording.folder / "calibration.yaml";
-  const bool there = fs::exists(file);
-  const Calibration calibration = there ? read_calibration(file) : seven_scenes_calibration();
-  if (!calibration.camera) {
-    throw DataError(file.string(), "has no camera", "add fx fy cx cy width height depth_scale");
-  }
-  recording.facts.emplace_back(there ? "calibration: calibration.yaml"
-                                     : "calibration: default of 7-Scenes");
-  recording.calibration = std::make_shared<const Calibration>(calibration);
 }
 
 }  // namespace
@@ -66,7 +53,10 @@ std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
     poses.push_back(folder / (name + ".pose.txt"));
   }
   add_pose_files(recording, poses);  // NaN where tracking was lost
-  read_calibration_of(recording);
+  choose_calibration(recording, options.camera, [&] {
+    recording.facts.emplace_back("calibration: default of 7-Scenes");
+    return seven_scenes_calibration();
+  });
   find_masks(recording, options);
   return std::make_unique<RgbdSource>(std::move(recording));
 }

@@ -9,6 +9,7 @@
 #include "mms/dataset/lidar/scan_records.hpp"
 #include "mms/dataset/lidar/scan_stamps.hpp"
 #include "mms/dataset/lidar/scan_truth.hpp"
+#include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/recorded_source.hpp"
 #include "mms/io/config/calibration_io.hpp"
 #include "mms/io/text/files.hpp"
@@ -64,11 +65,12 @@ fs::path first_image(const fs::path& folder) {
   return {};
 }
 
-KittiCalibration read_calibration_of(const fs::path& folder, std::vector<std::string>& facts) {
-  const fs::path own = folder / "calibration.yaml";
+KittiCalibration read_calibration_of(const fs::path& folder, const CameraOptions& options,
+                                     std::vector<std::string>& facts) {
+  const fs::path own = options.file.empty() ? folder / "calibration.yaml" : options.file;
   const fs::path kitti = folder / "calib.txt";
-  if (fs::exists(own)) {
-    facts.emplace_back("calibration: calibration.yaml");
+  if (!options.file.empty() || fs::exists(own)) {
+    facts.push_back("calibration: " + (options.file.empty() ? own.filename() : own).string());
     const Calibration calibration = read_calibration(own);
     return {calibration, calibration.T_camera_lidar.isometry()};
   }
@@ -97,12 +99,13 @@ bool is_lidar_scans_layout(const std::vector<std::string>& names) {
 
 std::unique_ptr<FrameSource> open_lidar_scans(const fs::path& folder,
                                               const SourceOptions& options) {
+  reject_image_options(folder, options.camera);
   const ScanLayout layout = find_scan_layout(folder);
   LidarRecording recording;
   recording.facts.push_back(std::string("layout: ") + layout.name);
   recording.format = format_of(layout, recording.facts);
   for (const fs::path& scan : layout.scans) recording.scans.push_back({scan, {}, {}, {}});
-  const KittiCalibration calibration = read_calibration_of(folder, recording.facts);
+  const KittiCalibration calibration = read_calibration_of(folder, options.camera, recording.facts);
   recording.calibration = std::make_shared<const Calibration>(calibration.calibration);
   recording.stamps = read_scan_stamps(folder, layout, recording.facts);
   recording.ground_truth = read_scan_truth(folder, layout, recording.stamps,

@@ -5,8 +5,8 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/numbered/numbered_images.hpp"
 #include "mms/dataset/source/assumed_stamp.hpp"
+#include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/folder_names.hpp"
-#include "mms/io/config/calibration_io.hpp"
 #include "mms/io/config/camera_json.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/numbers.hpp"
@@ -41,12 +41,7 @@ Calibration primesense_camera() {
   return calibration;
 }
 
-Calibration find_camera(RgbdRecording& recording) {
-  const fs::path own = recording.folder / "calibration.yaml";
-  if (fs::exists(own)) {
-    recording.facts.emplace_back("calibration: calibration.yaml");
-    return read_calibration(own);
-  }
+std::optional<Calibration> find_camera(RgbdRecording& recording) {
   for (const char* name : kCameraFiles) {
     if (!fs::exists(recording.folder / name)) continue;
     recording.facts.push_back(std::string("calibration: ") + name);
@@ -55,8 +50,7 @@ Calibration find_camera(RgbdRecording& recording) {
   const Image<Rgb> image = read_color(recording.frames.front().color);
   const Calibration camera = primesense_camera();
   if (image.width() != camera.camera->width || image.height() != camera.camera->height) {
-    throw DataError(recording.folder.string(), "has no camera calibration",
-                    "add camera_intrinsic.json as of Open3D, or calibration.yaml");
+    return std::nullopt;
   }
   recording.facts.emplace_back("calibration: none; a PrimeSense camera (525 px) is assumed");
   return camera;
@@ -101,12 +95,7 @@ std::unique_ptr<FrameSource> open_open3d(const fs::path& folder, const SourceOpt
   recording.facts.emplace_back("layout: Open3D, numbered color and depth images");
   add_numbered_frames(recording, {color_folder(folder), "", {".jpg", ".jpeg", ".png"}},
                       {folder / "depth", "", {".png"}});
-  const Calibration calibration = find_camera(recording);
-  if (!calibration.camera) {
-    throw DataError((folder / "calibration.yaml").string(), "has no camera",
-                    "add fx fy cx cy width height depth_scale");
-  }
-  recording.calibration = std::make_shared<const Calibration>(calibration);
+  choose_calibration(recording, options.camera, [&] { return find_camera(recording); });
   read_poses(recording);
   find_masks(recording, options);
   return std::make_unique<RgbdSource>(std::move(recording));

@@ -2,6 +2,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/numbered/numbered_images.hpp"
+#include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/io/config/camera_json.hpp"
 #include "mms/io/text/pose_text.hpp"
@@ -21,16 +22,15 @@ Calibration default_camera() {
   return calibration;
 }
 
-void read_camera(RgbdRecording& recording) {
+Calibration find_camera_of_replica(RgbdRecording& recording) {
   for (const fs::path& folder : {recording.folder, fs::absolute(recording.folder) / ".."}) {
     const fs::path file = folder / kCameraFile;
     if (!fs::exists(file)) continue;
-    recording.calibration = std::make_shared<const Calibration>(read_camera_json(file));
     recording.facts.push_back("calibration: " + file.lexically_normal().string());
-    return;
+    return read_camera_json(file);
   }
-  recording.calibration = std::make_shared<const Calibration>(default_camera());
   recording.facts.emplace_back("calibration: that of NICE-SLAM's renderings");
+  return default_camera();
 }
 
 Eigen::Isometry3d pose_of_matrix(const TextLine& line, const std::string& where) {
@@ -50,7 +50,7 @@ std::unique_ptr<FrameSource> open_replica(const fs::path& folder, const SourceOp
   const auto numbers =
       add_numbered_frames(recording, {folder / "results", "frame", {".jpg", ".png"}},
                           {folder / "results", "depth", {".png"}});
-  read_camera(recording);
+  choose_calibration(recording, options.camera, [&] { return find_camera_of_replica(recording); });
   add_pose_lines(recording, numbers, folder / "traj.txt", pose_of_matrix);
   find_masks(recording, options);
   return std::make_unique<RgbdSource>(std::move(recording));

@@ -2,6 +2,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/numbered/numbered_images.hpp"
+#include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/dataset/source/pose_file.hpp"
 #include "mms/io/image/image_io.hpp"
@@ -29,17 +30,15 @@ CameraIntrinsics read_camera(const fs::path& file, const Image<T>& image) {
   return {m[0], m[side + 1], m[2], m[side + 2], image.width(), image.height(), {}};
 }
 
-void read_cameras(RgbdRecording& recording) {
-  const fs::path folder = recording.folder / "intrinsic";
-  const RgbdFiles& first = recording.frames.front();
+Calibration read_depth_camera(RgbdRecording& recording) {
   Calibration calibration;
-  calibration.camera = read_camera(folder / "intrinsic_depth.txt", read_depth16(first.depth));
+  calibration.camera = read_camera(recording.folder / "intrinsic" / "intrinsic_depth.txt",
+                                   read_depth16(recording.frames.front().depth));
   calibration.depth_scale = 1000.0;
-  recording.calibration = std::make_shared<const Calibration>(calibration);
-  recording.color_camera = read_camera(folder / "intrinsic_color.txt", read_color(first.color));
   recording.facts.emplace_back(
       "calibration: intrinsic/intrinsic_depth.txt, colors sampled by "
       "intrinsic_color.txt");
+  return calibration;
 }
 
 void read_poses(RgbdRecording& recording, const std::vector<std::int64_t>& numbers) {
@@ -62,7 +61,9 @@ std::unique_ptr<FrameSource> open_scannet(const fs::path& folder, const SourceOp
   recording.facts.emplace_back("layout: ScanNet, exported");
   const auto numbers = add_numbered_frames(recording, {folder / "color", "", {".jpg", ".png"}},
                                            {folder / "depth", "", {".png"}});
-  read_cameras(recording);
+  choose_calibration(recording, options.camera, [&] { return read_depth_camera(recording); });
+  recording.color_camera = read_camera(folder / "intrinsic" / "intrinsic_color.txt",
+                                       read_color(recording.frames.front().color));
   read_poses(recording, numbers);
   find_masks(recording, options);
   return std::make_unique<RgbdSource>(std::move(recording));

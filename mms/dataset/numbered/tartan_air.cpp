@@ -2,6 +2,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/numbered/numbered_images.hpp"
+#include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/io/text/pose_text.hpp"
 #include "mms/io/text/text_table.hpp"
@@ -42,11 +43,13 @@ std::unique_ptr<FrameSource> open_tartan_air(const fs::path& folder, const Sourc
   recording.facts.emplace_back("layout: TartanAir, left camera");
   const auto numbers = add_numbered_frames(recording, {folder / "image_left", "", {"_left.png"}},
                                            {folder / "depth_left", "", {"_left_depth.npy"}});
-  Calibration calibration;
-  calibration.camera = CameraIntrinsics{320.0, 320.0, 320.0, 240.0, 640, 480, {}};
-  calibration.depth_scale = 1.0;
-  recording.calibration = std::make_shared<const Calibration>(calibration);
-  recording.facts.emplace_back("calibration: that of TartanAir");
+  choose_calibration(recording, options.camera, [&] {
+    recording.facts.emplace_back("calibration: that of TartanAir");
+    Calibration calibration;
+    calibration.camera = CameraIntrinsics{320.0, 320.0, 320.0, 240.0, 640, 480, {}};
+    calibration.depth_scale = 1.0;
+    return calibration;
+  });
   const fs::path poses = folder / "pose_left.txt";
   if (fs::exists(poses)) add_pose_lines(recording, numbers, poses, pose_of_ned);
   find_masks(recording, options);

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "mms/dataset/source/bag_topic_names.hpp"
+#include "mms/dataset/source/camera_options.hpp"
 
 namespace mms {
 
@@ -13,6 +14,7 @@ struct SourceOptions {
   bool map_truth = true;          ///< false: a simulation does not keep FrameSource::map_truth and
                                   ///< objects_truth, which grow with its frames
   BagTopicNames topics{};         ///< of a bag
+  CameraOptions camera{};         ///< in place of the recording's
 };
 
 }  // namespace mms

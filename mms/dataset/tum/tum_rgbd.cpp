@@ -4,12 +4,12 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/assumed_stamp.hpp"
+#include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/dataset/source/frame_association.hpp"
 #include "mms/dataset/source/image_list.hpp"
 #include "mms/dataset/source/rgbd_source.hpp"
 #include "mms/dataset/tum/tum_calibration.hpp"
-#include "mms/io/config/calibration_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/files.hpp"
 
@@ -86,14 +86,10 @@ void read_lists(RgbdRecording& recording) {
   }
 }
 
-std::optional<Calibration> find_calibration(RgbdRecording& recording,
-                                            const std::optional<fs::path>& icl_truth) {
-  const fs::path own = recording.folder / "calibration.yaml";
+/// The calibration of data sets in this layout.
+std::optional<Calibration> known_calibration(RgbdRecording& recording,
+                                             const std::optional<fs::path>& icl_truth) {
   const fs::path eth3d = recording.folder / "calibration.txt";
-  if (fs::exists(own)) {
-    recording.facts.emplace_back("calibration: calibration.yaml");
-    return read_calibration(own);
-  }
   if (fs::exists(eth3d)) {
     recording.facts.emplace_back("calibration: calibration.txt (ETH3D)");
     return read_eth3d_calibration(eth3d, recording.frames.front().color);
@@ -102,18 +98,9 @@ std::optional<Calibration> find_calibration(RgbdRecording& recording,
     recording.facts.emplace_back("calibration: default of ICL-NUIM");
     return icl_nuim_calibration();
   }
-  recording.facts.emplace_back("calibration: default of the folder name");
-  return default_calibration(recording.folder);
-}
-
-void read_calibration_of(RgbdRecording& recording, const std::optional<fs::path>& icl_truth) {
-  const std::optional<Calibration> calibration = find_calibration(recording, icl_truth);
-  if (!calibration || !calibration->camera) {
-    throw DataError(recording.folder.string(), "has no camera calibration",
-                    "add calibration.yaml with fx, fy, cx, cy, width, height in pixels and "
-                    "depth_scale in depth units per meter");
-  }
-  recording.calibration = std::make_shared<const Calibration>(*calibration);
+  const auto calibration = default_calibration(recording.folder);
+  if (calibration) recording.facts.emplace_back("calibration: default of the folder name");
+  return calibration;
 }
 
 /// Converts stamps that are image numbers, as those of ICL-NUIM, to stamps at 30 Hz.
@@ -161,7 +148,8 @@ std::unique_ptr<FrameSource> open_tum_rgbd(const fs::path& folder, const SourceO
   recording.facts.emplace_back("layout: TUM RGB-D");
   read_lists(recording);
   const std::optional<fs::path> icl_truth = find_icl_truth(folder);
-  read_calibration_of(recording, icl_truth);
+  choose_calibration(recording, options.camera,
+                     [&] { return known_calibration(recording, icl_truth); });
   find_masks(recording, options);
   const fs::path truth = folder / "groundtruth.txt";
   if (fs::exists(truth)) {

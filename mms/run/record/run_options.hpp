@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mms/dataset/source/bag_topic_names.hpp"
+#include "mms/dataset/source/camera_options.hpp"
 
 namespace mms {
 
@@ -26,6 +27,7 @@ struct RunOptions {
   std::filesystem::path masks;   ///< empty: the recording's own
   std::string weights;           ///< of the network; empty: as the config says
   BagTopicNames topics;          ///< of a bag
+  CameraOptions camera;          ///< in place of the recording's
   std::string fusion;            ///< empty: as the config says
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::size_t start = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <array>
 
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -49,6 +50,32 @@ std::optional<CameraIntrinsics> camera_of(const Json& json) {
   return camera;
 }
 
+CameraOptions with_absolute_path(CameraOptions options) {
+  if (!options.file.empty()) options.file = absolute_path(options.file);
+  return options;
+}
+
+/// null if nothing was given.
+Json json_of(const CameraOptions& given) {
+  if (given.empty()) return nullptr;
+  return {{"file", given.file.string()},
+          {"intrinsics", given.intrinsics ? Json(*given.intrinsics) : Json(nullptr)},
+          {"depth_scale", given.depth_scale ? Json(*given.depth_scale) : Json(nullptr)}};
+}
+
+/// Runs of earlier versions have none.
+CameraOptions camera_options_of(const Json& run) {
+  CameraOptions given;
+  if (!run.contains("calibration") || run["calibration"].is_null()) return given;
+  const Json& json = run["calibration"];
+  given.file = json.at("file").get<std::string>();
+  if (!json.at("intrinsics").is_null()) {
+    given.intrinsics = json["intrinsics"].get<std::array<double, 4>>();
+  }
+  if (!json.at("depth_scale").is_null()) given.depth_scale = json["depth_scale"].get<double>();
+  return given;
+}
+
 std::string frames_csv(const RunLog& log) {
   std::string text = std::string(kFramesHeader) + "\n";
   for (const LoggedFrame& frame : log.frames()) {
@@ -90,6 +117,7 @@ RunRecord record_of(const RunOptions& options, const std::optional<CameraIntrins
   return {simulated ? options.data : absolute_path(options.data),
           options.segmenter,
           options.masks.empty() ? "" : absolute_path(options.masks),
+          with_absolute_path(options.camera),
           depth_camera,
           voxel_size,
           camera};
@@ -99,6 +127,7 @@ void write_run_record(const fs::path& folder, const RunRecord& record, const Run
   const Json json = {{"data", record.data},
                      {"segmenter", record.segmenter},
                      {"masks", record.masks},
+                     {"calibration", json_of(record.given)},
                      {"sensor", record.depth_camera ? "depth camera" : "lidar"},
                      {"voxel_size", record.voxel_size},
                      {"camera", json_of(record.camera)}};
@@ -111,10 +140,13 @@ void write_run_record(const fs::path& folder, const RunRecord& record, const Run
 RunRecord read_run_record(const fs::path& file) {
   try {
     const Json json = Json::parse(read_file(file));
-    return {
-        json.at("data").get<std::string>(),  json.at("segmenter").get<std::string>(),
-        json.at("masks").get<std::string>(), json.at("sensor").get<std::string>() == "depth camera",
-        json.at("voxel_size").get<double>(), camera_of(json.at("camera"))};
+    return {json.at("data").get<std::string>(),
+            json.at("segmenter").get<std::string>(),
+            json.at("masks").get<std::string>(),
+            camera_options_of(json),
+            json.at("sensor").get<std::string>() == "depth camera",
+            json.at("voxel_size").get<double>(),
+            camera_of(json.at("camera"))};
   } catch (const Json::exception& error) {
     throw DataError(file.string(), std::string("is not a record of a run: ") + error.what());
   }

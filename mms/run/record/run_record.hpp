@@ -19,6 +19,7 @@ struct RunRecord {
   std::string data;          ///< absolute path of the recording, or address of a simulation
   std::string segmenter;     ///< "network", "masks" or "none"
   std::string masks;         ///< folder of label images; empty: the recording's own
+  CameraOptions given;       ///< calibration in place of the recording's
   bool depth_camera = true;  ///< false: LiDAR
   double voxel_size = 0.0;   ///< of the final map [m]
   std::optional<CameraIntrinsics> camera;

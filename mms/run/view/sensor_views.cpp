@@ -16,9 +16,10 @@ SensorViews::SensorViews(RunRecord record, const SystemConfig& config,
       segmenter_(make_segmenter(record_.segmenter, record_.data, config_, *source_)) {}
 
 std::unique_ptr<FrameSource> SensorViews::open() const {
-  return open_dataset(
-      record_.data,
-      {.masks = record_.masks, .load_masks = record_.segmenter == "masks", .map_truth = false});
+  return open_dataset(record_.data, {.masks = record_.masks,
+                                     .load_masks = record_.segmenter == "masks",
+                                     .map_truth = false,
+                                     .camera = record_.given});
 }
 
 /// The frame with that index and stamp. Recordings are read forward only.

@@ -1,0 +1,54 @@
+#include "apps/mms/commands/camera_options.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "mms/io/config/calibration_ranges.hpp"
+#include "mms/io/text/numbers.hpp"
+
+namespace mms {
+namespace {
+
+constexpr const char* kGroup = "Calibration (default: the recording's)";
+
+/// Reads "fx,fy,cx,cy".
+std::array<double, 4> parse_intrinsics(const std::string& text) {
+  std::array<double, 4> numbers{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::size_t end = i + 1 < numbers.size() ? rest.find(',') : rest.size();
+    const auto number = parse_double(rest.substr(0, end));
+    const Range& range = i < 2 ? kFocalRange : kPrincipalPointRange;
+    if (end == std::string_view::npos || !number ||
+        !(*number >= range.min && *number <= range.max)) {
+      throw CLI::ValidationError("--intrinsics", text + " is not fx,fy,cx,cy in pixels");
+    }
+    numbers[i] = *number;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void add_camera_options(CLI::App& command, CameraOptions& options) {
+  command.add_option("--calibration", options.file, "calibration.yaml to use")
+      ->check(CLI::ExistingFile)
+      ->group(kGroup);
+  command
+      .add_option_function<std::string>(
+          "--intrinsics",
+          [&options](const std::string& text) { options.intrinsics = parse_intrinsics(text); },
+          "camera without distortion [px]")
+      ->type_name("fx,fy,cx,cy")
+      ->group(kGroup);
+  command
+      .add_option_function<double>(
+          "--depth-scale", [&options](double scale) { options.depth_scale = scale; },
+          "depth image units per meter")
+      ->check(CLI::Range(kDepthScaleRange.min, kDepthScaleRange.max))
+      ->group(kGroup);
+}
+
+}  // namespace mms

@@ -1,0 +1,61 @@
+#include "mms/dataset/source/calibration_choice.hpp"
+
+#include "mms/core/error.hpp"
+#include "mms/io/config/calibration_io.hpp"
+#include "mms/io/image/image_io.hpp"
+#include "mms/io/text/numbers.hpp"
+
+namespace mms {
+namespace fs = std::filesystem;
+namespace {
+
+/// The file of the options or of the folder; nullopt for none.
+std::optional<Calibration> read_file_of(RgbdRecording& recording, const CameraOptions& options) {
+  const fs::path own = recording.folder / "calibration.yaml";
+  if (options.file.empty() && !fs::exists(own)) return std::nullopt;
+  const fs::path& file = options.file.empty() ? own : options.file;
+  const Calibration calibration = read_calibration(file);
+  if (!calibration.camera && !options.intrinsics) {
+    throw DataError(file.string(), "has no camera", "add fx fy cx cy width height depth_scale");
+  }
+  recording.facts.push_back("calibration: " +
+                            (options.file.empty() ? own.filename() : file).string());
+  return calibration;
+}
+
+CameraIntrinsics camera_of(const std::array<double, 4>& k, const RgbdRecording& recording) {
+  const Image<Rgb> first = read_color(recording.frames.front().color);
+  return {k[0], k[1], k[2], k[3], first.width(), first.height(), {}};
+}
+
+}  // namespace
+
+void choose_calibration(RgbdRecording& recording, const CameraOptions& options,
+                        const std::function<std::optional<Calibration>()>& of_layout) {
+  std::optional<Calibration> calibration = read_file_of(recording, options);
+  if (!calibration) calibration = of_layout();
+  if (options.intrinsics) {
+    if (!calibration) calibration.emplace();
+    calibration->camera = camera_of(*options.intrinsics, recording);
+    recording.facts.emplace_back("intrinsics: given, without distortion");
+  }
+  if (!calibration || !calibration->camera) {
+    throw DataError(recording.folder.string(), "has no camera calibration",
+                    "add calibration.yaml with fx, fy, cx, cy, width, height in pixels and "
+                    "depth_scale in depth units per meter, or give --calibration, or --intrinsics "
+                    "and --depth-scale");
+  }
+  if (options.depth_scale) {
+    calibration->depth_scale = *options.depth_scale;
+    recording.facts.push_back("depth scale: given, " + format_number(*options.depth_scale));
+  }
+  recording.calibration = std::make_shared<const Calibration>(*calibration);
+}
+
+void reject_image_options(const fs::path& recording, const CameraOptions& options) {
+  if (!options.intrinsics && !options.depth_scale) return;
+  throw DataError(recording.string(), "is no folder of color and depth images",
+                  "--intrinsics and --depth-scale are for those; use --calibration");
+}
+
+}  // namespace mms
