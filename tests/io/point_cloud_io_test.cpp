@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "mms/core/error.hpp"
-#include "mms/io/cloud/kitti_io.hpp"
 #include "mms/io/cloud/pcd_io.hpp"
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/text/files.hpp"
@@ -172,28 +171,6 @@ TEST(Pcd, RejectsInvalidHeaders) {
     const auto path = folder.write("a.pcd", bytes);
     expect_in(expected, message_of<DataError>([&] { read_pcd(path); }));
   }
-}
-
-TEST(KittiScan, ReadsPointsAndKeepsNaN) {
-  const TempFolder folder;
-  const float values[] = {1.0F, 2.0F, 3.0F, 0.5F, std::nanf(""), 0.0F, 0.0F, 0.25F};
-  std::string bytes(sizeof values, '\0');
-  std::memcpy(bytes.data(), values, sizeof values);
-  const LidarScan scan = read_kitti_scan(folder.write("a.bin", bytes));
-  ASSERT_EQ(scan.points.size(), 2U);
-  EXPECT_EQ(scan.points[0], Eigen::Vector3f(1, 2, 3));
-  EXPECT_TRUE(std::isnan(scan.points[1].x()));
-  EXPECT_EQ(scan.intensity, (std::vector<float>{0.5F, 0.25F}));
-  EXPECT_TRUE(scan.time_offset.empty());
-}
-
-TEST(KittiScan, RejectsInvalidSizes) {
-  const TempFolder folder;
-  const auto empty = folder.write("a.bin", "");
-  const auto truncated = folder.write("b.bin", std::string(33, 'x'));
-  expect_in("is empty", message_of<DataError>([&] { read_kitti_scan(empty); }));
-  expect_in("has 33 bytes, not a multiple of 16",
-            message_of<DataError>([&] { read_kitti_scan(truncated); }));
 }
 
 }  // namespace

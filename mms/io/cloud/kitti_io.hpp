@@ -7,13 +7,8 @@
 
 namespace mms {
 
-/// Reads a KITTI velodyne scan: x y z [m] and reflectance per point as little-endian float32. Keeps
-/// NaN and infinite points.
-/// @throws FileError if the file cannot be read; DataError if it is empty or its size is not a
-/// multiple of 16 bytes.
-LidarScan read_kitti_scan(const std::filesystem::path& path);
-
-/// Inverse of `read_kitti_scan`; without intensities the reflectance is 0.
+/// Writes a KITTI velodyne scan: x y z [m] and reflectance per point as little-endian float32;
+/// without intensities the reflectance is 0.
 /// @throws FileError if the file cannot be written; DataError if the number of intensities is not
 /// that of the points.
 void write_kitti_scan(const std::filesystem::path& path, const LidarScan& scan);
