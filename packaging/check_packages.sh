@@ -29,6 +29,7 @@ make_root() {
   say "a clean Debian 12"
   mmdebstrap --quiet --mode=root --variant=apt --dpkgopt=force-unsafe-io \
     bookworm "$root" ${mirrors[@]+"${mirrors[@]}"}
+  echo "127.0.0.1 localhost" > "$root/etc/hosts"  # as Debian's installer writes it
 }
 
 # in_root COMMAND: by bash in the root; what it mounts and starts ends with it.
@@ -81,10 +82,10 @@ check_packages() {
 
 check_readme() {
   make_root
-  mkdir "$root/mms"
-  git ls-files -z | xargs -0 cp --parents --no-dereference -t "$root/mms"
+  mkdir "$root/root/mms-slam"
+  git ls-files -z | xargs -0 cp --parents --no-dereference -t "$root/root/mms-slam"
   say "./$1.sh"
-  in_root "cd /mms; time ./$1.sh"
+  in_root "cd /root/mms-slam; time ./$1.sh"
 }
 
 check_old_cpu() {

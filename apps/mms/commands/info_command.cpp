@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/mms/commands/camera_options.hpp"
+#include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/topic_options.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/io/config/config_yaml.hpp"
@@ -86,7 +86,7 @@ void add_info_command(CLI::App& app) {
                    "folder of the recording, x.bag, sim:SCENE, or weights.safetensors")
       ->required();
   command->add_option("--masks", options->masks, "folder of label images, named as the frames");
-  add_camera_options(*command, options->camera);
+  add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
   command->callback([options] { print_info(*options); });
 }

@@ -1,4 +1,4 @@
-#include "apps/mms/commands/camera_options.hpp"
+#include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/commands.hpp"
 
 #include <fmt/core.h>
@@ -113,7 +113,7 @@ void add_run_command(CLI::App& app) {
   command->add_flag(
       "--keep-journal", options->keep_journal,
       "keep journal.bin, from which mms convert recovers a killed run, after the run");
-  add_camera_options(*command, options->camera);
+  add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
   const auto view = std::make_shared<std::string>();
   const auto place = std::make_shared<ViewOptions>();

@@ -1,4 +1,4 @@
-#include "apps/mms/commands/camera_options.hpp"
+#include "apps/mms/commands/calibration_options.hpp"
 
 #include <algorithm>
 #include <string>
@@ -32,7 +32,7 @@ std::array<double, 4> parse_intrinsics(const std::string& text) {
 
 }  // namespace
 
-void add_camera_options(CLI::App& command, CameraOptions& options) {
+void add_calibration_options(CLI::App& command, CameraOptions& options) {
   command.add_option("--calibration", options.file, "calibration.yaml to use")
       ->check(CLI::ExistingFile)
       ->group(kGroup);

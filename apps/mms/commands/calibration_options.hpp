@@ -8,6 +8,6 @@ namespace mms {
 
 /// Adds the options for a calibration in place of the recording's: --calibration, --intrinsics,
 /// --depth-scale.
-void add_camera_options(CLI::App& command, CameraOptions& options);
+void add_calibration_options(CLI::App& command, CameraOptions& options);
 
 }  // namespace mms
