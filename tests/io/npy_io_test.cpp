@@ -58,10 +58,17 @@ TEST(NpyIo, RejectsOtherArraysAndDamagedFiles) {
   expect_in("is not a NumPy file", error("hello"));
   expect_in("is truncated", error(file_of(header("<f4"), data).substr(0, 30)));
   expect_in("has 20 bytes of data, not 24", error(file_of(header("<f4"), data.substr(4))));
-  expect_in("expected an array of two dimensions", error(file_of(header("<f4", "(6,)"), data)));
+  expect_in("expected one of two dimensions", error(file_of(header("<f4", "(6,)"), data)));
   expect_in("in C order", error(file_of(header("<f4", "(2, 3)", "True"), data)));
   expect_in("has numbers of type >f4", error(file_of(header(">f4"), data)));
   expect_in("has a side of 0 px", error(file_of(header("<f4", "(0, 3)"), "")));
+  expect_in("has a side of 99999 px", error(file_of(header("<f4", "(99999, 99999)"), "")));
+  expect_in("bytes of data, not 1073741824", error(file_of(header("<f4", "(16384, 16384)"), "")));
+  std::string huge = file_of(header("<f4"), std::string(20'000, 'x'));
+  huge[6] = '\x02';  // four bytes have the size of the header
+  huge[9] = '\x40';
+  huge[10] = huge[11] = '\0';
+  expect_in("has a damaged NumPy header", error(huge));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
-constexpr std::int64_t kMaxSide = 100'000;  // [px], so that sizes cannot overflow
+constexpr std::size_t kMaxHeader = 4096;  // bytes; NumPy writes about a hundred
 
 /// Text of the header, a Python dictionary, and where the data begin (NumPy's format 1.0 to 3.0).
 struct Header {
@@ -35,6 +35,7 @@ Header read_header(const std::string& bytes, const fs::path& path) {
   const std::size_t begin = kVersion + 2 + (is_short ? 2 : 4);
   std::size_t size = byte(8) + (byte(9) << 8);
   if (!is_short) size += (byte(10) << 16) + (byte(11) << 24);
+  if (size > kMaxHeader) throw DataError(path.string(), "has a damaged NumPy header");
   if (begin + size > bytes.size()) throw DataError(path.string(), "is truncated");
   return {bytes.substr(begin, size), begin + size};
 }
@@ -43,25 +44,26 @@ Header read_header(const std::string& bytes, const fs::path& path) {
 std::string field(const Header& header, const char* pattern, const fs::path& path) {
   std::smatch match;
   if (std::regex_search(header.text, match, std::regex(pattern))) return match[1];
-  throw DataError(path.string(), "has the NumPy header " + header.text,
-                  "expected an array of two dimensions in C order");
+  throw DataError(path.string(), "has another NumPy array",
+                  "expected one of two dimensions in C order");
 }
 
 int side_of(const std::string& text, const fs::path& path) {
   const auto value = parse_integer(text);
-  if (value && *value > 0 && *value <= kMaxSide) return static_cast<int>(*value);
+  if (value && *value > 0 && *value <= kMaxImageSide) return static_cast<int>(*value);
   throw DataError(path.string(), "has a side of " + text + " px");
 }
 
 template <class T>
 Image<float> convert(const std::string& bytes, std::size_t begin, int width, int height,
                      const fs::path& path) {
-  Image<float> image(width, height);
-  if (bytes.size() != begin + image.size() * sizeof(T)) {
+  const std::size_t size =
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(T);
+  if (bytes.size() - begin != size) {
     throw DataError(path.string(), "has " + std::to_string(bytes.size() - begin) +
-                                       " bytes of data, not " +
-                                       std::to_string(image.size() * sizeof(T)));
+                                       " bytes of data, not " + std::to_string(size));
   }
+  Image<float> image(width, height);
   for (std::size_t i = 0; i < image.size(); ++i) {
     T value;
     std::memcpy(&value, bytes.data() + begin + i * sizeof(T), sizeof(T));
