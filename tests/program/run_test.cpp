@@ -226,6 +226,10 @@ TEST(Run, UsesAndRecordsGivenCalibration) {
             (fs::canonical(folder.path()) / "mine.yaml").string());
   expect_usage_error(run_recording(folder, {"--intrinsics", "200,0,80,60"}),
                      "--intrinsics: 200,0,80,60 is not fx,fy,cx,cy in pixels");
+  for (const char* scale : {"nan", "0", "-1", "x"}) {
+    expect_usage_error(run_recording(folder, {"--depth-scale", scale}),
+                       std::string("--depth-scale: ") + scale + " is not a number from 0.001");
+  }
 }
 
 TEST(Run, AcceptsOtherNetwork) {

@@ -12,6 +12,11 @@ namespace {
 
 constexpr const char* kGroup = "Calibration (default: the recording's)";
 
+/// False for NaN.
+bool is_in(double value, const Range& range) {
+  return value >= range.min && value <= range.max;
+}
+
 /// Reads "fx,fy,cx,cy".
 std::array<double, 4> parse_intrinsics(const std::string& text) {
   std::array<double, 4> numbers{};
@@ -20,14 +25,20 @@ std::array<double, 4> parse_intrinsics(const std::string& text) {
     const std::size_t end = i + 1 < numbers.size() ? rest.find(',') : rest.size();
     const auto number = parse_double(rest.substr(0, end));
     const Range& range = i < 2 ? kFocalRange : kPrincipalPointRange;
-    if (end == std::string_view::npos || !number ||
-        !(*number >= range.min && *number <= range.max)) {
+    if (end == std::string_view::npos || !number || !is_in(*number, range)) {
       throw CLI::ValidationError("--intrinsics", text + " is not fx,fy,cx,cy in pixels");
     }
     numbers[i] = *number;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return numbers;
+}
+
+/// CLI11's own check of a range accepts NaN.
+double parse_depth_scale(const std::string& text) {
+  const auto scale = parse_double(text);
+  if (scale && is_in(*scale, kDepthScaleRange)) return *scale;
+  throw CLI::ValidationError("--depth-scale", text + " is not a number from 0.001 to 1e6");
 }
 
 }  // namespace
@@ -44,10 +55,11 @@ void add_calibration_options(CLI::App& command, CameraOptions& options) {
       ->type_name("fx,fy,cx,cy")
       ->group(kGroup);
   command
-      .add_option_function<double>(
-          "--depth-scale", [&options](double scale) { options.depth_scale = scale; },
+      .add_option_function<std::string>(
+          "--depth-scale",
+          [&options](const std::string& text) { options.depth_scale = parse_depth_scale(text); },
           "depth image units per meter")
-      ->check(CLI::Range(kDepthScaleRange.min, kDepthScaleRange.max))
+      ->type_name("FLOAT")
       ->group(kGroup);
 }
 
