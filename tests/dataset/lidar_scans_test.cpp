@@ -228,6 +228,54 @@ TEST(LidarScans, ReadsSensorsOfHeLiPR) {
   }
 }
 
+/// Its records must not be read as those of MulRan, which has the same folder.
+TEST(LidarScans, ReadsOusterOfHeLiPRFromTheFolderAbove) {
+  const TempFolder folder;
+  std::string records;
+  for (int i = 0; i < 8; ++i) records += helipr_record(26, 16, std::uint32_t{0});
+  folder.write("LiDAR/Ouster/1689519062000000000.bin", records);
+  folder.write("LiDAR_GT/global_Ouster_gt.txt", "1689519062000000000 1 2 3 0 0 0 1\n");
+  const Playback played(open_dataset(folder.path() / "LiDAR"));
+  ASSERT_EQ(played.frames.size(), 1U);
+  EXPECT_EQ(played.frames[0].scan.points.size(), 8U);
+  EXPECT_EQ(played.source->ground_truth().size(), 1U);
+}
+
+TEST(LidarScans, SkipsScansWithTimesThatAreNone) {
+  const TempFolder folder;
+  folder.write("LiDAR/Velodyne/1.bin", helipr_record(22, 18, std::nanf("")));
+  folder.write("LiDAR/Velodyne/2.bin", helipr_record(22, 18, 0.05F));
+  const Playback played(open_dataset(folder.path() / "LiDAR/Velodyne"));
+  EXPECT_EQ(played.names(), "2");
+  EXPECT_TRUE(any_has(played.warnings, "the time of point 0 is not within 1 s"));
+}
+
+TEST(LidarScans, SortsByNumbersOfDifferentLength) {
+  const TempFolder folder;
+  PointCloudFile cloud;
+  cloud.points.emplace_back(1.0F, 2.0F, 3.0F);
+  for (const char* name :
+       {"cloud_1583836591_82590976", "cloud_1583836591_182590976", "cloud_1583836592_2590976"}) {
+    write_pcd(folder.path() / (std::string(name) + ".pcd"), cloud);
+  }
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(),
+            "cloud_1583836591_82590976 cloud_1583836591_182590976 cloud_1583836592_2590976");
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(1'583'836'591'082'590'976));
+  folder.write("padded/0000000000000001.bin", kPoint);
+  EXPECT_EQ(Playback(open_dataset(folder.path() / "padded")).frames.at(0).stamp, Timestamp())
+      << "a number, not a stamp";
+}
+
+TEST(LidarScans, DoesWithoutTruthOfKittiRawIfACalibrationIsMissing) {
+  const TempFolder folder;
+  folder.write("drive/velodyne_points/data/0000000000.bin", kPoint);
+  folder.write("drive/oxts/data/0000000000.txt", "0 10 5 0 0 0\n");
+  const auto source = open_dataset(folder.path() / "drive");
+  EXPECT_TRUE(source->ground_truth().empty());
+  EXPECT_TRUE(any_has(source->describe(), "oxts/ not used"));
+}
+
 TEST(LidarScans, ReadsPcdAndPlyFilesWithNumbersAlone) {
   const TempFolder folder;
   PointCloudFile cloud;

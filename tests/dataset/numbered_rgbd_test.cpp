@@ -147,6 +147,23 @@ TEST(Open3d, ReadsFramesCameraAndPoses) {
   }
 }
 
+TEST(Open3d, TakesStampsFromNames) {
+  const TempFolder folder;
+  for (const char* name : {"1305031102175304000.png", "1305031102208304000.png"}) {
+    write_color(folder.path() / "color" / name);
+    write_depth(folder.path() / "depth" / name);
+  }
+  folder.write("camera_intrinsic.json", kOpen3dCamera);
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(1'305'031'102'175'304'000));
+  EXPECT_TRUE(any_has(played.source->describe(), "stamps: names of the images"));
+  write_color(folder.path() / "color/99999999999.png");
+  write_depth(folder.path() / "depth/99999999999.png");
+  expect_in("99999999999.png: has a number that is too large",
+            message_of<DataError>([&] { open_dataset(folder.path()); }));
+}
+
 TEST(Open3d, ReadsCameraOfRecorders) {
   const TempFolder folder;
   write_open3d(folder, "color", 1);

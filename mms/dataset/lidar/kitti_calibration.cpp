@@ -25,7 +25,8 @@ std::vector<double> matrix_of(const TextTable& table, const std::string& file,
     throw DataError(table.where(line), "has " + std::to_string(numbers.size()) + " numbers",
                     "expected the 12 of a 3x4 matrix");
   }
-  throw DataError(file, "has no line '" + name + ":'");
+  throw DataError(file, "has no line '" + name + ":'",
+                  "it is not KITTI's; give another with --calibration");
 }
 
 }  // namespace

@@ -82,13 +82,15 @@ KittiCalibration read_calibration_of(const fs::path& folder, const CameraOptions
   return {};
 }
 
-/// The format of scans of float32 is recognized.
+/// Where the format says only that points are float32, their number is recognized.
 ScanFormat format_of(const ScanLayout& layout, std::vector<std::string>& facts) {
   ScanFormat format = layout.format;
-  if (layout.dataset != ScanDataset::kKitti) return format;
+  if (format.kind != ScanFormat::Kind::kFloats) return format;
   const int floats = floats_per_point(layout.scans);
   facts.push_back("points: " + std::to_string(floats) + " float32 each");
-  return float_format(floats);
+  format.bytes = float_format(floats).bytes;
+  format.has_intensity = float_format(floats).has_intensity;
+  return format;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "mms/dataset/lidar/scan_format.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t kIntensityAt = 3 * sizeof(float);
 constexpr std::size_t kNcltBytes = 8;
+constexpr float kMaxTime = 1.0F;  // of a point, relative to its scan [s]
 
 template <class T>
 T value_at(const char* bytes) {
@@ -51,7 +53,11 @@ LidarScan read_float_records(const fs::path& path, const ScanFormat& format) {
     scan.points.emplace_back(value_at<float>(record), value_at<float>(record + 4),
                              value_at<float>(record + 8));
     if (format.has_intensity) scan.intensity.push_back(value_at<float>(record + kIntensityAt));
-    if (format.time != PointTime::kNone) scan.time_offset.push_back(time_of(record, format));
+    if (format.time == PointTime::kNone) continue;
+    scan.time_offset.push_back(time_of(record, format));
+    if (std::abs(scan.time_offset.back()) <= kMaxTime) continue;  // false for NaN
+    throw DataError(path.string(), "the time of point " + std::to_string(scan.points.size() - 1) +
+                                       " is not within 1 s of the scan");
   }
   return scan;
 }

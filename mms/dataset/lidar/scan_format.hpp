@@ -13,14 +13,15 @@ enum class PointTime { kNone, kFloatSeconds, kIntegerNanoseconds };
 /// How a scan is stored in a file.
 struct ScanFormat {
   enum class Kind {
-    kRecords,    ///< binary records that begin with x y z as float32
+    kFloats,     ///< records of float32 alone, x y z first
+    kRecords,    ///< other records that begin with x y z as float32
     kNclt,       ///< records of NCLT: x y z as uint16 in 5 mm, intensity, laser; z is down
     kCloudFile,  ///< .pcd or .ply
   };
 
-  Kind kind = Kind::kRecords;
+  Kind kind = Kind::kFloats;
   std::size_t bytes = 16;     ///< of a record
-  bool has_intensity = true;  ///< of kRecords: a float32 after z
+  bool has_intensity = true;  ///< a float32 after z
   PointTime time = PointTime::kNone;
   std::size_t time_at = 0;  ///< byte of the time in a record
   /// Points of a 64x1024 scan at 10 Hz, column by column: their times follow from their order.

@@ -44,13 +44,24 @@ struct HeLiPRSensor {
   ScanFormat format;
 };
 constexpr HeLiPRSensor kHeLiPRSensors[] = {
-    {"Ouster", {.bytes = 26, .time = PointTime::kIntegerNanoseconds, .time_at = 16}},
-    {"Velodyne", {.bytes = 22, .time = PointTime::kFloatSeconds, .time_at = 18}},
+    {"Ouster",
+     {.kind = Kind::kRecords, .bytes = 26, .time = PointTime::kIntegerNanoseconds, .time_at = 16}},
+    {"Velodyne",
+     {.kind = Kind::kRecords, .bytes = 22, .time = PointTime::kFloatSeconds, .time_at = 18}},
     {"Avia",
-     {.bytes = 19, .has_intensity = false, .time = PointTime::kIntegerNanoseconds, .time_at = 15}},
+     {.kind = Kind::kRecords,
+      .bytes = 19,
+      .has_intensity = false,
+      .time = PointTime::kIntegerNanoseconds,
+      .time_at = 15}},
     {"Aeva",
-     {.bytes = 29, .has_intensity = false, .time = PointTime::kIntegerNanoseconds, .time_at = 20}}};
+     {.kind = Kind::kRecords,
+      .bytes = 29,
+      .has_intensity = false,
+      .time = PointTime::kIntegerNanoseconds,
+      .time_at = 20}}};
 
+/// @param folder  of the scans
 const HeLiPRSensor* helipr_sensor(const fs::path& folder) {
   const fs::path whole = absolute_folder(folder);
   if (whole.parent_path().filename() != "LiDAR") return nullptr;
@@ -67,12 +78,45 @@ bool is_scan(std::string_view name, std::string_view ending) {
   return ending == ".bin" || (last >= '0' && last <= '9');
 }
 
+/// A run of digits at the beginning of a text, without leading zeros; the rest begins after it.
+std::string_view take_number(std::string_view& text) {
+  const auto end = std::min(text.find_first_not_of("0123456789"), text.size());
+  std::string_view digits = text.substr(0, end);
+  digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
+  text.remove_prefix(end);
+  return digits;
+}
+
+bool begins_with_digit(std::string_view text) {
+  return !text.empty() && text.front() >= '0' && text.front() <= '9';
+}
+
+/// Order of names with numbers of different length: 2.pcd before 10.pcd.
+bool numeric_order(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty()) {
+    if (begins_with_digit(a) && begins_with_digit(b)) {
+      const std::string_view first = take_number(a);
+      const std::string_view second = take_number(b);
+      if (first.size() != second.size()) return first.size() < second.size();
+      if (first != second) return first < second;
+      continue;
+    }
+    if (a.front() != b.front()) return a.front() < b.front();
+    a.remove_prefix(1);
+    b.remove_prefix(1);
+  }
+  return a.size() < b.size();
+}
+
 std::vector<fs::path> scans_in(const fs::path& folder, std::string_view ending) {
   std::vector<fs::path> scans;
   if (!fs::is_directory(folder)) return scans;
   for (const std::string& name : list_folder(folder)) {
     if (is_scan(name, ending)) scans.push_back(folder / name);
   }
+  std::stable_sort(scans.begin(), scans.end(), [](const fs::path& a, const fs::path& b) {
+    return numeric_order(a.filename().string(), b.filename().string());
+  });
   return scans;
 }
 
@@ -92,7 +136,7 @@ ScanLayout find_scan_layout(const fs::path& folder) {
     std::vector<fs::path> scans =
         scans_in(*known.folder == '\0' ? folder : folder / known.folder, known.ending);
     if (scans.empty()) continue;
-    const HeLiPRSensor* sensor = helipr_sensor(folder);
+    const HeLiPRSensor* sensor = helipr_sensor(scans.front().parent_path());
     if (sensor != nullptr)
       return {"HeLiPR", ScanDataset::kHeLiPR, std::move(scans), sensor->format};
     return {known.name, known.dataset, std::move(scans), known.format};

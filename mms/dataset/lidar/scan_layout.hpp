@@ -16,7 +16,7 @@ enum class ScanDataset { kKitti, kKittiRaw, kMulRan, kNclt, kNewerCollege, kHeLi
 struct ScanLayout {
   const char* name = "";  ///< for messages
   ScanDataset dataset = ScanDataset::kOther;
-  std::vector<std::filesystem::path> scans;  ///< sorted by name
+  std::vector<std::filesystem::path> scans;  ///< in the order of their names' numbers
   ScanFormat format;                         ///< of kOther and kKitti still to be recognized
 };
 

@@ -45,10 +45,12 @@ std::optional<double> median_distance(const std::vector<fs::path>& scans, int fl
       if (points.size() < kMinPoints) continue;
       std::vector<double> distances;
       for (std::size_t k = 1; k < points.size(); ++k) {
+        if (points[k].isZero() || points[k - 1].isZero()) continue;  // no return
         const double distance = (points[k] - points[k - 1]).norm();
         distances.push_back(std::isfinite(distance) ? distance
                                                     : std::numeric_limits<double>::infinity());
       }
+      if (distances.empty()) continue;
       const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
       std::nth_element(distances.begin(), middle, distances.end());
       return *middle;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/source/assumed_stamp.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/text_table.hpp"
@@ -14,10 +15,9 @@ namespace mms {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;  // [ns]
-constexpr std::size_t kMicrosecondDigits = 16;
-constexpr std::size_t kNanosecondDigits = 19;
-constexpr std::size_t kSecondDigits = 10;
+constexpr std::int64_t kSecond = 1'000'000'000;        // [ns]
+constexpr std::int64_t kFirstSecond = 1'000'000'000;   // in 2001
+constexpr std::int64_t kEndSecond = 9 * kFirstSecond;  // in 2255
 
 /// The digits at the end of a text.
 std::string_view last_digits(std::string_view text) {
@@ -34,12 +34,13 @@ std::optional<Timestamp> stamp_in_name(const fs::path& scan) {
   const std::string_view digits = last_digits(text);
   const auto number = parse_integer(digits);
   if (!number) return std::nullopt;
-  if (digits.size() == kMicrosecondDigits) return Timestamp(1000 * *number);
-  if (digits.size() == kNanosecondDigits) return Timestamp(*number);
+  if (const auto stamp = stamp_of_number(*number)) return stamp;
   if (!text.substr(0, text.size() - digits.size()).ends_with("_")) return std::nullopt;
   const auto before = last_digits(text.substr(0, text.size() - digits.size() - 1));
   const auto seconds = parse_integer(before);
-  if (!seconds || before.size() != kSecondDigits || *number >= kSecond) return std::nullopt;
+  if (!seconds || *seconds < kFirstSecond || *seconds >= kEndSecond || *number >= kSecond) {
+    return std::nullopt;
+  }
   return Timestamp(*seconds * kSecond + *number);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 #include "mms/core/error.hpp"
@@ -18,6 +19,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using Facts = std::vector<std::string>;
+
+constexpr std::int64_t kMicrosecond = 1'000;         // [ns]
+constexpr std::int64_t kSecondUnit = 1'000'000'000;  // [ns]
 
 Eigen::Isometry3d make_pose(const Eigen::Vector3d& t, const Eigen::Matrix3d& R) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -40,11 +44,13 @@ Eigen::Matrix3d rotation_of(std::span<const double> q, const std::string& where)
   return quaternion.normalized().toRotationMatrix();
 }
 
-/// Whole number of a column: a stamp, which a double does not hold.
-std::int64_t integer_at(const TextLine& line, std::size_t column, const std::string& where) {
+/// The stamp in a column, whole numbers of `unit` [ns].
+Timestamp stamp_at(const TextLine& line, std::size_t column, std::int64_t unit,
+                   const std::string& where) {
+  const std::int64_t end = std::numeric_limits<std::int64_t>::max() / unit;
   const auto value = parse_integer(line.fields[column]);
-  if (value) return *value;
-  throw DataError(where, "column " + std::to_string(column + 1) + " is not a whole number");
+  if (value && *value >= 0 && *value < end) return Timestamp(*value * unit);
+  throw DataError(where, "column " + std::to_string(column + 1) + " is not a stamp");
 }
 
 /// The poses of a table, each line by `pose_of(line, where)`.
@@ -75,7 +81,7 @@ Trajectory read_mulran_truth(const fs::path& file) {
       make_pose(Eigen::Vector3d(1.7042, -0.021, 1.8047), rotation_of(0.0, 0.0, kYaw));
   return read_table(file, 13, [&](const TextLine& line, const std::string& where) {
     const auto pose = isometry_from_rows(numbers_from(line, 1, where), where) * T_base_lidar;
-    return StampedPose{Timestamp(integer_at(line, 0, where)), Transform<World, Sensor>(pose)};
+    return StampedPose{stamp_at(line, 0, 1, where), Transform<World, Sensor>(pose)};
   });
 }
 
@@ -95,7 +101,7 @@ Trajectory read_nclt_truth(const fs::path& file) {
     const auto n = numbers_from(line, 1, where);
     const auto pose =
         make_pose(Eigen::Vector3d(n[0], n[1], n[2]), rotation_of(n[3], n[4], n[5])) * upside_down();
-    truth.push_back({Timestamp(1000 * integer_at(line, 0, where)), Transform<World, Sensor>(pose)});
+    truth.push_back({stamp_at(line, 0, kMicrosecond, where), Transform<World, Sensor>(pose)});
   }
   return truth;
 }
@@ -110,7 +116,8 @@ Trajectory read_newer_college_truth(const fs::path& file) {
     const auto pose =
         make_pose(Eigen::Vector3d(n[0], n[1], n[2]), rotation_of(std::span(n).subspan(3), where)) *
         T_mount_lidar;
-    const Timestamp stamp(integer_at(line, 0, where) * 1'000'000'000 + integer_at(line, 1, where));
+    const Timestamp stamp = stamp_at(line, 0, kSecondUnit, where) +
+                            Duration(stamp_at(line, 1, 1, where).nanoseconds() % kSecondUnit);
     return StampedPose{stamp, Transform<World, Sensor>(pose)};
   });
 }
@@ -121,7 +128,7 @@ Trajectory read_helipr_truth(const fs::path& file) {
     const auto n = numbers_from(line, 1, where);
     const auto pose =
         make_pose(Eigen::Vector3d(n[0], n[1], n[2]), rotation_of(std::span(n).subspan(3), where));
-    return StampedPose{Timestamp(integer_at(line, 0, where)), Transform<World, Sensor>(pose)};
+    return StampedPose{stamp_at(line, 0, 1, where), Transform<World, Sensor>(pose)};
   });
 }
 
@@ -146,14 +153,17 @@ Eigen::Isometry3d read_rigid(const fs::path& file) {
   return isometry_from_rows(rows, file.string());
 }
 
+fs::path imu_calibration(const fs::path& folder) {
+  return absolute_folder(folder).parent_path() / "calib_imu_to_velo.txt";
+}
+
 /// Poses of the inertial unit from latitude and longitude (Mercator projection of KITTI's
 /// development kit), altitude, roll, pitch and yaw.
 Trajectory read_kitti_raw_truth(const fs::path& folder, const ScanLayout& layout,
                                 std::span<const Timestamp> stamps) {
   constexpr double kEarthRadius = 6378137.0;  // [m]
   constexpr double kRadians = std::numbers::pi / 180.0;
-  const fs::path calibration = absolute_folder(folder).parent_path() / "calib_imu_to_velo.txt";
-  const Eigen::Isometry3d T_imu_lidar = read_rigid(calibration).inverse();
+  const Eigen::Isometry3d T_imu_lidar = read_rigid(imu_calibration(folder)).inverse();
   Trajectory truth;
   double scale = 0.0;
   for (std::size_t i = 0; i < layout.scans.size(); ++i) {
@@ -197,21 +207,22 @@ Trajectory read_kitti_truth(const fs::path& file, std::span<const Timestamp> sta
 }
 
 /// File of the ground truth of a data set; empty for none.
-fs::path truth_file(const fs::path& folder, ScanDataset dataset) {
+fs::path truth_file(const fs::path& folder, const ScanLayout& layout) {
   const fs::path whole = absolute_folder(folder);
-  const std::string name = whole.filename().string();
-  const fs::path above = whole.parent_path();
-  switch (dataset) {
+  const fs::path sensor = absolute_folder(layout.scans.front().parent_path());
+  switch (layout.dataset) {
     case ScanDataset::kKittiRaw:
       return folder / "oxts" / "data";
     case ScanDataset::kMulRan:
       return folder / "global_pose.csv";
     case ScanDataset::kNclt:
-      return above / "ground_truth" / ("groundtruth_" + name + ".csv");
+      return whole.parent_path() / "ground_truth" /
+             ("groundtruth_" + whole.filename().string() + ".csv");
     case ScanDataset::kNewerCollege:
       return folder / "ground_truth" / "registered_poses.csv";
     case ScanDataset::kHeLiPR:
-      return above.parent_path() / "LiDAR_GT" / ("global_" + name + "_gt.txt");
+      return sensor.parent_path().parent_path() / "LiDAR_GT" /
+             ("global_" + sensor.filename().string() + "_gt.txt");
     case ScanDataset::kKitti:
     case ScanDataset::kOther:
       return find_kitti_poses(folder);
@@ -224,16 +235,21 @@ fs::path truth_file(const fs::path& folder, ScanDataset dataset) {
 Trajectory read_scan_truth(const fs::path& folder, const ScanLayout& layout,
                            std::span<const Timestamp> stamps,
                            const Eigen::Isometry3d& T_camera_lidar, Facts& facts) {
-  const fs::path own = folder / "groundtruth.txt";
-  const fs::path file = fs::exists(own) ? own : truth_file(folder, layout.dataset);
-  if (file.empty() || !fs::exists(file)) return {};
+  fs::path file = truth_file(folder, layout);
   const auto used = [&](Trajectory truth, const std::string& remark = "") {
     facts.push_back("poses: " + file.filename().string() + remark);
     return truth;
   };
-  if (file == own) return used(read_trajectory_tum(own));
+  if (file.empty() || !fs::exists(file)) {
+    file = folder / "groundtruth.txt";
+    return fs::exists(file) ? used(read_trajectory_tum(file)) : Trajectory();
+  }
   switch (layout.dataset) {
     case ScanDataset::kKittiRaw:
+      if (!fs::exists(imu_calibration(folder))) {
+        facts.emplace_back("poses: oxts/ not used, ../calib_imu_to_velo.txt is missing");
+        return {};
+      }
       return used(read_kitti_raw_truth(folder, layout, stamps), " of oxts/");
     case ScanDataset::kMulRan:
       return used(read_mulran_truth(file));

@@ -30,6 +30,15 @@ std::optional<std::int64_t> number_of(std::string_view name, const ImageSeries& 
   return std::nullopt;
 }
 
+/// Stamp of an image: its number, or at the assumed rate.
+Timestamp stamp_of_image(std::int64_t number, const fs::path& file) {
+  if (const auto stamp = stamp_of_number(number)) return *stamp;
+  if (number <= kMaxImageNumber) return assumed_stamp(number);
+  throw DataError(file.string(), "has a number that is too large",
+                  "expected at most " + std::to_string(kMaxImageNumber) +
+                      ", or a stamp in milli-, micro- or nanoseconds since 1970");
+}
+
 std::string text_of(const ImageSeries& series) {
   return (series.folder.filename() / (series.prefix + "N" + series.endings.front())).string();
 }
@@ -52,8 +61,12 @@ std::vector<std::int64_t> add_numbered_frames(RgbdRecording& recording, const Im
   for (const auto& [number, file] : colors) {
     const auto other = depths.find(number);
     if (other == depths.end()) continue;
-    recording.frames.push_back(
-        {assumed_stamp(number), Duration::zero(), file, other->second, {}, file.stem().string()});
+    recording.frames.push_back({stamp_of_image(number, file),
+                                Duration::zero(),
+                                file,
+                                other->second,
+                                {},
+                                file.stem().string()});
     numbers.push_back(number);
   }
   const std::string counts = std::to_string(colors.size()) + " color images " + text_of(color) +
@@ -64,7 +77,8 @@ std::vector<std::int64_t> add_numbered_frames(RgbdRecording& recording, const Im
   }
   recording.facts.push_back("images: " + counts + ", " + std::to_string(numbers.size()) +
                             " with both");
-  recording.facts.emplace_back("stamps: none, 30 Hz assumed");
+  recording.facts.emplace_back(stamp_of_number(numbers.front()) ? "stamps: names of the images"
+                                                                : "stamps: none, 30 Hz assumed");
   return numbers;
 }
 

@@ -23,9 +23,11 @@ struct ImageSeries {
 /// @throws FileError if the folder cannot be read.
 std::map<std::int64_t, std::filesystem::path> find_numbered(const ImageSeries& series);
 
-/// Adds a frame for every number that has both images, with `assumed_stamp`, and facts.
+/// Adds a frame for every number that has both images, and facts. Stamps are the numbers
+/// (`stamp_of_number`), or else `assumed_stamp`.
 /// @returns the numbers of the frames
-/// @throws FileError if a folder cannot be read; DataError if no number has both.
+/// @throws FileError if a folder cannot be read; DataError if no number has both, or one is too
+/// large.
 std::vector<std::int64_t> add_numbered_frames(RgbdRecording& recording, const ImageSeries& color,
                                               const ImageSeries& depth);
 

@@ -4,7 +4,6 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/numbered/numbered_images.hpp"
-#include "mms/dataset/source/assumed_stamp.hpp"
 #include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/io/config/camera_json.hpp"
@@ -56,8 +55,8 @@ std::optional<Calibration> find_camera(RgbdRecording& recording) {
   return camera;
 }
 
-/// Poses of an Open3D trajectory: their number, and a camera-to-world matrix.
-void read_poses(RgbdRecording& recording) {
+/// Poses of an Open3D trajectory: number of the image, and a camera-to-world matrix.
+void read_trajectory_log(RgbdRecording& recording, const std::vector<std::int64_t>& numbers) {
   const fs::path file = recording.folder / "trajectory.log";
   if (!fs::exists(file)) return;
   const TextTable table(file);
@@ -73,7 +72,11 @@ void read_poses(RgbdRecording& recording) {
       fields.insert(fields.end(), lines[i + row].fields.begin(), lines[i + row].fields.end());
     }
     const auto pose = isometry_from_rows(parse_finite(fields, where), where);
-    recording.ground_truth.push_back({assumed_stamp(*number), Transform<World, Sensor>(pose)});
+    const auto image = std::lower_bound(numbers.begin(), numbers.end(), *number);
+    if (image == numbers.end() || *image != *number) continue;
+    const auto frame = static_cast<std::size_t>(image - numbers.begin());
+    recording.ground_truth.push_back(
+        {recording.frames[frame].stamp, Transform<World, Sensor>(pose)});
   }
   recording.facts.push_back("poses: trajectory.log, " +
                             std::to_string(recording.ground_truth.size()));
@@ -93,10 +96,11 @@ std::unique_ptr<FrameSource> open_open3d(const fs::path& folder, const SourceOpt
   RgbdRecording recording;
   recording.folder = folder;
   recording.facts.emplace_back("layout: Open3D, numbered color and depth images");
-  add_numbered_frames(recording, {color_folder(folder), "", {".jpg", ".jpeg", ".png"}},
-                      {folder / "depth", "", {".png"}});
+  const auto numbers =
+      add_numbered_frames(recording, {color_folder(folder), "", {".jpg", ".jpeg", ".png"}},
+                          {folder / "depth", "", {".png"}});
   choose_calibration(recording, options.camera, [&] { return find_camera(recording); });
-  read_poses(recording);
+  read_trajectory_log(recording, numbers);
   find_masks(recording, options);
   return std::make_unique<RgbdSource>(std::move(recording));
 }

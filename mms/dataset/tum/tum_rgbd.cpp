@@ -121,7 +121,7 @@ std::optional<fs::path> find_icl_truth(const fs::path& folder) {
   return std::nullopt;
 }
 
-/// Poses of a camera whose y axis is up, in a left-handed world, as poses of ours.
+/// Converts left-handed poses of a camera whose y axis is up to a camera whose y axis is down.
 Trajectory mirrored(Trajectory trajectory) {
   const Eigen::DiagonalMatrix<double, 3> mirror(1.0, -1.0, 1.0);
   for (StampedPose& pose : trajectory) {
