@@ -60,6 +60,14 @@ TEST(ScanNet, SamplesColorsForDepthCamera) {
   EXPECT_EQ(frame.calibration->camera->fx, 10.0);
 }
 
+TEST(ScanNet, TakesIntrinsicsOfDepthImages) {
+  const TempFolder folder;
+  write_scannet(folder, 1);
+  const Playback played(open_dataset(folder.path(), {.camera = {.intrinsics = {{12, 12, 4, 3}}}}));
+  ASSERT_EQ(played.frames.size(), 1U);
+  EXPECT_EQ(played.frames[0].calibration->camera->fx, 12.0);
+}
+
 TEST(ScanNet, SkipsUnknownPoses) {
   const TempFolder folder;
   write_scannet(folder, 3);

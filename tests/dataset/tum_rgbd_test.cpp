@@ -225,6 +225,12 @@ TEST(TumRgbd, ReadsCalibrationOfEth3d) {
   const Frame frame = Playback(open_dataset(folder.path())).frames.at(0);
   EXPECT_EQ(frame.calibration->camera->fy, 11.0);
   EXPECT_EQ(frame.calibration->camera->width, kWidth);
+  folder.write("rgb/f0.png", "damaged");
+  write_color(folder.path() / "rgb/f1.png");
+  write_depth(folder.path() / "depth/f1.png");
+  folder.write("rgb.txt", "5.0 rgb/f0.png\n5.1 rgb/f1.png\n");
+  folder.write("depth.txt", "5.0 depth/f0.png\n5.1 depth/f1.png\n");
+  EXPECT_EQ(Playback(open_dataset(folder.path())).names(), "f1") << "f0 is damaged";
   EXPECT_NEAR(frame.depth(0, 0), 1500.0 / 5000.0, 1e-6);
   folder.write("calibration.txt", "10 11 4\n");
   expect_in("calibration.txt: has 3 numbers (expected fx fy cx cy", error_of(folder));

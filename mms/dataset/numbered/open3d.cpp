@@ -5,9 +5,9 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/numbered/numbered_images.hpp"
 #include "mms/dataset/source/calibration_choice.hpp"
+#include "mms/dataset/source/first_image.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/io/config/camera_json.hpp"
-#include "mms/io/image/image_io.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/pose_text.hpp"
 #include "mms/io/text/text_table.hpp"
@@ -46,7 +46,7 @@ std::optional<Calibration> find_camera(RgbdRecording& recording) {
     recording.facts.push_back(std::string("calibration: ") + name);
     return read_camera_json(recording.folder / name);
   }
-  const Image<Rgb> image = read_color(recording.frames.front().color);
+  const Image<Rgb> image = first_color(recording);
   const Calibration camera = primesense_camera();
   if (image.width() != camera.camera->width || image.height() != camera.camera->height) {
     return std::nullopt;

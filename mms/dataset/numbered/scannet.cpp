@@ -3,9 +3,9 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/numbered/numbered_images.hpp"
 #include "mms/dataset/source/calibration_choice.hpp"
+#include "mms/dataset/source/first_image.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/dataset/source/pose_file.hpp"
-#include "mms/io/image/image_io.hpp"
 #include "mms/io/text/pose_text.hpp"
 #include "mms/io/text/text_table.hpp"
 
@@ -32,8 +32,8 @@ CameraIntrinsics read_camera(const fs::path& file, const Image<T>& image) {
 
 Calibration read_depth_camera(RgbdRecording& recording) {
   Calibration calibration;
-  calibration.camera = read_camera(recording.folder / "intrinsic" / "intrinsic_depth.txt",
-                                   read_depth16(recording.frames.front().depth));
+  calibration.camera =
+      read_camera(recording.folder / "intrinsic" / "intrinsic_depth.txt", first_depth(recording));
   calibration.depth_scale = 1000.0;
   recording.facts.emplace_back(
       "calibration: intrinsic/intrinsic_depth.txt, colors sampled by "
@@ -62,8 +62,8 @@ std::unique_ptr<FrameSource> open_scannet(const fs::path& folder, const SourceOp
   const auto numbers = add_numbered_frames(recording, {folder / "color", "", {".jpg", ".png"}},
                                            {folder / "depth", "", {".png"}});
   choose_calibration(recording, options.camera, [&] { return read_depth_camera(recording); });
-  recording.color_camera = read_camera(folder / "intrinsic" / "intrinsic_color.txt",
-                                       read_color(recording.frames.front().color));
+  recording.color_camera =
+      read_camera(folder / "intrinsic" / "intrinsic_color.txt", first_color(recording));
   read_poses(recording, numbers);
   find_masks(recording, options);
   return std::make_unique<RgbdSource>(std::move(recording));

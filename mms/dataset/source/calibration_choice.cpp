@@ -1,8 +1,8 @@
 #include "mms/dataset/source/calibration_choice.hpp"
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/source/first_image.hpp"
 #include "mms/io/config/calibration_io.hpp"
-#include "mms/io/image/image_io.hpp"
 #include "mms/io/text/numbers.hpp"
 
 namespace mms {
@@ -24,7 +24,7 @@ std::optional<Calibration> read_file_of(RgbdRecording& recording, const CameraOp
 }
 
 CameraIntrinsics camera_of(const std::array<double, 4>& k, const RgbdRecording& recording) {
-  const Image<Rgb> first = read_color(recording.frames.front().color);
+  const Image<float> first = first_depth(recording);
   return {k[0], k[1], k[2], k[3], first.width(), first.height(), {}};
 }
 

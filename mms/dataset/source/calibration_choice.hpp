@@ -10,7 +10,7 @@ namespace mms {
 
 /// Sets the calibration of a recording and adds facts: the file of the options, else
 /// calibration.yaml of its folder, else that of its layout. Then intrinsics and depth scale of the
-/// options replace those; the image size is that of the first color image.
+/// options replace those; the image size is that of the depth images.
 /// @param of_layout  nullopt: the layout has none. Not called where a file is used; adds its own
 ///                   facts
 /// @throws DataError if there is no camera; FileError, ConfigError for an invalid file.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "mms/core/error.hpp"
-#include "mms/io/image/image_io.hpp"
 #include "mms/io/text/pose_text.hpp"
 #include "mms/io/text/text_table.hpp"
 
@@ -72,8 +71,7 @@ Calibration icl_nuim_calibration() {
   return calibration_of({481.2, 480.0, 319.5, 239.5, 640, 480, {}});
 }
 
-Calibration read_eth3d_calibration(const std::filesystem::path& file,
-                                   const std::filesystem::path& image) {
+Calibration read_eth3d_calibration(const std::filesystem::path& file, const Image<Rgb>& image) {
   const TextTable table(file);
   std::vector<std::string_view> fields;
   for (const TextLine& line : table.lines()) {
@@ -84,8 +82,7 @@ Calibration read_eth3d_calibration(const std::filesystem::path& file,
     throw DataError(file.string(), "has " + std::to_string(k.size()) + " numbers",
                     "expected fx fy cx cy in pixels, focal lengths above 0");
   }
-  const Image<Rgb> first = read_color(image);
-  return calibration_of({k[0], k[1], k[2], k[3], first.width(), first.height(), {}});
+  return calibration_of({k[0], k[1], k[2], k[3], image.width(), image.height(), {}});
 }
 
 }  // namespace mms

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mms/core/calibration.hpp"
+#include "mms/core/image.hpp"
 
 namespace mms {
 
@@ -16,8 +17,7 @@ Calibration icl_nuim_calibration();
 
 /// Reads calibration.txt of ETH3D: fx fy cx cy [px]. Images have no distortion, and their size is
 /// that of `image`.
-/// @throws FileError if a file cannot be read; DataError for other content.
-Calibration read_eth3d_calibration(const std::filesystem::path& file,
-                                   const std::filesystem::path& image);
+/// @throws FileError if the file cannot be read; DataError for other content.
+Calibration read_eth3d_calibration(const std::filesystem::path& file, const Image<Rgb>& image);
 
 }  // namespace mms

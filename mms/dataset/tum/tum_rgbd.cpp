@@ -5,6 +5,7 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/assumed_stamp.hpp"
 #include "mms/dataset/source/calibration_choice.hpp"
+#include "mms/dataset/source/first_image.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/dataset/source/frame_association.hpp"
 #include "mms/dataset/source/image_list.hpp"
@@ -92,7 +93,7 @@ std::optional<Calibration> known_calibration(RgbdRecording& recording,
   const fs::path eth3d = recording.folder / "calibration.txt";
   if (fs::exists(eth3d)) {
     recording.facts.emplace_back("calibration: calibration.txt (ETH3D)");
-    return read_eth3d_calibration(eth3d, recording.frames.front().color);
+    return read_eth3d_calibration(eth3d, first_color(recording));
   }
   if (icl_truth) {
     recording.facts.emplace_back("calibration: default of ICL-NUIM");
