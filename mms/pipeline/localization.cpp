@@ -34,7 +34,7 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
     deskew(result.cloud, odometry_.velocity());
     exclude_moving_points(result.cloud, frame.features);
-    const OdometryEstimate estimate = odometry_.accept(hypotheses_.align(
+    OdometryEstimate estimate = odometry_.accept(hypotheses_.align(
         odometry_, result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
     result.keyframe = keyframes_.is_keyframe(estimate);        // III-C.4
     if (result.keyframe) {

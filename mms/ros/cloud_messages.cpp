@@ -13,7 +13,6 @@ namespace mms {
 namespace {
 
 constexpr std::uint8_t kFloat32 = 7;
-constexpr std::uint8_t kFloat64 = 8;
 
 /// Bytes of the types of sensor_msgs/PointField; 0 for unknown ones.
 std::size_t size_of(std::uint8_t datatype) {

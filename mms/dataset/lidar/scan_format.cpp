@@ -93,7 +93,8 @@ void add_column_times(LidarScan& scan) {
   constexpr float kPeriod = 0.1F;  // [s]
   if (scan.points.size() != kRows * kColumns) return;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    scan.time_offset.push_back(kPeriod * static_cast<float>(i / kRows) / kColumns);
+    const std::size_t column = i / kRows;
+    scan.time_offset.push_back(kPeriod * static_cast<float>(column) / kColumns);
   }
 }
 

@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 namespace {
 
 struct KnownLayout {
-  const char* name;
-  ScanDataset dataset;
-  const char* folder;  ///< of the scans, in the recording's
-  const char* ending;
+  const char* name = "";
+  ScanDataset dataset = ScanDataset::kOther;
+  const char* folder = "";  ///< of the scans, in the recording's
+  const char* ending = "";
   ScanFormat format{};
 };
 
@@ -40,7 +40,7 @@ constexpr KnownLayout kLayouts[] = {
 
 /// Records of HeLiPR's sensors, in folders of their names.
 struct HeLiPRSensor {
-  const char* name;
+  const char* name = "";
   ScanFormat format;
 };
 constexpr HeLiPRSensor kHeLiPRSensors[] = {

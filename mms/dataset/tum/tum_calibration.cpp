@@ -17,7 +17,7 @@ namespace {
 constexpr double kTumDepthScale = 5000.0;
 
 struct NamedCamera {
-  const char* name;  ///< part of the folder's name
+  const char* name = "";  ///< part of the folder's name
   CameraIntrinsics camera;
 };
 

@@ -13,7 +13,7 @@ constexpr float kSeedReach = 3.0F;
 
 /// Seeds that the points of one node may be close to: its own and those of the four nodes beside.
 struct NodeSeeds {
-  std::array<int, 5> seeds;
+  std::array<int, 5> seeds{};
   int count = 0;
 };
 

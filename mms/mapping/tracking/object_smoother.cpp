@@ -22,7 +22,7 @@ ObjectHistory ObjectSmoother::history() const {
 std::deque<ObjectSmoother::Frame> ObjectSmoother::smoothed() const {
   struct Later {
     Timestamp stamp;
-    const MotionFilter* motion;
+    const MotionFilter* motion = nullptr;
   };
   std::unordered_map<int, Later> later_of;
   std::deque<Frame> frames = recent_;

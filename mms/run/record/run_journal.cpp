@@ -65,7 +65,7 @@ void RunJournal::push(std::optional<MapChanges> map) {
   queue_.push(std::move(frame));
 }
 
-void RunJournal::write_frames(WarningHandler warn) {
+void RunJournal::write_frames(const WarningHandler& warn) {
   try {
     while (const auto frame = queue_.pop()) writer_->append(**frame);
   } catch (const std::exception& error) {  // including lack of memory

@@ -45,7 +45,7 @@ class RunJournal {
 
  private:
   void push(std::optional<MapChanges> map);
-  void write_frames(WarningHandler warn);
+  void write_frames(const WarningHandler& warn);
   void finish();
 
   std::filesystem::path path_;

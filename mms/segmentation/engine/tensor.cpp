@@ -47,7 +47,7 @@ void shrink(const float* values, int count, float inverse_scale, float least, fl
   // Adding it rounds a number to an integer in the lowest bits.
   constexpr float kRounding = 12582912.0F;  // 1.5 * 2^23
   constexpr int kPiece = 128;
-  std::array<float, kPiece> whole;
+  std::array<float, kPiece> whole{};
   for (int first = 0; first < count; first += kPiece) {
     const int length = std::min(kPiece, count - first);
     for (int i = 0; i < length; ++i) {

@@ -50,7 +50,7 @@ void lower_priority() {
 
 asio::ip::address address_of(const ServerOptions& options) {
   ErrorCode error;
-  const auto address =
+  auto address =
       asio::ip::make_address(options.address == "localhost" ? "127.0.0.1" : options.address, error);
   if (error) {
     throw DataError("--bind", "'" + options.address + "' is not an address",

@@ -77,7 +77,7 @@ bool is_live_download(std::string_view name) {
 }
 
 fs::path write_live_download(Scene& scene, std::string_view name) {
-  const fs::path path = new_temporary(name);
+  fs::path path = new_temporary(name);
   try {
     if (name == "trajectory.tum") {
       write_trajectory_tum(path, trajectory_of(scene));

@@ -23,7 +23,7 @@ Eigen::Isometry3f turned(float x, float y, float z, float yaw) {
 /// Walls of a rectangular room centered at the origin.
 struct Side {
   Eigen::Isometry3f T;  ///< base of the wall's center, x along it, y into the room
-  float length;
+  float length = 0.0F;
 };
 
 std::array<Side, 4> sides_of(float half_x, float half_y) {

@@ -47,8 +47,9 @@ void add_cartons(Mesh& mesh, const Eigen::Isometry3f& T, float height, RandomStr
   for (int layer = 0; layer < layers; ++layer) {
     for (int i = 0; i < nx * ny; ++i) {
       if (layer > 0 && layer + 1 == layers && random.chance(0.3F)) continue;
+      const int row = i / nx;
       const float x = (static_cast<float>(i % nx) + 0.5F) * size.x() - 0.58F;
-      const float y = (static_cast<float>(i / nx) + 0.5F) * size.y() - 0.39F;
+      const float y = (static_cast<float>(row) + 0.5F) * size.y() - 0.39F;
       const float z = kPalletHeight + static_cast<float>(layer) * size_z;
       add_carton(mesh, T * turned(x, y, z, random.between(-0.03F, 0.03F)),
                  {0.96F * size.x(), 0.96F * size.y(), size.z()}, random);

@@ -54,7 +54,7 @@ void find_jumps(const float* here, std::ptrdiff_t step, int width, float* beyond
     const float jump = std::abs(other - d);
     const float bend = std::abs(other - 2.0F * d + here[x - step]);
     const bool boundary = (jump > limit) & (bend > limit);
-    beyond[x] = boundary & (jump > std::abs(beyond[x] - d)) ? other : beyond[x];
+    beyond[x] = (boundary & (jump > std::abs(beyond[x] - d))) ? other : beyond[x];
   }
 }
 

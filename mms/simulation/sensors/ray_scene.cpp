@@ -61,7 +61,7 @@ Geometry triangles_of(RTCDevice device, const Mesh& mesh) {
 }
 
 RTCIntersectContext coherent_context() {
-  RTCIntersectContext context;
+  RTCIntersectContext context{};
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return context;
@@ -127,7 +127,7 @@ struct RayScene::Impl {
 
   void cast(RTCScene scene, std::span<const Ray> rays, std::span<RayHit> hits) const {
     RTCIntersectContext context = coherent_context();
-    alignas(32) RTCRayHit8 packet;
+    alignas(32) RTCRayHit8 packet{};
     alignas(32) int valid[kPacket];
     for (std::size_t i = 0; i < rays.size(); i += kPacket) {
       const std::size_t count = load(rays.subspan(i), packet.ray, valid);
@@ -191,7 +191,7 @@ void RayScene::cast_at_parts(std::span<const Ray> rays, std::size_t first, std::
 
 void RayScene::blocked(std::span<const Ray> rays, std::span<std::uint8_t> result) const {
   RTCIntersectContext context = coherent_context();
-  alignas(32) RTCRay8 packet;
+  alignas(32) RTCRay8 packet{};
   alignas(32) int valid[kPacket];
   for (std::size_t i = 0; i < rays.size(); i += kPacket) {
     const std::size_t count = load(rays.subspan(i), packet, valid);

@@ -36,7 +36,7 @@ struct Run {
   std::array<SurfacePoint, kRun> points;
   std::array<LocalLight, kRun> light;
   std::array<Ray, kRun> shadow_rays;
-  std::array<std::uint8_t, kRun> shadowed;
+  std::array<std::uint8_t, kRun> shadowed{};
 };
 
 /// Removes the light of lamp number `lamp` at occluded points.
