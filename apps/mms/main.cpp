@@ -23,7 +23,9 @@ int main(int argc, char** argv) {
   mms::add_view_command(app);
   mms::add_convert_command(app);
   mms::add_info_command(app);
+  mms::add_calibration_command(app);
   mms::add_config_command(app);
   mms::add_doctor_command(app);
+  mms::add_help_command(app);
   return mms::run_app(app, argc, argv);
 }

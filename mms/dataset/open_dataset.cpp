@@ -71,7 +71,51 @@ std::string find_recording(const fs::path& folder, const Names& names) {
   return "";
 }
 
+/// Files of recordings that are not read, and what to do with them.
+struct OtherFile {
+  const char* ending;
+  const char* what;
+  const char* hint;
+};
+constexpr OtherFile kOtherFiles[] = {
+    {".mcap", "is a ROS 2 recording (MCAP)",
+     "convert it to a ROS 1 bag, for example by rosbags-convert"},
+    {".db3", "is a ROS 2 recording (rosbag2)",
+     "convert it to a ROS 1 bag, for example by rosbags-convert"},
+    {".pcap", "is a capture of LiDAR packets",
+     "convert it to PCD files with the tools of the sensor"},
+    {".sens", "is a scan of ScanNet",
+     "export color, depth, poses and intrinsics with its SensReader"},
+    {".mp4", "is a video", "depth images are needed, too: give a folder with both"},
+    {".mkv", "is a video or a recording of Azure Kinect",
+     "export color/, depth/ and intrinsic.json with Open3D's azure_kinect_mkv_reader"},
+    {".svo", "is a recording of a ZED camera", "export color and depth images with its SDK"},
+    {".svo2", "is a recording of a ZED camera", "export color and depth images with its SDK"},
+    {".oni", "is a recording of OpenNI", "export color and depth images with its tools"},
+    {".klg", "is a recording of Kintinuous", "export color and depth images"},
+    {".zip", "is an archive", "unpack it"},
+    {".tgz", "is an archive", "unpack it"},
+    {".gz", "is an archive", "unpack it"},
+    {".tar", "is an archive", "unpack it"},
+    {".7z", "is an archive", "unpack it"}};
+
+[[noreturn]] void fail_file(const fs::path& file) {
+  const std::string name = file.filename().string();
+  for (const OtherFile& other : kOtherFiles) {
+    if (name.ends_with(other.ending)) throw DataError(file.string(), other.what, other.hint);
+  }
+  throw DataError(file.string(), "is a file; a recording is a folder or a ROS bag (.bag)");
+}
+
+/// A folder of rosbag2 has such files beside its metadata.yaml.
+void fail_if_rosbag2(const fs::path& folder, const Names& names) {
+  for (const std::string& name : names) {
+    if (name.ends_with(".mcap") || name.ends_with(".db3")) fail_file(folder / name);
+  }
+}
+
 [[noreturn]] void fail_unknown(const fs::path& folder, const Names& names) {
+  fail_if_rosbag2(folder, names);
   std::string nested = find_recording(folder, names);
   if (nested.empty()) nested = find_bag(folder, names);
   throw DataError(folder.string(), found_text(names) + ": no recording found",
@@ -99,9 +143,7 @@ std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOpti
   std::error_code error;
   if (!fs::exists(path, error)) throw DataError(path.string(), "no such recording");
   if (bag) return open_bag(path, options);
-  if (!fs::is_directory(path, error)) {
-    throw DataError(path.string(), "is a file; a recording is a folder or a ROS bag (.bag)");
-  }
+  if (!fs::is_directory(path, error)) fail_file(path);
   const Names names = list_folder(path);
   const FolderLayout* layout = layout_of(names);
   if (layout == nullptr) fail_unknown(path, names);

@@ -34,7 +34,16 @@ TEST(Numbers, ParsesDecimalStampsExactly) {
   EXPECT_EQ(parse_stamp("1.5e+01")->nanoseconds(), 15'000'000'000);
   EXPECT_EQ(parse_stamp("-2.5")->nanoseconds(), -2'500'000'000);
   EXPECT_FALSE(parse_stamp("nan"));
-  EXPECT_FALSE(parse_stamp("1403636579763555584"));
+  EXPECT_FALSE(parse_stamp("123456789012"));
+  EXPECT_FALSE(parse_stamp("1e300"));
+}
+
+TEST(Numbers, ParsesStampsInOtherUnits) {
+  EXPECT_EQ(parse_stamp("1403636579763555584")->nanoseconds(), 1403636579763555584);
+  EXPECT_EQ(parse_stamp("1403636579763555")->nanoseconds(), 1403636579763555000);
+  EXPECT_EQ(parse_stamp("1403636579763")->nanoseconds(), 1403636579763000000);
+  EXPECT_EQ(parse_stamp("1403636579763.5")->nanoseconds(), 1403636579763000000);
+  EXPECT_EQ(parse_stamp("-3")->nanoseconds(), -3'000'000'000);
 }
 
 }  // namespace

@@ -43,8 +43,18 @@ double parse_depth_scale(const std::string& text) {
 
 }  // namespace
 
+CLI::Option* add_depth_scale_option(CLI::App& command, std::optional<double>& scale) {
+  return command
+      .add_option_function<std::string>(
+          "--depth-scale", [&scale](const std::string& text) { scale = parse_depth_scale(text); },
+          "depth image units per meter")
+      ->type_name("FLOAT");
+}
+
 void add_calibration_options(CLI::App& command, CameraOptions& options) {
-  command.add_option("--calibration", options.file, "calibration.yaml to use")
+  command
+      .add_option("--calibration", options.file,
+                  "calibration file to use, of any format of mms calibration convert")
       ->check(CLI::ExistingFile)
       ->group(kGroup);
   command
@@ -54,13 +64,7 @@ void add_calibration_options(CLI::App& command, CameraOptions& options) {
           "camera without distortion [px]")
       ->type_name("fx,fy,cx,cy")
       ->group(kGroup);
-  command
-      .add_option_function<std::string>(
-          "--depth-scale",
-          [&options](const std::string& text) { options.depth_scale = parse_depth_scale(text); },
-          "depth image units per meter")
-      ->type_name("FLOAT")
-      ->group(kGroup);
+  add_depth_scale_option(command, options.depth_scale)->group(kGroup);
 }
 
 }  // namespace mms

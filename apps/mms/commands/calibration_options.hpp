@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "mms/dataset/source/camera_options.hpp"
 
@@ -9,5 +10,9 @@ namespace mms {
 /// Adds the options for a calibration in place of the recording's: --calibration, --intrinsics,
 /// --depth-scale.
 void add_calibration_options(CLI::App& command, CameraOptions& options);
+
+/// Adds --depth-scale.
+/// @param scale  unchanged by default
+CLI::Option* add_depth_scale_option(CLI::App& command, std::optional<double>& scale);
 
 }  // namespace mms

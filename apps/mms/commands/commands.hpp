@@ -8,6 +8,9 @@ namespace mms {
 
 // The subcommands of the program, each defined in the file of its name.
 
+/// Adds `mms calibration convert`.
+void add_calibration_command(CLI::App& app);
+
 /// Adds `mms config dump` and `mms config check FILE`.
 void add_config_command(CLI::App& app);
 
@@ -21,6 +24,9 @@ void add_doctor_command(CLI::App& app);
 /// with --json one object, on stdout.
 /// @throws Error from its callback
 void add_eval_command(CLI::App& app);
+
+/// Adds `mms help COMMAND`.
+void add_help_command(CLI::App& app);
 
 /// Adds `mms import`.
 void add_import_command(CLI::App& app);

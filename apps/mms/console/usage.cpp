@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "mms/io/text/nearest_word.hpp"
+
 namespace mms {
 namespace {
 
@@ -17,25 +19,60 @@ std::vector<const CLI::App*> chain_of(const CLI::App& app) {
   return chain;
 }
 
+/// Names of the subcommands without former ones, which have no group.
+std::vector<std::string> command_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!one->get_group().empty()) names.push_back(one->get_name());
+  }
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group().empty()) continue;
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
 /// "trajectory, drift or map".
-std::string listed_commands(const CLI::App& command) {
-  const std::vector<const CLI::App*> all = command.get_subcommands([](const CLI::App* candidate) {
-    return !candidate->get_group().empty();  // no group: a former name, hidden
-  });
+std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == all.size() ? " or " : ", ") + all[i]->get_name();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
   }
   return text;
 }
 
+std::string unknown_option(const CLI::App& command, const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  const auto meant = nearest_word(name, option_names(command));
+  return fmt::format("unknown option '{}'", name) +
+         (meant ? fmt::format(", did you mean '{}'?", *meant) : "");
+}
+
+std::string unknown_command(const CLI::App& command, const std::string& word) {
+  const std::vector<std::string> names = command_names(command);
+  const auto meant = nearest_word(word, names);
+  return fmt::format("unknown command '{}', ", word) +
+         (meant ? fmt::format("did you mean '{}'?", *meant) : "expected " + listed(names));
+}
+
+/// An unknown option is named first: what it leaves over or makes missing only follows from it.
 std::string fault_of(const CLI::App& command, const CLI::ParseError& error) {
-  if (command.get_require_subcommand_min() == 0) return error.what();
   const std::vector<std::string> unknown = command.remaining();
-  if (unknown.empty()) return "a command is required: " + listed_commands(command);
-  if (unknown.front().starts_with("-")) return fmt::format("unknown option '{}'", unknown.front());
-  return fmt::format("unknown command '{}', expected {}", unknown.front(),
-                     listed_commands(command));
+  const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
+    return word.size() > 1 && word.starts_with("-");
+  });
+  if (option != unknown.end()) return unknown_option(command, *option);
+  if (command.get_require_subcommand_min() > 0) {
+    return unknown.empty() ? "no command given, expected " + listed(command_names(command))
+                           : unknown_command(command, unknown.front());
+  }
+  if (!unknown.empty()) return fmt::format("unexpected argument '{}'", unknown.front());
+  return error.what();
 }
 
 }  // namespace

@@ -164,6 +164,7 @@ BagRecording read_bag_recording(const fs::path& path, const SourceOptions& optio
   const BagReader& bag = *recording.bag;
   const BagTopicNames topics = topics_of(bag, options.topics, path.string());
   recording.facts.emplace_back("layout: ROS 1 bag");
+  recording.facts.emplace_back(topics.cloud.empty() ? "sensor: depth camera" : "sensor: LiDAR");
   add_topic_facts(recording);
   add_choice_facts(recording, topics);
   recording.color = read_stream(bag, topics.color);

@@ -41,7 +41,7 @@ std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
   RgbdRecording recording;
   recording.folder = folder;
   recording.invalid_depth = 65535;
-  recording.facts.emplace_back("layout: folder of color, depth and pose files (7-Scenes)");
+  recording.facts.emplace_back("layout: 7-Scenes, folder of color, depth and pose files");
   std::vector<fs::path> poses;
   for (const std::string& file : list_folder(folder)) {
     const std::string name = frame_name(file);

@@ -11,7 +11,8 @@
 #include "mms/dataset/lidar/scan_truth.hpp"
 #include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/recorded_source.hpp"
-#include "mms/io/config/calibration_io.hpp"
+#include "mms/io/config/calibration_formats.hpp"
+#include "mms/io/image/picture_files.hpp"
 #include "mms/io/text/files.hpp"
 
 namespace mms {
@@ -60,7 +61,7 @@ fs::path first_image(const fs::path& folder) {
   const fs::path images = folder / "image_2";
   if (!fs::is_directory(images)) return {};
   for (const std::string& name : list_folder(images)) {
-    if (name.ends_with(".png") || name.ends_with(".jpg")) return images / name;
+    if (is_picture(name)) return images / name;
   }
   return {};
 }
@@ -71,7 +72,7 @@ KittiCalibration read_calibration_of(const fs::path& folder, const CameraOptions
   const fs::path kitti = folder / "calib.txt";
   if (!options.file.empty() || fs::exists(own)) {
     facts.push_back("calibration: " + (options.file.empty() ? own.filename() : own).string());
-    const Calibration calibration = read_calibration(own);
+    const Calibration calibration = read_any_calibration(own).calibration;
     return {calibration, calibration.T_camera_lidar.isometry()};
   }
   if (fs::exists(kitti)) {
@@ -105,6 +106,7 @@ std::unique_ptr<FrameSource> open_lidar_scans(const fs::path& folder,
   const ScanLayout layout = find_scan_layout(folder);
   LidarRecording recording;
   recording.facts.push_back(std::string("layout: ") + layout.name);
+  recording.facts.emplace_back("sensor: LiDAR");
   recording.format = format_of(layout, recording.facts);
   for (const fs::path& scan : layout.scans) recording.scans.push_back({scan, {}, {}, {}});
   const KittiCalibration calibration = read_calibration_of(folder, options.camera, recording.facts);

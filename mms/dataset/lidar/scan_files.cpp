@@ -6,6 +6,7 @@
 #include "mms/core/error.hpp"
 #include "mms/io/cloud/kitti_io.hpp"
 #include "mms/io/image/image_io.hpp"
+#include "mms/io/image/picture_files.hpp"
 #include "mms/io/text/files.hpp"
 
 namespace mms {
@@ -17,12 +18,12 @@ using Member = fs::path ScanFiles::*;
 /// Sets a member of each scan with a file of its name in the folder.
 /// @returns the number of files found
 std::size_t find_files(std::vector<ScanFiles>& scans, const fs::path& folder,
-                       std::initializer_list<const char*> extensions, Member member) {
+                       const std::vector<std::string>& extensions, Member member) {
   if (!fs::is_directory(folder)) return 0;
   const std::vector<std::string> names = list_folder(folder);
   std::size_t found = 0;
   for (ScanFiles& files : scans) {
-    for (const char* extension : extensions) {
+    for (const std::string& extension : extensions) {
       const std::string name = files.scan.stem().string() + extension;
       if (!std::binary_search(names.begin(), names.end(), name)) continue;
       files.*member = folder / name;
@@ -74,7 +75,7 @@ void find_companions(std::vector<ScanFiles>& scans, const fs::path& folder,
     }
     return;
   }
-  add_fact(facts, "images", find_files(scans, images, {".jpg", ".jpeg", ".png"}, &ScanFiles::color),
+  add_fact(facts, "images", find_files(scans, images, color_endings(), &ScanFiles::color),
            scans.size());
   if (options.load_masks) find_masks(scans, folder, options, facts);
 }

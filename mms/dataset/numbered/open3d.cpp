@@ -8,6 +8,7 @@
 #include "mms/dataset/source/first_image.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/io/config/camera_json.hpp"
+#include "mms/io/image/picture_files.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/pose_text.hpp"
 #include "mms/io/text/text_table.hpp"
@@ -96,9 +97,8 @@ std::unique_ptr<FrameSource> open_open3d(const fs::path& folder, const SourceOpt
   RgbdRecording recording;
   recording.folder = folder;
   recording.facts.emplace_back("layout: Open3D, numbered color and depth images");
-  const auto numbers =
-      add_numbered_frames(recording, {color_folder(folder), "", {".jpg", ".jpeg", ".png"}},
-                          {folder / "depth", "", {".png"}});
+  const auto numbers = add_numbered_frames(recording, {color_folder(folder), "", color_endings()},
+                                           {folder / "depth", "", depth_endings()});
   choose_calibration(recording, options.camera, [&] { return find_camera(recording); });
   read_trajectory_log(recording, numbers);
   find_masks(recording, options);

@@ -5,6 +5,7 @@
 #include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/io/config/camera_json.hpp"
+#include "mms/io/image/picture_files.hpp"
 #include "mms/io/text/pose_text.hpp"
 #include "mms/io/text/text_table.hpp"
 
@@ -48,8 +49,8 @@ std::unique_ptr<FrameSource> open_replica(const fs::path& folder, const SourceOp
   recording.folder = folder;
   recording.facts.emplace_back("layout: Replica, as NICE-SLAM renders it");
   const auto numbers =
-      add_numbered_frames(recording, {folder / "results", "frame", {".jpg", ".png"}},
-                          {folder / "results", "depth", {".png"}});
+      add_numbered_frames(recording, {folder / "results", "frame", color_endings()},
+                          {folder / "results", "depth", depth_endings()});
   choose_calibration(recording, options.camera, [&] { return find_camera_of_replica(recording); });
   add_pose_lines(recording, numbers, folder / "traj.txt", pose_of_matrix);
   find_masks(recording, options);

@@ -6,6 +6,7 @@
 #include "mms/dataset/source/first_image.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/dataset/source/pose_file.hpp"
+#include "mms/io/image/picture_files.hpp"
 #include "mms/io/text/pose_text.hpp"
 #include "mms/io/text/text_table.hpp"
 
@@ -59,8 +60,8 @@ std::unique_ptr<FrameSource> open_scannet(const fs::path& folder, const SourceOp
   RgbdRecording recording;
   recording.folder = folder;
   recording.facts.emplace_back("layout: ScanNet, exported");
-  const auto numbers = add_numbered_frames(recording, {folder / "color", "", {".jpg", ".png"}},
-                                           {folder / "depth", "", {".png"}});
+  const auto numbers = add_numbered_frames(recording, {folder / "color", "", color_endings()},
+                                           {folder / "depth", "", depth_endings()});
   choose_calibration(recording, options.camera, [&] { return read_depth_camera(recording); });
   recording.color_camera =
       read_camera(folder / "intrinsic" / "intrinsic_color.txt", first_color(recording));

@@ -55,12 +55,12 @@ class SceneSource final : public FrameSource {
     const SceneConfig& config = scene_.config();
     const SensorPreset& sensor = scene_.sensor();
     const CameraIntrinsics& camera = sensor.color.intrinsics;
-    return {"format: simulated scene " + config.name + ", seed " + std::to_string(config.seed),
+    return {"layout: simulated scene " + config.name + ", seed " + std::to_string(config.seed),
             "frames: " + std::to_string(size()) + " at " +
                 format_number(config.hz > 0.0 ? config.hz : sensor.hz) + " Hz",
             "sensor: " + std::string(sensor.name) + ", " +
-                (sensor.lidar ? "LiDAR scans with images of " : "images with depth of ") +
-                std::to_string(camera.width) + " x " + std::to_string(camera.height) + " pixels",
+                (sensor.lidar ? "LiDAR and camera, " : "depth camera, ") +
+                std::to_string(camera.width) + "x" + std::to_string(camera.height) + " pixels",
             masks_fact(), "truth: exact"};
   }
 

@@ -2,7 +2,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/first_image.hpp"
-#include "mms/io/config/calibration_io.hpp"
+#include "mms/io/config/calibration_formats.hpp"
 #include "mms/io/text/numbers.hpp"
 
 namespace mms {
@@ -14,12 +14,16 @@ std::optional<Calibration> read_file_of(RgbdRecording& recording, const CameraOp
   const fs::path own = recording.folder / "calibration.yaml";
   if (options.file.empty() && !fs::exists(own)) return std::nullopt;
   const fs::path& file = options.file.empty() ? own : options.file;
-  const Calibration calibration = read_calibration(file);
+  const auto [calibration, format, assumed_scale] = read_any_calibration(file);
   if (!calibration.camera && !options.intrinsics) {
     throw DataError(file.string(), "has no camera", "add fx fy cx cy width height depth_scale");
   }
-  recording.facts.push_back("calibration: " +
-                            (options.file.empty() ? own.filename() : file).string());
+  recording.facts.push_back(
+      "calibration: " + (options.file.empty() ? own.filename() : file).string() +
+      (format == "MMS-SLAM" ? "" : " (" + format + ")"));
+  if (assumed_scale && !options.depth_scale) {
+    recording.facts.emplace_back("depth scale: none, 1000 units per meter assumed");
+  }
   return calibration;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <variant>
 
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/image/npy_io.hpp"
@@ -29,7 +31,9 @@ Image<float> without_invalid(Image<float> depth) {
 
 Image<float> read_depth(const std::filesystem::path& path, double scale, std::uint16_t invalid) {
   if (path.extension() == ".npy") return without_invalid(read_npy(path));
-  return to_metres(read_depth16(path), scale, invalid);
+  StoredDepth stored = read_stored_depth(path);
+  if (auto* metres = std::get_if<Image<float>>(&stored)) return without_invalid(std::move(*metres));
+  return to_metres(std::get<Image<std::uint16_t>>(stored), scale, invalid);
 }
 
 }  // namespace mms

@@ -32,7 +32,7 @@ std::optional<Frame> RecordedSource::try_read(std::size_t index) {
   const std::string name = name_at(index);
   if (last_stamp_ && stamp <= *last_stamp_) {
     warn("frame " + name + " skipped: its stamp " + stamp.to_string() +
-         " is not later than the previous one" + last_stamp_->to_string());
+         " is not later than the previous one, " + last_stamp_->to_string());
     return std::nullopt;
   }
   try {
@@ -87,10 +87,24 @@ std::vector<std::string> RecordedSource::describe() const {
   lines.push_back("ground truth: " + (ground_truth_.empty()
                                           ? std::string("none")
                                           : std::to_string(ground_truth_.size()) + " poses"));
+  const std::string clock = clock_fault();
+  if (!clock.empty()) lines.push_back("warning: " + clock);
   if (std::filesystem::exists(map_truth_)) {
     lines.push_back("map truth: " + map_truth_.filename().string());
   }
   return lines;
+}
+
+std::string RecordedSource::clock_fault() const {
+  if (ground_truth_.empty() || size() == 0) return "";
+  const Timestamp first = stamp_at(0);
+  const Timestamp last = stamp_at(size() - 1);
+  const Timestamp truth_first = ground_truth_.front().stamp;
+  const Timestamp truth_last = ground_truth_.back().stamp;
+  if (truth_first <= last && first <= truth_last) return "";
+  return "the ground truth is from " + truth_first.to_string() + " to " + truth_last.to_string() +
+         " s, the recording from " + first.to_string() + " to " + last.to_string() +
+         " s: they have different clocks, so no pose can be compared";
 }
 
 void RecordedSource::on_warning(WarningHandler handler) {
@@ -98,6 +112,8 @@ void RecordedSource::on_warning(WarningHandler handler) {
   if (!handler_) return;
   for (const std::string& message : pending_warnings_) handler_(message);
   pending_warnings_.clear();
+  const std::string clock = clock_fault();
+  if (!clock.empty()) handler_(clock);
 }
 
 void RecordedSource::warn(const std::string& message) {

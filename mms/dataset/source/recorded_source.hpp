@@ -47,6 +47,8 @@ class RecordedSource : public FrameSource {
   void set_objects_truth(std::filesystem::path file) { objects_truth_ = std::move(file); }
 
  private:
+  /// That the ground truth is of another time than the recording; empty if it is not.
+  std::string clock_fault() const;
   std::optional<Frame> try_read(std::size_t index);
 
   std::size_t position_ = 0;

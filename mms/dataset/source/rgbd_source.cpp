@@ -113,8 +113,9 @@ Frame RgbdSource::read(std::size_t index) const {
 std::vector<std::string> RgbdSource::facts() const {
   const Calibration& calibration = *recording_.calibration;
   std::vector<std::string> lines = recording_.facts;
-  lines.push_back("image: " + size_text(calibration.camera->width, calibration.camera->height) +
-                  " pixels, " + format_number(calibration.depth_scale) + " depth units per meter");
+  lines.push_back("sensor: depth camera, " +
+                  size_text(calibration.camera->width, calibration.camera->height) + " pixels, " +
+                  format_number(calibration.depth_scale) + " depth units per meter");
   return lines;
 }
 

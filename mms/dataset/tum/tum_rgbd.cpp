@@ -1,5 +1,6 @@
 #include "mms/dataset/tum/tum_rgbd.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "mms/core/error.hpp"
@@ -87,6 +88,13 @@ void read_lists(RgbdRecording& recording) {
   }
 }
 
+void sort_by_stamp(RgbdRecording& recording) {
+  const auto earlier = [](const RgbdFiles& a, const RgbdFiles& b) { return a.stamp < b.stamp; };
+  if (std::is_sorted(recording.frames.begin(), recording.frames.end(), earlier)) return;
+  std::stable_sort(recording.frames.begin(), recording.frames.end(), earlier);
+  recording.facts.emplace_back("stamps: not in order in the list, sorted");
+}
+
 /// The calibration of data sets in this layout.
 std::optional<Calibration> known_calibration(RgbdRecording& recording,
                                              const std::optional<fs::path>& icl_truth) {
@@ -99,7 +107,7 @@ std::optional<Calibration> known_calibration(RgbdRecording& recording,
     recording.facts.emplace_back("calibration: default of ICL-NUIM");
     return icl_nuim_calibration();
   }
-  const auto calibration = default_calibration(recording.folder);
+  auto calibration = default_calibration(recording.folder);
   if (calibration) recording.facts.emplace_back("calibration: default of the folder name");
   return calibration;
 }
@@ -148,6 +156,7 @@ std::unique_ptr<FrameSource> open_tum_rgbd(const fs::path& folder, const SourceO
   recording.folder = folder;
   recording.facts.emplace_back("layout: TUM RGB-D");
   read_lists(recording);
+  sort_by_stamp(recording);
   const std::optional<fs::path> icl_truth = find_icl_truth(folder);
   choose_calibration(recording, options.camera,
                      [&] { return known_calibration(recording, icl_truth); });

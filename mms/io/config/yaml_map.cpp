@@ -24,6 +24,17 @@ std::optional<double> yaml_number(const std::string& text) {
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
+/// Removes directives such as "%YAML:1.0", which OpenCV writes and YAML does not know.
+std::string without_directives(std::string text) {
+  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at)) {
+    if (text[at] == '\n') ++at;
+    if (at < text.size() && text[at] == '%') {
+      text.erase(at, std::min(text.find('\n', at), text.size()) - at);
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string shown(const YAML::Node& node) {
@@ -46,7 +57,7 @@ std::string to_string(Range range) {
 }
 
 YamlMap YamlMap::load(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+  const std::string text = without_directives(read_file(path));
   std::optional<YAML::Node> root;
   try {
     root.emplace(YAML::Load(text));

@@ -1,28 +1,47 @@
 #include "mms/io/image/image_container.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "mms/core/error.hpp"
+#include "mms/core/image.hpp"
+#include "mms/io/text/numbers.hpp"
 
 namespace mms {
 namespace {
 
-constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
-constexpr std::string_view kJpegSignature = "\xFF\xD8\xFF";
+using Bytes = std::string_view;
 
-std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = at; i < at + 4; ++i)
+/// Width and height [px] as a file's header says.
+using Size = std::pair<std::uint64_t, std::uint64_t>;
+
+/// A whole number of `count` bytes; the caller checks that they are there.
+std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t count) {
+  std::uint64_t value = 0;
+  for (std::size_t i = at; i < at + count; ++i) {
     value = value << 8 | static_cast<std::uint8_t>(bytes[i]);
+  }
   return value;
 }
 
+std::uint64_t little_endian(Bytes bytes, std::size_t at, std::size_t count) {
+  std::uint64_t value = 0;
+  for (std::size_t i = count; i-- > 0;) {
+    value = value << 8 | static_cast<std::uint8_t>(bytes[at + i]);
+  }
+  return value;
+}
+
+constexpr Bytes kPngSignature = "\x89PNG\r\n\x1a\n";
+
 /// Iterates over the chunks (length, type, data, CRC) up to the end chunk.
-bool png_is_whole(std::string_view bytes) {
+bool png_is_whole(Bytes bytes) {
   constexpr std::size_t kChunkFrame = 12;
   std::size_t at = kPngSignature.size();
   while (at + kChunkFrame <= bytes.size()) {
-    const std::size_t length = big_endian(bytes, at);
+    const std::uint64_t length = big_endian(bytes, at, 4);
     if (length > bytes.size() - at - kChunkFrame) return false;
     if (bytes.substr(at + 4, 4) == "IEND") return true;
     at += kChunkFrame + length;
@@ -30,38 +49,162 @@ bool png_is_whole(std::string_view bytes) {
   return false;
 }
 
-/// Prevents huge allocations after a damaged header.
-void check_png_size(std::string_view bytes, const std::string& where) {
+std::optional<Size> png_size(Bytes bytes) {
   constexpr std::size_t kWidthAt = 16;
-  const std::uint32_t width = big_endian(bytes, kWidthAt);
-  const std::uint32_t height = big_endian(bytes, kWidthAt + 4);
-  if (width <= kMaxImageSide && height <= kMaxImageSide) return;
-  throw DataError(where,
-                  "is " + std::to_string(width) + "x" + std::to_string(height) +
-                      " pixels, allowed: up to 16384x16384",
-                  "the header may be damaged");
+  if (bytes.size() < kWidthAt + 8) return std::nullopt;
+  return Size(big_endian(bytes, kWidthAt, 4), big_endian(bytes, kWidthAt + 4, 4));
 }
 
 /// Scan data contain neither FF D9 nor FF DA, so the file is complete if the end marker is last.
-bool jpeg_is_whole(std::string_view bytes) {
+bool jpeg_is_whole(Bytes bytes) {
   const std::size_t end = bytes.rfind("\xFF\xD9");
   const std::size_t scan = bytes.rfind("\xFF\xDA");
-  return end != std::string_view::npos && scan != std::string_view::npos && end > scan;
+  return end != Bytes::npos && scan != Bytes::npos && end > scan;
+}
+
+/// Iterates over the segments (marker, length, data) up to the frame header, C0 to CF without C4,
+/// C8 and CC, which are tables.
+std::optional<Size> jpeg_size(Bytes bytes) {
+  std::size_t at = 2;
+  while (at + 9 <= bytes.size() && bytes[at] == '\xFF') {
+    const auto marker = static_cast<std::uint8_t>(bytes[at + 1]);
+    const bool table = marker == 0xC4 || marker == 0xC8 || marker == 0xCC;
+    if (marker >= 0xC0 && marker <= 0xCF && !table) {
+      return Size(big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2));
+    }
+    at += marker == 0xFF ? 1 : 2 + big_endian(bytes, at + 2, 2);  // FF may fill
+  }
+  return std::nullopt;
+}
+
+bool bmp_is_whole(Bytes bytes) {
+  constexpr std::size_t kHeader = 26;
+  return bytes.size() >= kHeader && little_endian(bytes, 2, 4) <= bytes.size();
+}
+
+/// A negative height means rows from top to bottom.
+std::optional<Size> bmp_size(Bytes bytes) {
+  constexpr std::uint64_t kSign = 0x80000000U;
+  constexpr std::uint64_t kRange = 0x100000000U;
+  if (bytes.size() < 26) return std::nullopt;
+  const std::uint64_t height = little_endian(bytes, 22, 4);
+  return Size(little_endian(bytes, 18, 4), height >= kSign ? kRange - height : height);
+}
+
+bool webp_is_whole(Bytes bytes) {
+  return little_endian(bytes, 4, 4) + 8 <= bytes.size();
+}
+
+/// Width (tag 256) and height (257) in the first directory.
+std::optional<Size> tiff_size(Bytes bytes) {
+  constexpr std::size_t kEntry = 12;
+  const bool little = bytes[0] == 'I';
+  const auto number = [&](std::size_t at, std::size_t count) {
+    return little ? little_endian(bytes, at, count) : big_endian(bytes, at, count);
+  };
+  if (bytes.size() < 8) return std::nullopt;
+  const std::size_t directory = number(4, 4);
+  if (directory + 2 > bytes.size()) return std::nullopt;
+  const std::size_t entries = number(directory, 2);
+  Size size{0, 0};
+  for (std::size_t i = 0; i < entries; ++i) {
+    const std::size_t at = directory + 2 + i * kEntry;
+    if (at + kEntry > bytes.size()) return std::nullopt;
+    const std::uint64_t tag = number(at, 2);
+    const std::uint64_t value = number(at + 8, number(at + 2, 2) == 3 ? 2 : 4);
+    if (tag == 256) size.first = value;
+    if (tag == 257) size.second = value;
+  }
+  return size;
+}
+
+/// Width and height in the header "Pf\nWIDTH HEIGHT\nSCALE\n", and where the data begin.
+std::optional<std::pair<Size, std::size_t>> pfm_header(Bytes bytes) {
+  constexpr std::size_t kSizeAt = 3;
+  const std::size_t size_end = bytes.find('\n', kSizeAt);
+  const std::size_t scale_end =
+      size_end == Bytes::npos ? Bytes::npos : bytes.find('\n', size_end + 1);
+  if (scale_end == Bytes::npos) return std::nullopt;
+  const Bytes size = bytes.substr(kSizeAt, size_end - kSizeAt);
+  const std::size_t space = size.find(' ');
+  if (space == Bytes::npos) return std::nullopt;
+  const auto width = parse_integer(size.substr(0, space));
+  const auto height = parse_integer(size.substr(space + 1));
+  if (!width || !height || *width <= 0 || *height <= 0) return std::nullopt;
+  return {{Size(static_cast<std::uint64_t>(*width), static_cast<std::uint64_t>(*height)),
+           scale_end + 1}};
+}
+
+std::optional<Size> pfm_size(Bytes bytes) {
+  const auto header = pfm_header(bytes);
+  return header ? std::optional(header->first) : std::nullopt;
+}
+
+bool pfm_is_whole(Bytes bytes) {
+  const auto header = pfm_header(bytes);
+  if (!header) return false;
+  const auto& [width, height] = header->first;
+  const std::uint64_t pixel = bytes.starts_with("PF") ? 3 * sizeof(float) : sizeof(float);
+  if (width > kMaxImageSide || height > kMaxImageSide) return true;  // refused for its size
+  return bytes.size() - header->second >= width * height * pixel;
+}
+
+bool is_whole(Bytes) {
+  return true;
+}
+
+std::optional<Size> unknown_size(Bytes) {
+  return std::nullopt;
+}
+
+struct Container {
+  const char* name;
+  Bytes signature;
+  bool (*is_whole)(Bytes);
+  std::optional<Size> (*size)(Bytes);
+};
+
+constexpr Container kContainers[] = {{"PNG", kPngSignature, png_is_whole, png_size},
+                                     {"JPEG", "\xFF\xD8\xFF", jpeg_is_whole, jpeg_size},
+                                     {"TIFF", Bytes("II*\0", 4), is_whole, tiff_size},
+                                     {"TIFF", Bytes("MM\0*", 4), is_whole, tiff_size},
+                                     {"BMP", "BM", bmp_is_whole, bmp_size},
+                                     {"EXR", "\x76\x2F\x31\x01", is_whole, unknown_size},
+                                     {"PFM", "Pf\n", pfm_is_whole, pfm_size},
+                                     {"PFM", "PF\n", pfm_is_whole, pfm_size},
+                                     {"WebP", "RIFF", webp_is_whole, unknown_size}};
+
+const Container* container_of(Bytes bytes) {
+  constexpr std::size_t kWebpAt = 8;
+  const auto* found =
+      std::find_if(std::begin(kContainers), std::end(kContainers), [&](const Container& container) {
+        const bool riff = container.signature == "RIFF";
+        return bytes.starts_with(container.signature) &&
+               (!riff || (bytes.size() >= kWebpAt + 4 && bytes.substr(kWebpAt, 4) == "WEBP"));
+      });
+  return found == std::end(kContainers) ? nullptr : found;
 }
 
 }  // namespace
 
 void check_whole_image(std::string_view bytes, const std::string& where) {
-  const bool png = bytes.starts_with(kPngSignature);
-  if (!png && !bytes.starts_with(kJpegSignature)) {
-    throw DataError(where, bytes.empty() ? "is empty, expected a PNG or JPEG image"
-                                         : "is neither a PNG nor a JPEG image");
+  if (bytes.empty()) throw DataError(where, "is empty, expected an image");
+  const Container* container = container_of(bytes);
+  if (container == nullptr) {
+    throw DataError(where, "is no image that can be read",
+                    "known: PNG, JPEG, BMP, WebP, TIFF, EXR, PFM");
   }
-  if (!(png ? png_is_whole(bytes) : jpeg_is_whole(bytes))) {
-    throw DataError(where, std::string("is a truncated ") + (png ? "PNG" : "JPEG") + " of " +
+  if (!container->is_whole(bytes)) {
+    throw DataError(where, std::string("is a truncated ") + container->name + " of " +
                                std::to_string(bytes.size()) + " bytes");
   }
-  if (png) check_png_size(bytes, where);
+  const std::optional<Size> size = container->size(bytes);
+  constexpr std::uint64_t kLimit = kMaxImageSide;
+  if (!size || (size->first <= kLimit && size->second <= kLimit)) return;
+  throw DataError(where,
+                  "is " + std::to_string(size->first) + "x" + std::to_string(size->second) +
+                      " pixels, allowed: up to 16384x16384",
+                  "the header may be damaged");
 }
 
 }  // namespace mms

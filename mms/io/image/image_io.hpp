@@ -4,22 +4,32 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "mms/core/image.hpp"
 
 namespace mms {
 
-/// Reads a color or gray PNG or JPEG image. Ignores orientation tags: pixels are as recorded.
+/// Reads a color or gray image: PNG, JPEG, BMP, WebP or TIFF. Ignores orientation tags: pixels are
+/// as recorded.
 /// @throws FileError if the file cannot be read; DataError if it is truncated or not an image.
 Image<Rgb> read_color(const std::filesystem::path& path);
 
-/// Decodes a PNG or JPEG file.
+/// Decodes a file of these formats.
 /// @throws DataError at `where` as above.
 Image<Rgb> decode_color(std::span<const std::uint8_t> bytes, const std::string& where);
 
-/// Reads a 16-bit depth PNG with one channel, in the file's units.
+/// A depth image as stored: whole numbers in the file's units, or floating-point numbers.
+using StoredDepth = std::variant<Image<std::uint16_t>, Image<float>>;
+
+/// Reads a depth image: a 16-bit PNG or TIFF with one channel, or a floating-point TIFF, EXR or
+/// PFM, of which the first channel is taken.
 /// @throws FileError, DataError as above, and for 8-bit or color images.
+StoredDepth read_stored_depth(const std::filesystem::path& path);
+
+/// Reads a 16-bit depth PNG or TIFF with one channel, in the file's units.
+/// @throws FileError, DataError as above, and for all other images.
 Image<std::uint16_t> read_depth16(const std::filesystem::path& path);
 
 /// Decodes a 16-bit PNG.

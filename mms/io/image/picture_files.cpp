@@ -1,14 +1,31 @@
 #include "mms/io/image/picture_files.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 #include "mms/io/text/files.hpp"
 
 namespace mms {
 
 namespace fs = std::filesystem;
 
+const std::vector<std::string>& color_endings() {
+  static const std::vector<std::string> endings = {".jpg",  ".jpeg", ".png", ".bmp",
+                                                   ".webp", ".tif",  ".tiff"};
+  return endings;
+}
+
+const std::vector<std::string>& depth_endings() {
+  static const std::vector<std::string> endings = {".png", ".tif", ".tiff", ".exr", ".pfm", ".npy"};
+  return endings;
+}
+
 bool is_picture(const fs::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto& endings = color_endings();
+  return std::find(endings.begin(), endings.end(), extension) != endings.end();
 }
 
 std::vector<fs::path> list_pictures(const fs::path& folder) {

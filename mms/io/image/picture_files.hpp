@@ -6,7 +6,13 @@
 
 namespace mms {
 
-/// Whether the file name is that of a PNG or JPEG image.
+/// File name endings of color images, as ".jpg".
+const std::vector<std::string>& color_endings();
+
+/// File name endings of depth images.
+const std::vector<std::string>& depth_endings();
+
+/// Whether the file name is that of a color image; case does not count.
 bool is_picture(const std::filesystem::path& path);
 
 /// Image files of a folder, sorted by name.

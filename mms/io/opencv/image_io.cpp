@@ -1,6 +1,7 @@
 #include "mms/io/image/image_io.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -17,17 +18,21 @@ namespace {
 
 static_assert(sizeof(Rgb) == 3, "pixels are passed to OpenCV bytewise");
 
-constexpr const char* kDepthWanted = "a 16-bit depth PNG of 1 channel";
+constexpr const char* kDepthWanted = "a 16-bit depth image of 1 channel";
 
-/// Faults are reported by our own errors instead.
-void silence_opencv() {
-  static const auto previous =
-      cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  static_cast<void>(previous);
+/// Faults are reported by our own errors instead of OpenCV's log. Its decoder of EXR is enabled,
+/// which is off by default.
+void prepare_opencv() {
+  static const bool done = [] {
+    setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    return true;
+  }();
+  static_cast<void>(done);
 }
 
 cv::Mat decode(std::string_view bytes, int flags, const std::string& where) {
-  silence_opencv();
+  prepare_opencv();
   check_whole_image(bytes, where);
   cv::Mat decoded;
   try {  // the matrix refers to the bytes, which the decoder only reads
@@ -55,21 +60,30 @@ cv::Mat view(const Image<T>& image, int type) {
   return {image.height(), image.width(), type, const_cast<T*>(image.pixels().data())};
 }
 
-/// Decodes an image with one channel of `type`.
+[[noreturn]] void fail_pixels(const cv::Mat& decoded, const std::string& expected,
+                              const std::string& where) {
+  throw DataError(where, "has pixels of " + std::to_string(8 * decoded.elemSize1()) + " bits and " +
+                             std::to_string(decoded.channels()) + " channel(s), expected " +
+                             expected);
+}
+
+/// Copies a matrix with one channel of T.
 template <class T>
-Image<T> decode_plain(std::string_view bytes, int type, const std::string& expected,
-                      const std::string& where) {
-  const cv::Mat decoded = decode(bytes, cv::IMREAD_UNCHANGED, where);
-  if (decoded.type() != type) {
-    throw DataError(where, "has pixels of " + std::to_string(8 * decoded.elemSize1()) +
-                               " bits and " + std::to_string(decoded.channels()) +
-                               " channel(s), expected " + expected);
-  }
+Image<T> image_of(const cv::Mat& decoded) {
   Image<T> image(decoded.cols, decoded.rows);
   for (int y = 0; y < decoded.rows; ++y) {
     std::copy_n(decoded.ptr<T>(y), image.width(), image.row(y));
   }
   return image;
+}
+
+/// Decodes an image with one channel of `type`.
+template <class T>
+Image<T> decode_plain(std::string_view bytes, int type, const std::string& expected,
+                      const std::string& where) {
+  const cv::Mat decoded = decode(bytes, cv::IMREAD_UNCHANGED, where);
+  if (decoded.type() != type) fail_pixels(decoded, expected, where);
+  return image_of<T>(decoded);
 }
 
 std::string_view text_of(std::span<const std::uint8_t> bytes) {
@@ -78,7 +92,7 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
 
 std::vector<std::uint8_t> encode(const char* extension, const cv::Mat& pixels,
                                  const std::vector<int>& options = {}) {
-  silence_opencv();
+  prepare_opencv();
   if (pixels.empty()) throw DataError("image", "is empty and cannot be encoded");
   std::vector<std::uint8_t> bytes;
   cv::imencode(extension, pixels, bytes, options);
@@ -99,6 +113,16 @@ Image<Rgb> read_color(const fs::path& path) {
 
 Image<Rgb> decode_color(std::span<const std::uint8_t> bytes, const std::string& where) {
   return decode_rgb(text_of(bytes), where);
+}
+
+StoredDepth read_stored_depth(const fs::path& path) {
+  cv::Mat decoded = decode(read_file(path), cv::IMREAD_UNCHANGED, path.string());
+  if (decoded.type() == CV_16UC1) return image_of<std::uint16_t>(decoded);
+  if (decoded.depth() != CV_32F) {
+    fail_pixels(decoded, std::string(kDepthWanted) + ", or 32-bit numbers", path.string());
+  }
+  if (decoded.channels() > 1) cv::extractChannel(decoded, decoded, 0);
+  return image_of<float>(decoded);
 }
 
 Image<std::uint16_t> read_depth16(const fs::path& path) {

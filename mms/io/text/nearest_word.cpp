@@ -30,16 +30,22 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-std::string suggestion(std::string_view word, std::span<const std::string> known) {
-  if (known.empty()) return "";
+std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> known) {
+  if (known.empty()) return std::nullopt;
   const auto nearest =
       std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
         return edit_distance(word, a) < edit_distance(word, b);
       });
   const std::size_t allowed = std::max<std::size_t>(2, nearest->size() / 3);
   const std::size_t distance = edit_distance(word, *nearest);
-  if (distance <= allowed && distance < nearest->size()) return "did you mean '" + *nearest + "'?";
-  return "known: " + joined(known);
+  if (distance <= allowed && distance < nearest->size()) return *nearest;
+  return std::nullopt;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string> known) {
+  if (known.empty()) return "";
+  const auto nearest = nearest_word(word, known);
+  return nearest ? "did you mean '" + *nearest + "'?" : "known: " + joined(known);
 }
 
 }  // namespace mms

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@ namespace mms {
 
 /// Levenshtein distance of `a` and `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The word of `known` that is close to `word`; nullopt if none is.
+std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> known);
 
 /// Hint for an unknown `word`: "did you mean 'x'?" if one of `known` is close, else the list of
 /// all.

@@ -27,12 +27,25 @@ std::optional<std::int64_t> parse_integer(std::string_view text) {
   return parse_whole<std::int64_t>(text);
 }
 
+std::optional<Timestamp> stamp_of_number(std::int64_t number) {
+  for (const std::int64_t unit : {1, 1'000, 1'000'000}) {  // [ns]
+    const std::int64_t first = 1'000'000'000'000'000'000 / unit;
+    if (number >= first && number < 9 * first) return Timestamp(number * unit);
+  }
+  return std::nullopt;
+}
+
 std::optional<Timestamp> parse_stamp(std::string_view text) {
   if (const auto exact = Timestamp::parse(text)) return exact;
+  if (const auto whole = parse_integer(text)) {
+    if (const auto stamp = stamp_of_number(*whole)) return stamp;
+  }
   constexpr double kMaxSeconds = 9.2e9;
+  constexpr double kMaxWhole = 9e18;  // int64
   const auto seconds = parse_double(text);
-  if (!seconds || !(std::abs(*seconds) < kMaxSeconds)) return std::nullopt;
-  return Timestamp::from_seconds(*seconds);
+  if (!seconds || !(std::abs(*seconds) < kMaxWhole)) return std::nullopt;
+  if (std::abs(*seconds) < kMaxSeconds) return Timestamp::from_seconds(*seconds);
+  return stamp_of_number(static_cast<std::int64_t>(*seconds));  // "1305031102175.304" [ms]
 }
 
 std::string format_number(double value) {
