@@ -42,8 +42,8 @@ run() {
   quietly "$mms" run "$recording" --segmenter "$segmenter" -o "$out/run" "$@" || exit 1
   local ate
   ate="$(cm "$json" ate_rmse_m)"
-  [ "$ate" != nan ] && [ "$ate" != 0 ] || ate="$(value "$json" atde_cm)"
-  printf '%s %s %s\n' "$ate" "$(value "$json" DA)" "$(value "$json" lost)"
+  [ "$ate" != nan ] && [ "$ate" != 0 ] || ate="$(cm "$json" atde_m)"
+  printf '%s %s %s\n' "$ate" "$(value "$json" da_pct)" "$(value "$json" lost)"
 }
 
 row() {

@@ -16,7 +16,7 @@ scenes="${SCENES:-warehouse_loop still_walker crowd stop_and_go corridor static 
 run() {
   local recording="$1"
   shift
-  quietly "$mms" run "$recording" -o "$out/run" "$@" || exit 1
+  quietly "$mms" run "$recording" -o "$out/run" --overwrite "$@" || exit 1
   printf '%s %s\n' "$(cm "$out/run/metrics.json" ate_rmse_m)" \
     "$(value "$out/run/metrics.json" lost)"
 }

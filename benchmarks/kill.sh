@@ -15,7 +15,7 @@ clock() { date -u ${1:+-d "$1"} +%s.%3N; }
 total=240
 quietly "$mms" simulate warehouse_loop --frames "$total" -o "$out/data"
 quietly "$mms" run "$out/data" --segmenter masks -o "$out/whole" "$@"
-duration="$(awk -v n="$total" -v hz="$(value "$out/whole/metrics.json" hz)" 'BEGIN { print n / hz }')"
+duration="$(awk -v n="$total" -v hz="$(value "$out/whole/metrics.json" rate_hz)" 'BEGIN { print n / hz }')"
 
 # kill_at SECONDS: prints the row of a run killed that long after its first frame.
 kill_at() {

@@ -36,10 +36,10 @@ row() {
   local scene="$1" masks="$2"
   shift 2
   [ $# -gt 0 ] || set -- --segmenter masks
-  quietly "$mms" run "$out/scene" -o "$out/run" "$@"
+  quietly "$mms" run "$out/scene" -o "$out/run" --overwrite "$@"
   local json="$out/run/metrics.json"
   printf '| %s | %s | %.2f | %.1f | %.1f | %.1f | %s |\n' "$scene" "$masks" \
-    "$(cm "$json" ate_rmse_m)" "$(value "$json" SA)" "$(value "$json" DA)" "$(value "$json" AA)" \
+    "$(cm "$json" ate_rmse_m)" "$(value "$json" sa_pct)" "$(value "$json" da_pct)" "$(value "$json" aa_pct)" \
     "$(value "$json" lost)"
 }
 

@@ -16,17 +16,17 @@ row() {
   local name="$1" threads="$2" images="$3"
   shift 3
   quietly "$@" segment "sim:crowd?duration=400" --limit "$images" --json-only \
-    --threads "$threads" --weights "$weights" -c "$out/settings.yaml" -o "$out/found"
-  local ms mib
+    --threads "$threads" --weights "$weights" -c "$out/settings.yaml" -o "$out/found" --overwrite
+  local ms mb
   ms="$(grep -oP '[0-9.]+(?= ms/image)' "$out/log")"
-  mib="$(grep -oP '[0-9]+(?= MiB)' "$out/log")"
-  awk -v name="$name" -v t="$threads" -v n="$images" -v ms="$ms" -v mib="$mib" -v g="$gop" \
-    'BEGIN { printf "| %s | %d | %d | %.1f | %.0f | %d |\n", name, t, n, ms, 1000 * g / ms, mib }'
+  mb="$(grep -oP '[0-9]+(?= MB)' "$out/log")"
+  awk -v name="$name" -v t="$threads" -v n="$images" -v ms="$ms" -v mb="$mb" -v g="$gop" \
+    'BEGIN { printf "| %s | %d | %d | %.1f | %.0f | %d |\n", name, t, n, ms, 1000 * g / ms, mb }'
 }
 
 settings() { echo "segmentation: {$1, decoder: {score: 0.3}}" > "$out/settings.yaml"; }
 
-echo "| backend | threads | images | ms/image | GOP/s | MiB |"
+echo "| backend | threads | images | ms/image | GOP/s | MB |"
 echo "| --- | --- | --- | --- | --- | --- |"
 for images in "$@"; do
   for threads in 1 2; do

@@ -9,16 +9,16 @@ shift
 row() {
   local name="$1" fusion="$2" masks="$3"
   shift 3
-  quietly "$mms" run "$data/$name" --segmenter "$masks" --fusion "$fusion" -o "$out/$name" "$@"
+  quietly "$mms" run "$data/$name" --segmenter "$masks" --fusion "$fusion" -o "$out/$name" --overwrite "$@"
   local json="$out/$name/metrics.json"
   printf '| %s | %s | %s | %.2f | %.2f | %.2f | %.1f | %.1f | %.1f | %.0f | %s |\n' "$name" \
     "$masks" "$fusion" \
-    "$(cm "$json" ate_rmse_m)" "$(value "$json" atde_cm)" "$(value "$json" mtde_cm)" \
-    "$(value "$json" hz)" "$(value "$json" mean ms_per_frame)" \
-    "$(value "$json" p99 ms_per_frame)" "$(value "$json" peak_rss_mb)" "$(value "$json" lost)"
+    "$(cm "$json" ate_rmse_m)" "$(cm "$json" atde_m)" "$(cm "$json" mtde_m)" \
+    "$(value "$json" rate_hz)" "$(ms "$json" mean)" \
+    "$(ms "$json" p99)" "$(value "$json" peak_memory_mb)" "$(value "$json" lost)"
 }
 
-echo "| recording | masks | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | frames/s | ms/frame | p99 [ms] | MiB | lost |"
+echo "| recording | masks | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | frames/s | ms/frame | p99 [ms] | MB | lost |"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
 row fr1_xyz_clip none none "$@"
 for fusion in multimodal vision none; do row lab_crowd "$fusion" masks "$@"; done

@@ -23,5 +23,8 @@ value() {
 # cm FILE KEY: a length in meters, converted to centimeters.
 cm() { awk -v meters="$(value "$1" "$2")" 'BEGIN { print 100 * meters }'; }
 
+# ms FILE STATISTIC: mean, p50 or p99 of the time per frame, in milliseconds.
+ms() { awk -v seconds="$(value "$1" "$2" time_per_frame_s)" 'BEGIN { print 1000 * seconds }'; }
+
 # quietly COMMAND...: prints its output only if it fails.
 quietly() { "$@" > "$out/log" 2>&1 || { cat "$out/log"; return 1; }; }

@@ -17,15 +17,15 @@ simulate() {
 row() {
   local scene="$1" masks="$2" fusion="$3"
   shift 3
-  quietly "$mms" run "$out/scene" --segmenter masks --fusion "$fusion" -o "$out/run" "$@"
+  quietly "$mms" run "$out/scene" --segmenter masks --fusion "$fusion" -o "$out/run" --overwrite "$@"
   local json="$out/run/metrics.json" drift="- | -"
   # Drift from the first pose is only defined for a static sensor.
   if [ "$scene" = still_walker ]; then
-    drift="$(printf '%.3f | %.3f' "$(value "$json" atde_cm)" "$(value "$json" mtde_cm)")"
+    drift="$(printf '%.3f | %.3f' "$(cm "$json" atde_m)" "$(cm "$json" mtde_m)")"
   fi
   printf '| %s | %s | %s | %.2f | %s | %.1f | %.1f | %.1f | %s |\n' "$scene" "$masks" \
-    "$fusion" "$(cm "$json" ate_rmse_m)" "$drift" "$(value "$json" SA)" "$(value "$json" DA)" \
-    "$(value "$json" AA)" "$(value "$json" lost)"
+    "$fusion" "$(cm "$json" ate_rmse_m)" "$drift" "$(value "$json" sa_pct)" "$(value "$json" da_pct)" \
+    "$(value "$json" aa_pct)" "$(value "$json" lost)"
 }
 
 echo "| scene | masks | fusion | ATE rmse [cm] | ATDE [cm] | MTDE [cm] | SA | DA | AA | lost |"

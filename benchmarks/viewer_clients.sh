@@ -27,7 +27,7 @@ quietly "$mms" run "sim:warehouse_loop?frames=60" -o "$out/elsewhere" --segmente
 # aside COMMAND...: runs in the background on the last core.
 aside() { taskset -c "$last_core" timeout 600 "$@" > /dev/null 2>&1 & }
 
-# run KIND CLIENTS FLAGS...: one run with CLIENTS clients, as a line "KIND ms MiB".
+# run KIND CLIENTS FLAGS...: one run with CLIENTS clients, as a line "KIND ms MB".
 run() {
   local kind="$1" number="$2" others=()
   shift 2
@@ -40,12 +40,12 @@ run() {
     aside "$crowd" "$port" "$number" 600
     others+=($!)
   fi
-  quietly taskset -c "0-$((last_core - 1))" "$mms" run "$data" -o "$out/run" "$@"
+  quietly taskset -c "0-$((last_core - 1))" "$mms" run "$data" -o "$out/run" --overwrite "$@"
   for other in "${others[@]}"; do
     kill "$other"
     wait "$other" 2> /dev/null || true
   done
-  echo "$kind $(value "$out/run/metrics.json" mean ms_per_frame) $(value "$out/run/metrics.json" peak_rss_mb)" |
+  echo "$kind $(ms "$out/run/metrics.json" mean) $(value "$out/run/metrics.json" peak_memory_mb)" |
     tee -a "$out/rows" >&2
 }
 
@@ -74,7 +74,7 @@ row() {
     "$(slower "$1" alone)" "$(slower "$1" elsewhere)" "$(column "$1" 3 | sort -g | tail -n 1)"
 }
 
-echo "| viewers | ms per frame, median | min to max | relative to none | relative to elsewhere | MiB |"
+echo "| viewers | ms per frame, median | min to max | relative to none | relative to elsewhere | MB |"
 echo "| --- | --- | --- | --- | --- | --- |"
 row alone "no --view"
 row elsewhere "no --view, $clients at another server"

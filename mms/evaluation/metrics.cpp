@@ -1,6 +1,10 @@
 #include "mms/evaluation/metrics.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 #include "mms/evaluation/scores/metric_json.hpp"
 #include "mms/evaluation/scores/statistics.hpp"
@@ -11,8 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kSecondsPerMillisecond = 1e-3;
+
 Json json_of(const TimeStatistics& times) {
-  return {{"mean", times.mean}, {"p50", times.p50}, {"p99", times.p99}};
+  return {{"mean", kSecondsPerMillisecond * times.mean},
+          {"p50", kSecondsPerMillisecond * times.p50},
+          {"p99", kSecondsPerMillisecond * times.p99}};
 }
 
 Json stages_json(const RunMetrics& metrics) {
@@ -32,23 +40,110 @@ Json status_json(const RunMetrics& metrics) {
 
 Json realtime_json(const RealtimeMetrics& metrics) {
   Json latency = json_of(metrics.latency_ms);
-  latency["max"] = metrics.latency_max_ms;
-  return {{"latency_ms", std::move(latency)},
+  latency["max"] = kSecondsPerMillisecond * metrics.latency_max_ms;
+  return {{"latency_s", std::move(latency)},
           {"frames_dropped", metrics.dropped},
           {"frames_without_masks", metrics.without_masks}};
 }
 
-std::vector<MetricValue> metric_values(const RealtimeMetrics& metrics) {
-  return {{"latency_mean", "latency, mean", metrics.latency_ms.mean, "ms", 1},
-          {"latency_p99", "latency, p99", metrics.latency_ms.p99, "ms", 1},
-          {"latency_max", "latency, largest", metrics.latency_max_ms, "ms", 1},
-          {"frames_dropped", "frames dropped", static_cast<double>(metrics.dropped), "", 0},
-          {"frames_without_masks", "frames without new masks",
-           static_cast<double>(metrics.without_masks), "", 0}};
+MetricValue count(const char* meaning, std::int64_t value) {
+  return {"", meaning, static_cast<double>(value), "", 0};
 }
 
-void append(std::vector<MetricValue>& values, const std::vector<MetricValue>& more) {
-  values.insert(values.end(), more.begin(), more.end());
+/// Rating by two limits; the larger value is better.
+std::string rated(double value, double good, double fair) {
+  if (std::isnan(value)) return "";
+  return value >= good ? "good" : value >= fair ? "fair" : "poor";
+}
+
+/// Limits of the error: a part that any sensor's noise causes, and a share of the path, by which
+/// the drift of an odometry is given (KITTI odometry benchmark).
+std::string rating_of(const TrajectoryError& error) {
+  constexpr double kGood = 0.02;        // [m]
+  constexpr double kGoodShare = 0.005;  // of the path
+  constexpr double kFair = 0.10;        // [m]
+  constexpr double kFairShare = 0.02;   // of the path
+  return rated(-error.ate_rmse_m, -(kGood + kGoodShare * error.path_m),
+               -(kFair + kFairShare * error.path_m));
+}
+
+void add(MetricSection& section, std::vector<MetricValue> values,
+         std::initializer_list<std::string_view> omitted = {}) {
+  for (MetricValue& item : values) {
+    const bool shown = std::find(omitted.begin(), omitted.end(), item.key) == omitted.end();
+    if (shown && std::isfinite(item.value)) section.values.push_back(std::move(item));
+  }
+}
+
+MetricSection trajectory_section(const RunMetrics& metrics) {
+  MetricSection section{"Trajectory", "", {}};
+  add(section, {count("frames", metrics.frames)});
+  const auto add_if_any = [&section](const char* meaning, std::int64_t frames) {
+    if (frames > 0) add(section, {count(meaning, frames)});
+  };
+  const auto frames_of = [&metrics](Status status) {
+    return metrics.status[static_cast<std::size_t>(status)];
+  };
+  add_if_any("frames skipped", metrics.frames_skipped);
+  add_if_any("frames degenerate", frames_of(Status::kDegenerate));
+  add_if_any("frames lost, poses predicted", frames_of(Status::kLost));
+  if (metrics.trajectory) {
+    section.rating = rating_of(*metrics.trajectory);
+    add(section, metric_values(*metrics.trajectory), {"poses"});
+  }
+  if (metrics.drift && metrics.stood_still) add(section, metric_values(*metrics.drift), {"poses"});
+  return section;
+}
+
+MetricSection map_section(const RunMetrics& metrics) {
+  constexpr double kGood = 95.0;  // AA [%]: one point in twenty is wrong
+  constexpr double kFair = 85.0;
+  MetricSection section{"Map", "", {}};
+  if (!metrics.map) return section;
+  section.rating = rated(metrics.map->AA, kGood, kFair);
+  add(section, metric_values(*metrics.map), {"ha_pct"});
+  return section;
+}
+
+MetricSection objects_section(const RunMetrics& metrics) {
+  constexpr double kGood = 0.85;  // IDF1: one box in seven is wrong
+  constexpr double kFair = 0.60;
+  MetricSection section{"Objects", "", {}};
+  add(section, {count("tracked objects", metrics.tracks),
+                {"", "dynamic share of the points", 100.0 * metrics.dynamic_share, "%", 1}});
+  if (metrics.objects) {
+    section.rating = rated(metrics.objects->idf1, kGood, kFair);
+    add(section, metric_values(*metrics.objects));
+  }
+  return section;
+}
+
+MetricSection masks_section(const RunMetrics& metrics) {
+  MetricSection section{"Masks", "", {}};
+  if (metrics.masks) add(section, metric_values(*metrics.masks));
+  if (metrics.implausible_masks > 0) {
+    add(section, {count("implausible masks", metrics.implausible_masks)});
+  }
+  if (metrics.overruled_frames > 0) {
+    add(section, {count("frames with overruled masks", metrics.overruled_frames)});
+  }
+  return section;
+}
+
+MetricSection speed_section(const RunMetrics& metrics) {
+  MetricSection section{"Speed", "", {}};
+  add(section, {{"", "rate", metrics.rate_hz, "Hz", 1},
+                {"", "time per frame, mean", metrics.ms_per_frame.mean, "ms", 1},
+                {"", "time per frame, median", metrics.ms_per_frame.p50, "ms", 1},
+                {"", "time per frame, p99", metrics.ms_per_frame.p99, "ms", 1},
+                {"", "peak memory", metrics.peak_memory_mb, "MB", 0}});
+  if (!metrics.realtime) return section;
+  add(section, {{"", "latency, mean", metrics.realtime->latency_ms.mean, "ms", 1},
+                {"", "latency, p99", metrics.realtime->latency_ms.p99, "ms", 1},
+                {"", "latency, largest", metrics.realtime->latency_max_ms, "ms", 1},
+                count("frames dropped", metrics.realtime->dropped),
+                count("frames without new masks", metrics.realtime->without_masks)});
+  return section;
 }
 
 }  // namespace
@@ -58,17 +153,18 @@ TimeStatistics time_statistics(std::span<const double> milliseconds) {
 }
 
 std::string to_json(const RunMetrics& metrics) {
-  Json object = {{"frames", metrics.frames},
+  Json object = {{"version", kMetricsVersion},
+                 {"frames", metrics.frames},
                  {"frames_skipped", metrics.frames_skipped},
-                 {"hz", metrics.hz},
-                 {"ms_per_frame", json_of(metrics.ms_per_frame)},
-                 {"stages", stages_json(metrics)},
-                 {"peak_rss_mb", metrics.peak_rss_mb},
+                 {"rate_hz", metrics.rate_hz},
+                 {"time_per_frame_s", json_of(metrics.ms_per_frame)},
+                 {"stages_s", stages_json(metrics)},
+                 {"peak_memory_mb", metrics.peak_memory_mb},
                  {"status", status_json(metrics)},
-                 {"dynamic_share", metrics.dynamic_share},
+                 {"dynamic_pct", 100.0 * metrics.dynamic_share},
                  {"implausible_masks", metrics.implausible_masks},
                  {"overruled_frames", metrics.overruled_frames},
-                 {"overruled_share", metrics.overruled_share},
+                 {"overruled_pct", 100.0 * metrics.overruled_share},
                  {"tracks", metrics.tracks}};
   if (metrics.realtime) object["realtime"] = realtime_json(*metrics.realtime);
   if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
@@ -86,36 +182,12 @@ void write_metrics(const std::filesystem::path& path, const RunMetrics& metrics)
   write_file(path, to_json(metrics));
 }
 
-std::vector<MetricValue> metric_values(const RunMetrics& metrics) {
-  std::vector<MetricValue> values = {
-      {"frames", "frames", static_cast<double>(metrics.frames), "", 0},
-      {"frames_skipped", "frames skipped", static_cast<double>(metrics.frames_skipped), "", 0},
-      {"hz", "rate", metrics.hz, "Hz", 1},
-      {"ms_mean", "time per frame, mean", metrics.ms_per_frame.mean, "ms", 1},
-      {"ms_p50", "time per frame, median", metrics.ms_per_frame.p50, "ms", 1},
-      {"ms_p99", "time per frame, p99", metrics.ms_per_frame.p99, "ms", 1},
-      {"peak_rss_mb", "peak memory", metrics.peak_rss_mb, "MiB", 0},
-      {"dynamic_share", "dynamic share of the points", 100.0 * metrics.dynamic_share, "%", 1},
-      {"implausible_masks", "implausible masks", static_cast<double>(metrics.implausible_masks), "",
-       0},
-      {"overruled_frames", "frames with overruled masks",
-       static_cast<double>(metrics.overruled_frames), "", 0},
-      {"tracks", "tracked objects", static_cast<double>(metrics.tracks), "", 0}};
-  if (metrics.realtime) append(values, metric_values(*metrics.realtime));
-  if (metrics.trajectory) append(values, metric_values(*metrics.trajectory));
-  if (metrics.drift && metrics.stood_still) {
-    std::vector<MetricValue> drift = metric_values(*metrics.drift);
-    std::erase_if(drift, [](const MetricValue& item) { return item.key == "poses"; });
-    append(values, drift);
-  }
-  if (metrics.map) {
-    std::vector<MetricValue> map = metric_values(*metrics.map);
-    std::erase_if(map, [](const MetricValue& item) { return item.key == "HA"; });
-    append(values, map);
-  }
-  if (metrics.masks) append(values, metric_values(*metrics.masks));
-  if (metrics.objects) append(values, metric_values(*metrics.objects));
-  return values;
+std::vector<MetricSection> metric_sections(const RunMetrics& metrics) {
+  std::vector<MetricSection> sections = {trajectory_section(metrics), map_section(metrics),
+                                         objects_section(metrics), masks_section(metrics),
+                                         speed_section(metrics)};
+  std::erase_if(sections, [](const MetricSection& section) { return section.values.empty(); });
+  return sections;
 }
 
 }  // namespace mms

@@ -41,10 +41,10 @@ struct RealtimeMetrics {
 struct RunMetrics {
   std::int64_t frames = 0;          ///< processed
   std::int64_t frames_skipped = 0;  ///< damaged, or dropped in real time
-  double hz = 0.0;                  ///< frames per second of wall time
+  double rate_hz = 0.0;             ///< frames per second of wall time
   TimeStatistics ms_per_frame;
   std::vector<std::pair<std::string, TimeStatistics>> stages;  ///< in pipeline order
-  double peak_rss_mb = 0.0;                                    ///< [MiB]
+  double peak_memory_mb = 0.0;                                 ///< [MB, 10^6 bytes]
   std::array<std::int64_t, kStatusCount> status{};             ///< number of frames per mms::Status
   double dynamic_share = 0.0;                                  ///< mean over the frames, in [0, 1]
   std::int64_t implausible_masks = 0;  ///< dropped, since they cannot be objects in 3D
@@ -61,15 +61,21 @@ struct RunMetrics {
   bool stood_still = true;  ///< by ground truth; tables omit the drift of a moving sensor
 };
 
+/// Version of the keys in metrics.json, its `version`. Version 1 had no such key.
+inline constexpr int kMetricsVersion = 2;
+
 /// The JSON object, indented, with a final newline. `realtime`, `trajectory`, `drift`, `map`,
-/// `masks`, `objects` and `live_objects` only if present; all status names always.
+/// `masks`, `objects` and `live_objects` only if present; all status names always. Keys end with
+/// their unit: _s, _m, _mps, _deg, _hz, _mb, _pct; all others are counts.
 std::string to_json(const RunMetrics& metrics);
 
 /// Writes `to_json` to a file atomically.
 /// @throws FileError
 void write_metrics(const std::filesystem::path& path, const RunMetrics& metrics);
 
-/// The main metrics as a flat table for the terminal and the report.
-std::vector<MetricValue> metric_values(const RunMetrics& metrics);
+/// The main metrics for the terminal and the report: trajectory, map, objects, masks, speed. Values
+/// that are undefined or do not apply are omitted; a section without values, too. A section with a
+/// comparison to ground truth has a rating (docs/evaluation.md).
+std::vector<MetricSection> metric_sections(const RunMetrics& metrics);
 
 }  // namespace mms

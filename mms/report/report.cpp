@@ -23,12 +23,16 @@ std::string subtitle(const RunReport& report) {
          report.frames.front().stamp.to_string() + " s";
 }
 
-std::string summary_table(const std::vector<MetricValue>& summary) {
+std::string summary_table(const std::vector<MetricSection>& summary) {
   if (summary.empty()) return "<p class=\"note\">no data</p>";
   std::string rows;
-  for (const MetricValue& item : summary) {
-    rows += "<tr><th scope=\"row\">" + escape_html(item.meaning) + "</th><td>" +
-            escape_html(with_unit(item)) + "</td></tr>";
+  for (const MetricSection& group : summary) {
+    rows += "<tr class=\"group\"><th scope=\"rowgroup\">" + escape_html(group.title) + "</th><td>" +
+            escape_html(group.rating) + "</td></tr>";
+    for (const MetricValue& item : group.values) {
+      rows += "<tr><th scope=\"row\">" + escape_html(item.meaning) + "</th><td>" +
+              escape_html(with_unit(item)) + "</td></tr>";
+    }
   }
   return "<table><tbody>" + rows + "</tbody></table>";
 }

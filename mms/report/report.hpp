@@ -37,7 +37,7 @@ struct RunReport {
   UpAxis up = UpAxis::kNegativeY;
   std::vector<std::string> stages;  ///< names in pipeline order
   std::vector<ReportFrame> frames;  ///< in order of time
-  std::vector<MetricValue> summary;
+  std::vector<MetricSection> summary;
   Image<Rgb> map_view;      ///< top view of the static map (draw_map)
   Image<Rgb> objects_view;  ///< the same with tracked objects
   std::vector<ReportPicture> pictures;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "mms/run/record/run_log.hpp"
 
@@ -12,8 +13,9 @@ class RunObserver {
  public:
   virtual ~RunObserver() = default;
 
-  /// @param frames  largest number of frames
-  virtual void on_start(std::size_t frames) = 0;
+  /// @param heading  lines of `run_heading`
+  /// @param frames   largest number of frames
+  virtual void on_start(const std::vector<std::string>& heading, std::size_t frames) = 0;
 
   /// A frame was processed; it is the last of `log`. Called in the thread of the run.
   virtual void on_frame(const RunLog& log) = 0;

@@ -9,10 +9,12 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
+#include "mms/io/config/config_assignments.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/run/record/run_record.hpp"
 #include "mms/run/results/run_outputs.hpp"
+#include "mms/run/run_heading.hpp"
 #include "mms/run/segmenter/segmenter_choice.hpp"
 
 namespace mms {
@@ -33,6 +35,9 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
     config.static_map.surface.max_depth = *calibration->max_depth;
   }
   if (!options.config.empty()) warnings = load_config(options.config, config);
+  for (std::string& warning : assign(config, options.set, "--set")) {
+    warnings.push_back(std::move(warning));
+  }
   if (!options.weights.empty()) config.segmentation.weights = options.weights;
   if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
@@ -47,17 +52,6 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
                                             .camera = options.camera});
   check_range(options, *source);
   return source;
-}
-
-/// The requested frames; none after the observer ended the run.
-AsyncPipeline::Source limited(FrameSource& source, const RunOptions& options,
-                              const RunObserver& observer) {
-  source.skip(options.start);
-  return [&source, &observer, left = options.frames]() mutable -> std::optional<Frame> {
-    if (left == 0 || observer.stop_requested()) return std::nullopt;
-    --left;
-    return source.next();
-  };
 }
 
 AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
@@ -106,13 +100,16 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, warn);
   log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
                                   config_.dynamic_map);
-  observer.on_start(frames_);
+  observer.on_start(run_heading(options_, *source_, config_, frames_, folder), frames_);
   for (const std::string& warning : warnings_) observer.on_warning(warning);
   if (options_.realtime) warm_up();
   AsyncPipeline pipeline(threads_of(options_, config_));
-  pipeline.run(system_, limited(*source_, options_, observer),
+  // The check takes about 0.2 s, which a run in real time does not have.
+  if (!options_.realtime) check_.emplace();
+  pipeline.run(system_, frames_for(observer),
                [&](Processed&& processed) { finish_frame(std::move(processed), observer); });
   end_map();
+  report_implausible(observer);
   observer.on_end();
   interrupted_ = observer.stop_requested();
   if (interrupted_) observer.on_warning("interrupted, writing the results so far");
@@ -125,6 +122,47 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   compare_with_truth(observer);
 }
 
+/// The requested frames; none after the observer ended the run, or the run gave up.
+AsyncPipeline::Source SlamRun::frames_for(RunObserver& observer) {
+  source_->skip(options_.start);
+  return [this, &observer, left = options_.frames]() mutable -> std::optional<Frame> {
+    if (left == 0 || observer.stop_requested() || gave_up_) return std::nullopt;
+    --left;
+    std::optional<Frame> frame = source_->next();
+    if (frame) check_plausibility(*frame, observer);
+    return frame;
+  };
+}
+
+/// Checks frames of about the first second; called in the reading thread.
+void SlamRun::check_plausibility(const Frame& frame, RunObserver& observer) {
+  constexpr std::int64_t kStride = 4;  // frames; neighbors are too similar
+  if (!check_ || (frame.index - static_cast<std::int64_t>(options_.start)) % kStride != 0) return;
+  check_->add(frame);
+  if (check_->frames() >= RecordingCheck::kFrames) report_implausible(observer);
+}
+
+void SlamRun::report_implausible(RunObserver& observer) {
+  if (!check_) return;
+  for (const std::string& fault : check_->faults()) observer.on_warning("implausible: " + fault);
+  check_.reset();
+}
+
+/// Gives up where the first seconds show that the recording cannot be localized.
+void SlamRun::check_lost() {
+  constexpr std::size_t kMinFrames = 50;
+  constexpr double kMinTime = 5.0;    // [s]; cameras are covered or shaken for shorter
+  constexpr double kMaxShare = 0.95;  // of lost frames
+  const auto& frames = log_->frames();
+  if (frames.back().status == Status::kLost) ++lost_;
+  if (gave_up_ || frames.size() < kMinFrames) return;
+  if (to_seconds(frames.back().stamp - frames.front().stamp) < kMinTime) return;
+  if (static_cast<double>(lost_) < kMaxShare * static_cast<double>(frames.size())) return;
+  failure_ = fmt::format("{} of its first {} frames were lost, so the run ended there", lost_,
+                         frames.size());
+  gave_up_ = true;
+}
+
 /// Called after the pose of the frame was estimated, before the next frame.
 void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   std::optional<MapChanges> map;
@@ -133,6 +171,7 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   if (view_ && map) shown = std::make_shared<const MapChanges>(*map);
   journal_->add(processed, std::move(map));
   log_->add(processed);
+  check_lost();
   observer.on_frame(*log_);
   if (view_) view_->show(std::move(processed), std::move(shown));
 }

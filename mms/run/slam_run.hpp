@@ -1,8 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "mms/dataset/plausibility/recording_check.hpp"
 #include "mms/dataset/source/frame_source.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/pipeline/system_config.hpp"
@@ -32,6 +35,9 @@ class SlamRun {
   /// The viewer of the run; null without `RunOptions::view`.
   LiveView* view() const { return view_.get(); }
 
+  /// Why the run ended before the recording did, where nearly all frames were lost; else empty.
+  const std::string& failure() const { return failure_; }
+
   /// Whether the observer ended the run early.
   bool interrupted() const { return interrupted_; }
 
@@ -43,6 +49,10 @@ class SlamRun {
   void warm_up();
   void process(const std::filesystem::path& folder, RunObserver& observer);
   void compare_with_truth(RunObserver& observer);
+  void check_plausibility(const Frame& frame, RunObserver& observer);
+  void report_implausible(RunObserver& observer);
+  void check_lost();
+  AsyncPipeline::Source frames_for(RunObserver& observer);
   void finish_frame(Processed processed, RunObserver& observer);
   void end_map();
 
@@ -56,6 +66,10 @@ class SlamRun {
   std::unique_ptr<RunJournal> journal_;
   std::unique_ptr<LiveView> view_;  // null without --view
   bool interrupted_ = false;
+  std::optional<RecordingCheck> check_;  // null after its report
+  std::size_t lost_ = 0;                 // frames
+  std::atomic<bool> gave_up_ = false;    // read by the reading thread
+  std::string failure_;
 };
 
 }  // namespace mms

@@ -10,21 +10,21 @@
 namespace mms {
 namespace {
 
-TEST(Drift, IsMeanAndMaximumDistanceInCentimeters) {
+TEST(Drift, IsMeanAndMaximumDistanceInMeters) {
   const Drift drift = evaluate_drift(test::along_x({5.0, 5.01, 4.98, 5.0}));
   EXPECT_EQ(drift.poses, 4U);
-  EXPECT_NEAR(drift.atde_cm, (0.0 + 1.0 + 2.0 + 0.0) / 4.0, 1e-9);
-  EXPECT_NEAR(drift.mtde_cm, 2.0, 1e-9);
+  EXPECT_NEAR(drift.atde_m, (0.0 + 0.01 + 0.02 + 0.0) / 4.0, 1e-9);
+  EXPECT_NEAR(drift.mtde_m, 0.02, 1e-9);
 }
 
 TEST(Drift, IsZeroForOnePose) {
-  EXPECT_EQ(evaluate_drift(test::along_x({3.0})).mtde_cm, 0.0);
+  EXPECT_EQ(evaluate_drift(test::along_x({3.0})).mtde_m, 0.0);
 }
 
 TEST(Drift, IgnoresNonFinitePoses) {
   const Drift drift = evaluate_drift(test::along_x({std::nan(""), 1.0, std::nan(""), 1.1}));
   EXPECT_EQ(drift.poses, 2U);
-  EXPECT_NEAR(drift.mtde_cm, 10.0, 1e-9);
+  EXPECT_NEAR(drift.mtde_m, 0.1, 1e-9);
 }
 
 TEST(Drift, RejectsEmptyTrajectory) {
@@ -33,8 +33,7 @@ TEST(Drift, RejectsEmptyTrajectory) {
 }
 
 TEST(Drift, JsonHasDocumentedKeys) {
-  EXPECT_EQ(to_json(metric_values(Drift{3, 1.5, 2.5})),
-            R"({"poses":3,"atde_cm":1.5,"mtde_cm":2.5})");
+  EXPECT_EQ(to_json(metric_values(Drift{3, 1.5, 2.5})), R"({"poses":3,"atde_m":1.5,"mtde_m":2.5})");
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ TEST(MapError, DaIsNanWithoutDynamicPoints) {
   const MapError error = evaluate_map({{0, 0, 0}}, {}, {{0, 0, 0}});
   EXPECT_DOUBLE_EQ(error.SA, 100.0);
   EXPECT_TRUE(std::isnan(error.DA));
-  EXPECT_EQ(to_json(metric_values(error)), R"({"SA":100.0,"DA":null,"AA":null,"HA":null})");
+  EXPECT_EQ(to_json(metric_values(error)),
+            R"({"sa_pct":100.0,"da_pct":null,"aa_pct":null,"ha_pct":null})");
 }
 
 TEST(MapError, IgnoresInvalidPoints) {

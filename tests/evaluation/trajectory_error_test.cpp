@@ -77,9 +77,10 @@ TEST(TrajectoryError, CountsUnmatchedPoses) {
 }
 
 TEST(TrajectoryError, JsonHasDocumentedKeysInOrder) {
-  EXPECT_EQ(to_json(metric_values(TrajectoryError{.matched = 2, .poses = 3})),
-            R"({"matched":2,"poses":3,"ate_rmse_m":0.0,"ate_mean_m":0.0,"ate_median_m":0.0,)"
-            R"("ate_max_m":0.0,"rpe_trans_rmse_m":0.0,"rpe_rot_rmse_deg":0.0})");
+  EXPECT_EQ(
+      to_json(metric_values(TrajectoryError{.matched = 2, .poses = 3})),
+      R"({"matched":2,"poses":3,"path_m":0.0,"ate_rmse_m":0.0,"ate_mean_m":0.0,"ate_median_m":0.0,)"
+      R"("ate_max_m":0.0,"rpe_trans_rmse_m":0.0,"rpe_rot_rmse_deg":0.0})");
 }
 
 /// Recordings with results of the reference implementation; they are not part of the repository.

@@ -24,7 +24,7 @@ class BagCommands : public ::testing::Test {
     return run_mms(folder_.path(), words);
   }
   std::string trajectory_of(const std::string& data, const std::string& segmenter) const {
-    expect_success(run({"run", data, "--segmenter", segmenter, "-o", "results"}));
+    expect_success(run({"run", data, "--segmenter", segmenter, "-o", "results", "--overwrite"}));
     return read_file(path("results/trajectory.tum"));
   }
 

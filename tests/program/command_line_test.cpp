@@ -110,14 +110,20 @@ TEST(CommandLine, InvalidArgumentsAreUsageErrors) {
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
   expect_usage_error(
       run({}),
-      "a command is required: run, eval, reproduce, simulate, segment, quantize, import, ");
-  expect_usage_error(run({"rum"}), "'rum'");
-  expect_usage_error(run({"eval"}),
-                     "a command is required: trajectory, drift, map, ghost-points, segmentation "
-                     "or objects");
+      "no command given, expected run, eval, reproduce, simulate, segment, quantize, import, ");
+  expect_usage_error(run({"rum"}), "unknown command 'rum', did you mean 'run'?");
+  expect_usage_error(run({"zzzzzz"}), "unknown command 'zzzzzz', expected run, eval");
+  expect_usage_error(run({"help", "evl"}), "no command 'evl'; did you mean 'eval'?");
+  expect_usage_error(
+      run({"eval"}),
+      "no command given, expected trajectory, drift, map, ghost-points, segmentation "
+      "or objects");
   expect_usage_error(run({"eval", "trajektory", "a", "b"}), "'trajektory'");
-  expect_usage_error(run({"run", "--frmes", "3"}), "--frmes");
-  expect_usage_error(run({"run", "one", "two"}), "two");
+  expect_usage_error(run({"run", "--frmes", "3"}),
+                     "unknown option '--frmes', did you mean '--frames'? (mms run --help)");
+  expect_usage_error(run({"run", "--frmes", "3", "data"}), "unknown option '--frmes'");
+  expect_usage_error(run({"convert", "in", "--ouput=x"}), "did you mean '--output'?");
+  expect_usage_error(run({"run", "one", "two"}), "unexpected argument 'two'");
   expect_usage_error(run({"run", "--fusion", "magic"}), "{multimodal,vision,none}");
   expect_usage_error(run({"run", "--frames", "0"}), "--frames: Value 0 not in range 1 to");
   expect_usage_error(run({"run", "--start", "-1"}), "--start: Value -1 not in range 0 to");
@@ -139,7 +145,7 @@ TEST(Info, DescribesRecording) {
   expect_success(outcome);
   for (const char* fact :
        {"layout: TUM RGB-D", "5 color and 5 depth images, 5 matched", "masks: 5 of 5",
-        "image: 320x240 pixels, 1000 depth units per meter", "rate: 15.00 Hz",
+        "sensor: depth camera, 320x240 pixels, 1000 depth units per meter", "rate: 15.00 Hz",
         "ground truth: 5 poses", "frame 0: readable", "frame 2: readable", "frame 4: readable"}) {
     expect_in(fact, outcome.out);
   }

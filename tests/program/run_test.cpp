@@ -1,12 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
+#include <functional>
 #include <sstream>
+#include <thread>
 
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
+#include "tests/program/json_schema.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/recordings.hpp"
 
@@ -19,6 +24,18 @@ using Keys = std::set<std::string>;
 
 constexpr int kFrames = 6;
 
+/// A run that is interrupted after `change` was called, which is when its output folder is in use.
+Outcome run_interrupted_after(const TempFolder& folder, const std::function<void()>& change) {
+  RunningMms run(folder.path(), {"run", "sim:still_walker", "--segmenter", "none", "-o", "out"});
+  while (!fs::exists(folder.path() / "out/journal.bin")) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  change();
+  std::this_thread::sleep_for(std::chrono::seconds(2));  // a few frames
+  run.send(SIGINT);
+  return run.wait();
+}
+
 int count_lines(const std::string& text) {
   return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
 }
@@ -26,7 +43,7 @@ int count_lines(const std::string& text) {
 /// Runs `mms run` on the folder's recording into out/, with more arguments. By default, the masks
 /// are those of the recording.
 Outcome run_recording(const TempFolder& folder, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"run", "data", "-o", "out"};
+  std::vector<std::string> arguments = {"run", "data", "-o", "out", "--overwrite"};
   if (std::find(more.begin(), more.end(), "--segmenter") == more.end()) {
     arguments.insert(arguments.end(), {"--segmenter", segmenter_of(folder.path() / "data")});
   }
@@ -67,23 +84,104 @@ TEST(Run, MetricsHaveDocumentedKeys) {
   expect_success(run_recording(folder));
   const auto metrics = json_file(folder.path() / "out/metrics.json");
   EXPECT_EQ(keys_of(metrics),
-            (Keys{"frames", "frames_skipped", "hz", "ms_per_frame", "stages", "peak_rss_mb",
-                  "status", "dynamic_share", "implausible_masks", "overruled_frames",
-                  "overruled_share", "tracks", "trajectory", "drift"}));
+            (Keys{"version", "frames", "frames_skipped", "rate_hz", "time_per_frame_s", "stages_s",
+                  "peak_memory_mb", "status", "dynamic_pct", "implausible_masks",
+                  "overruled_frames", "overruled_pct", "tracks", "trajectory", "drift"}));
   EXPECT_EQ(metrics["frames"], kFrames);
   EXPECT_EQ(metrics["frames_skipped"], 0);
-  expect_time_statistics(metrics["ms_per_frame"]);
-  for (const auto& [name, times] : metrics["stages"].items()) expect_time_statistics(times);
+  expect_time_statistics(metrics["time_per_frame_s"]);
+  for (const auto& [name, times] : metrics["stages_s"].items()) expect_time_statistics(times);
   int frames = 0;
   for (const auto& [name, count] : metrics["status"].items()) frames += count.get<int>();
   EXPECT_EQ(frames, kFrames);
-  EXPECT_GT(metrics["dynamic_share"], 0.0);
+  EXPECT_GT(metrics["dynamic_pct"], 0.0);
   EXPECT_EQ(keys_of(metrics["trajectory"]),
-            (Keys{"matched", "poses", "ate_rmse_m", "ate_mean_m", "ate_median_m", "ate_max_m",
-                  "rpe_trans_rmse_m", "rpe_rot_rmse_deg"}));
+            (Keys{"matched", "poses", "path_m", "ate_rmse_m", "ate_mean_m", "ate_median_m",
+                  "ate_max_m", "rpe_trans_rmse_m", "rpe_rot_rmse_deg"}));
   EXPECT_EQ(metrics["status"]["tracking"], kFrames - 1);
   EXPECT_LT(metrics["trajectory"]["ate_rmse_m"], 0.005);
-  EXPECT_EQ(keys_of(metrics["drift"]), (Keys{"poses", "atde_cm", "mtde_cm"}));
+  EXPECT_EQ(keys_of(metrics["drift"]), (Keys{"poses", "atde_m", "mtde_m"}));
+}
+
+TEST(Run, ResultsFollowTheirSchemas) {
+  const TempFolder folder;
+  const auto schema = [](const std::string& name) {
+    return json_file(fs::path(MMS_SOURCE_DIR) / "docs/schema" / (name + ".schema.json"));
+  };
+  expect_success(run_mms(folder.path(), {"run", "sim:crowd?frames=6", "--segmenter", "masks", "-o",
+                                         "out", "--realtime"}));
+  auto metrics = json_file(folder.path() / "out/metrics.json");
+  EXPECT_EQ(schema_fault(metrics, schema("metrics")), "");
+  EXPECT_EQ(schema_fault(json_file(folder.path() / "out/objects.json"), schema("objects")), "");
+  metrics["ate_cm"] = 1.0;
+  EXPECT_EQ(schema_fault(metrics, schema("metrics")), "$.ate_cm: not in the schema");
+}
+
+TEST(Run, RefusesFolderWithOtherFilesOrResults) {
+  const TempFolder folder;
+  const std::vector<std::string> run = {
+      "run", "sim:still_walker?frames=2", "--segmenter", "none", "-o", "out"};
+  expect_success(run_mms(folder.path(), run));
+  expect_error(run_mms(folder.path(), run),
+               "out: has earlier results, as config.yaml (replace them with --overwrite");
+  std::vector<std::string> overwrite = run;
+  overwrite.push_back("--overwrite");
+  expect_success(run_mms(folder.path(), overwrite));
+  folder.write("out/notes.txt", "mine");
+  expect_error(run_mms(folder.path(), overwrite),
+               "out: has a file that this command does not write, as notes.txt");
+  EXPECT_EQ(read_file(folder.path() / "out/notes.txt"), "mine");
+  EXPECT_TRUE(fs::exists(folder.path() / "out/trajectory.tum"));
+}
+
+TEST(Run, NeverWritesIntoRecording) {
+  const TempFolder folder;
+  write_scene(folder.path() / "data", small_scene(2));
+  expect_error(
+      run_mms(folder.path(), {"run", "data", "--segmenter", "none", "-o", "data", "--overwrite"}),
+      "files that this command does not write");
+  EXPECT_TRUE(fs::exists(folder.path() / "data/rgb.txt"));
+}
+
+TEST(Run, PrintsHeadingAndSections) {
+  const TempFolder folder;
+  const Outcome outcome = run_mms(
+      folder.path(), {"run", "sim:still_walker?frames=3", "--segmenter", "none", "-o", "out"});
+  expect_success(outcome);
+  expect_in("recording  sim:still_walker?frames=3, 3 frames (simulated scene still_walker)\n",
+            outcome.err);
+  expect_in("depth camera, 640x480 pixels; masks: none\n", outcome.err);
+  expect_in("results    out\n", outcome.err);
+  for (const char* title : {"Trajectory: ", "\nMap: ", "\nObjects", "\nSpeed\n"}) {
+    expect_in(title, outcome.out);
+  }
+  std::istringstream lines(outcome.out + outcome.err);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 79U) << line;
+}
+
+TEST(Run, PrintsNothingOrJsonOnDemand) {
+  const TempFolder folder;
+  const std::vector<std::string> run = {
+      "run",    "sim:still_walker?frames=2", "-o", "out", "--overwrite", "--segmenter", "none",
+      "--quiet"};
+  const Outcome quiet = run_mms(folder.path(), run);
+  expect_success(quiet);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+  std::vector<std::string> with_json = run;
+  with_json.push_back("--json");
+  const Outcome json = run_mms(folder.path(), with_json);
+  EXPECT_EQ(nlohmann::json::parse(json.out), json_file(folder.path() / "out/metrics.json"));
+}
+
+TEST(Run, TakesSettingsFromCommandLine) {
+  const TempFolder folder;
+  const auto run = [&](const std::string& setting) {
+    return run_mms(folder.path(), {"run", "sim:still_walker?frames=2", "-o", "out", "--overwrite",
+                                   "--segmenter", "none", "--set", setting});
+  };
+  expect_success(run("static_map.voxel_size=0.07"));
+  expect_in("voxel_size: 0.07", read_file(folder.path() / "out/config.yaml"));
+  expect_error(run("static_map.voxel_sise=0.07"), "did you mean 'static_map.voxel_size'?");
 }
 
 TEST(Run, OmitsTrajectoryErrorsWithoutGroundTruth) {
@@ -177,7 +275,7 @@ TEST(Run, NothingIsDynamicWithoutMasks) {
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--segmenter", "none"}, {"--fusion", "none"}}) {
     expect_success(run_recording(folder, more));
-    EXPECT_EQ(json_file(folder.path() / "out/metrics.json")["dynamic_share"], 0.0) << more[0];
+    EXPECT_EQ(json_file(folder.path() / "out/metrics.json")["dynamic_pct"], 0.0) << more[0];
   }
 }
 
@@ -193,13 +291,20 @@ TEST(Run, FusionOptionOverridesConfig) {
 
 TEST(Run, WritesOtherResultsWhenPicturesFail) {
   const TempFolder folder;
-  write_scene(folder.path() / "data", small_scene(kFrames));
-  folder.write("out/pictures", "a file");
-  const Outcome outcome = run_recording(folder);
+  const Outcome outcome =
+      run_interrupted_after(folder, [&] { folder.write("out/pictures", "a file"); });
   EXPECT_NE(outcome.exit_code, 0);
   expect_in("out/pictures: cannot create the folder", outcome.err);
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/report.html"));
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/static_map.ply"));
+}
+
+TEST(Run, NamesResultThatCannotBeWritten) {
+  const TempFolder folder;
+  const Outcome outcome = run_interrupted_after(
+      folder, [&] { fs::create_directories(folder.path() / "out/metrics.json/in_the_way"); });
+  EXPECT_NE(outcome.exit_code, 0);
+  expect_in("out/metrics.json: cannot be written", outcome.err);
 }
 
 TEST(Run, ReadsMasksFromOtherFolder) {
@@ -208,7 +313,7 @@ TEST(Run, ReadsMasksFromOtherFolder) {
   fs::rename(folder.path() / "data/masks", folder.path() / "people");
   expect_error(run_recording(folder, {"--segmenter", "masks"}), "data: has no masks (add label");
   expect_success(run_recording(folder, {"--segmenter", "masks", "--masks", "people"}));
-  EXPECT_GT(json_file(folder.path() / "out/metrics.json")["dynamic_share"], 0.0);
+  EXPECT_GT(json_file(folder.path() / "out/metrics.json")["dynamic_pct"], 0.0);
 }
 
 TEST(Run, UsesAndRecordsGivenCalibration) {
@@ -235,7 +340,8 @@ TEST(Run, UsesAndRecordsGivenCalibration) {
 TEST(Run, AcceptsOtherNetwork) {
   const TempFolder folder;
   const auto with = [&](const std::vector<std::string>& words) {
-    std::vector<std::string> arguments = {"run", "sim:corridor?width=320&frames=2", "-o", "out"};
+    std::vector<std::string> arguments = {"run", "sim:corridor?width=320&frames=2", "-o", "out",
+                                          "--overwrite"};
     arguments.insert(arguments.end(), words.begin(), words.end());
     return run_mms(folder.path(), arguments);
   };

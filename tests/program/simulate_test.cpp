@@ -33,7 +33,8 @@ TEST(Simulate, WritesUsableRecording) {
   }
   expect_success(run_mms(folder.path(), {"run", "data", "--segmenter", "masks", "-o", "out"}));
   const auto metrics = json_file(folder.path() / "out/metrics.json");
-  EXPECT_EQ(keys_of(metrics["map"]), (std::set<std::string>{"SA", "DA", "AA", "HA"}));
+  EXPECT_EQ(keys_of(metrics["map"]),
+            (std::set<std::string>{"sa_pct", "da_pct", "aa_pct", "ha_pct"}));
   expect_in("SA (static points kept)", read_file(folder.path() / "out/report.html"));
 }
 

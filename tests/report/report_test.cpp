@@ -16,7 +16,8 @@ RunReport sample(int frames) {
   RunReport report;
   report.name = "warehouse <1> & \"2\"";
   report.stages = {"segmentation", "fusion", "odometry<b>"};
-  report.summary = {{"hz", "rate", 12.34, "Hz", 1}, {"x", "<i>odd</i>", std::nan(""), "m", 3}};
+  report.summary = {{"Speed", "", {{"", "rate", 12.34, "Hz", 1}}},
+                    {"<i>odd</i>", "good", {{"", "<i>odd</i>", std::nan(""), "m", 3}}}};
   for (int i = 0; i < frames; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / std::max(frames, 2);
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

@@ -5,8 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/warnings.hpp"
+#include "mms/io/config/config_assignments.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/pipeline/system_config.hpp"
 
@@ -15,11 +18,14 @@ namespace {
 
 void add_dump(CLI::App& config) {
   const auto file = std::make_shared<std::string>();
+  const auto set = std::make_shared<std::vector<std::string>>();
   CLI::App* command = config.add_subcommand("dump", "Print all settings with descriptions");
   command->add_option("FILE", *file, "settings to print instead of the defaults");
-  command->callback([file] {
+  add_set_option(*command, *set);
+  command->callback([file, set] {
     SystemConfig settings;
     if (!file->empty()) print_warnings(load_config(*file, settings));
+    print_warnings(assign(settings, *set, "--set"));
     fmt::print("{}", dump_config(settings));
   });
 }

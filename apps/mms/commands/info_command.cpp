@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <string>
@@ -10,6 +11,8 @@
 #include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/topic_options.hpp"
 #include "mms/dataset/open_dataset.hpp"
+#include "mms/dataset/plausibility/recording_check.hpp"
+#include "mms/dataset/simulated/simulated_source.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/io/weights/safetensors.hpp"
 #include "mms/segmentation/solo/prepared_image.hpp"
@@ -51,6 +54,22 @@ void print_frame_checks(const InfoOptions& options, std::size_t size) {
   }
 }
 
+/// Reads frames spread over the recording and prints what is implausible in them.
+void print_plausibility(const InfoOptions& options, std::size_t size) {
+  RecordingCheck check;
+  const auto source = options.open();
+  const std::size_t step = std::max<std::size_t>(1, size / RecordingCheck::kFrames);
+  for (std::size_t i = 0; i < RecordingCheck::kFrames; ++i) {
+    const auto frame = source->next();
+    if (!frame) break;
+    check.add(*frame);
+    source->skip(step - 1);
+  }
+  const std::vector<std::string> faults = check.faults();
+  for (const std::string& fault : faults) fmt::print("implausible: {}\n", fault);
+  if (faults.empty()) fmt::print("plausible: {} frames checked\n", check.frames());
+}
+
 /// Prints architecture and cost of a weights file.
 void print_model(const std::string& path) {
   SegmentationModel model = unpack_model(read_safetensors(path), path);
@@ -72,7 +91,9 @@ void print_info(const InfoOptions& options) {
   const auto source = options.open();
   for (const std::string& line : source->describe()) fmt::print("{}\n", line);
   source->on_warning([](const std::string& message) { fmt::print("warning: {}\n", message); });
-  if (source->size() > 0) print_frame_checks(options, source->size());
+  if (source->size() == 0) return;
+  print_frame_checks(options, source->size());
+  if (!is_simulated(options.data)) print_plausibility(options, source->size());
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ struct ReproduceOptions {
   std::string still = "sim:still_walker";
   std::string trajectory = "sim:warehouse_loop";
   fs::path output;
+  bool overwrite = false;
   fs::path trainings;
   std::string segmenter = "network";
   std::size_t frames = std::numeric_limits<std::size_t>::max();
@@ -131,7 +132,7 @@ class Reproducer {
 };
 
 void reproduce(const ReproduceOptions& options) {
-  const ResultFolder folder(options.output, "reproduction");
+  const ResultFolder folder(options.output, "reproduction", options.overwrite);
   const Reproduction found = Reproducer(options, folder.path()).run();
   write_file(folder.path() / "report.html", reproduction_html(found));
   write_file(folder.path() / "reproduction.json", reproduction_json(found));
@@ -155,6 +156,8 @@ void add_reproduce_command(CLI::App& app) {
   CLI::Option* former = command->add_option("--ride", options->trajectory)->group("");
   command->add_option("-o,--output", options->output,
                       "folder for the results (default: results/<time>_reproduction)");
+  command->add_flag("--overwrite", options->overwrite,
+                    "replace the results of an earlier run in this folder");
   command->add_option("--trainings", options->trainings,
                       "folder of benchmarks/table1.sh, for the table of networks");
   command->add_option("--segmenter", options->segmenter, "source of the masks: network or masks")

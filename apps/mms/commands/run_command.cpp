@@ -11,6 +11,7 @@
 #include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/progress.hpp"
 #include "apps/mms/console/viewing.hpp"
+#include "mms/core/error.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/run/record/run_options.hpp"
 #include "mms/run/results/result_folder.hpp"
@@ -19,14 +20,21 @@
 namespace mms {
 namespace {
 
+/// What a run prints.
+struct ConsoleOptions {
+  bool quiet = false;
+  bool json = false;
+};
+
 /// Prints the summary of a run and its folder on stdout.
-void print_summary(const std::filesystem::path& folder, const RunLog& log) {
-  fmt::print("{}", to_table(metric_values(log.metrics())));
-  const std::int64_t lost = log.metrics().status[static_cast<std::size_t>(Status::kLost)];
-  if (lost > 0) {
-    fmt::print("lost in {} of {} frames, whose poses are predicted; the report shows when\n", lost,
-               log.frames().size());
+void print_summary(const std::filesystem::path& folder, const RunMetrics& metrics,
+                   const ConsoleOptions& console) {
+  if (console.json) {
+    fmt::print("{}", to_json(metrics));
+    return;
   }
+  if (console.quiet) return;
+  fmt::print("{}", to_table(metric_sections(metrics)));
   fmt::print("report: {}\nmap:    {}\n", (folder / "report.html").string(),
              (folder / "static_map.ply").string());
 }
@@ -45,19 +53,23 @@ void keep_showing(const SlamRun& run, const std::filesystem::path& folder) {
   wait_for_interrupt();
 }
 
-void play(SlamRun& run, const std::filesystem::path& folder) {
-  Progress progress;
+void play(SlamRun& run, const std::filesystem::path& folder, bool quiet) {
+  Progress progress(quiet);
   run.play(folder, progress);
 }
 
-void run(const RunOptions& options) {
+void run(const RunOptions& options, const ConsoleOptions& console) {
   SlamRun run(options);
   if (run.view() != nullptr) announce(run.view()->server(), *options.view);
-  const ResultFolder folder(options.output, options.data);
-  play(run, folder.path());
+  const ResultFolder folder(options.output, options.data, options.overwrite);
+  play(run, folder.path(), console.quiet);
   run.write(folder.path());
   folder.make_latest();
-  print_summary(folder.path(), run.log());
+  print_summary(folder.path(), run.log().metrics(), console);
+  if (!run.failure().empty()) {
+    throw DataError(options.data, run.failure(),
+                    "check its calibration and depth with mms info, and see the warnings above");
+  }
   if (run.view() != nullptr) keep_showing(run, folder.path());
 }
 
@@ -86,8 +98,11 @@ void add_run_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("-c,--config", options->config,
                       "settings file (mms config dump prints all settings)");
+  add_set_option(*command, options->set);
   command->add_option("-o,--output", options->output,
                       "folder for the results (default: results/<time>_<name>)");
+  command->add_flag("--overwrite", options->overwrite,
+                    "replace the results of an earlier run in this folder");
   command
       ->add_option("--segmenter", options->segmenter,
                    "source of the masks of people and vehicles: a network, the recording's masks/ "
@@ -115,6 +130,9 @@ void add_run_command(CLI::App& app) {
       "keep journal.bin, from which mms convert recovers a killed run, after the run");
   add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
+  const auto console = std::make_shared<ConsoleOptions>();
+  command->add_flag("-q,--quiet", console->quiet, "print only warnings and errors");
+  command->add_flag("--json", console->json, "print metrics.json in place of the summary");
   const auto view = std::make_shared<std::string>();
   const auto place = std::make_shared<ViewOptions>();
   command->add_option("--view", *view, "show the live run in a browser, at this port (8080)")
@@ -129,7 +147,7 @@ void add_run_command(CLI::App& app) {
       throw CLI::ValidationError(
           "--weights", "is for masks of the network, but they come from " + options->segmenter);
     }
-    run(*options);
+    run(*options, *console);
   });
 }
 

@@ -9,6 +9,12 @@ void add_threads_option(CLI::App& command, int& threads, const std::string& help
   command.add_option("--threads", threads, help)->check(CLI::Range(1, kMaxThreads));
 }
 
+void add_set_option(CLI::App& command, std::vector<std::string>& set) {
+  command
+      .add_option("--set", set, "a setting as group.key=value, after those of --config; repeatable")
+      ->allow_extra_args(false);
+}
+
 void add_frames_option(CLI::App& command, std::size_t& frames, const std::string& help) {
   command.add_option("--frames", frames, help)
       ->check(CLI::Range(std::size_t{1}, kMaxFrames))

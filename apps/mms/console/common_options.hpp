@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace mms {
 
@@ -13,6 +14,9 @@ inline constexpr std::size_t kMaxFrames = 1'000'000'000;
 /// @param threads  0 by default: one per core
 void add_threads_option(CLI::App& command, int& threads,
                         const std::string& help = "threads to use (default: one per core)");
+
+/// Adds --set for settings of the system: "group.key=value", repeatable.
+void add_set_option(CLI::App& command, std::vector<std::string>& set);
 
 /// Adds --frames, 1 to kMaxFrames.
 /// @param frames  unchanged by default: all

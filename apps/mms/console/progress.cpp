@@ -2,30 +2,61 @@
 
 #include <fmt/core.h>
 
-#include "mms/pipeline/frame_result.hpp"
+#include <algorithm>
+
+#include "apps/mms/console/duration_text.hpp"
 
 namespace mms {
+namespace {
 
-void Progress::on_start(std::size_t frames) {
+std::string count_text(std::size_t count, const char* one, const char* many) {
+  return fmt::format("  {} {}", count, count == 1 ? one : many);
+}
+
+/// The objects in view: "  2 people  1 vehicle".
+std::string objects_text(const std::vector<ObjectBox>& objects) {
+  const auto number_of = [&](ObjectClass object_class) {
+    return static_cast<std::size_t>(std::count_if(
+        objects.begin(), objects.end(),
+        [&](const ObjectBox& object) { return object.object_class == object_class; }));
+  };
+  std::string text = count_text(number_of(ObjectClass::kPerson), "person", "people");
+  const std::size_t vehicles = number_of(ObjectClass::kAgv);
+  if (vehicles > 0) text += count_text(vehicles, "vehicle", "vehicles");
+  const std::size_t others = number_of(ObjectClass::kUnknown);
+  if (others > 0) text += count_text(others, "other", "others");
+  return text;
+}
+
+}  // namespace
+
+void Progress::on_start(const std::vector<std::string>& heading, std::size_t frames) {
   total_ = frames;
   start_ = Clock::now();
+  if (quiet_) return;
+  for (const std::string& line : heading) status_.say(line);
 }
 
 void Progress::on_frame(const RunLog& log) {
-  if (status_.due(log.frames().size() >= total_)) status_.show(line(log));
+  if (!quiet_ && status_.due(log.frames().size() >= total_)) status_.show(line(log));
+}
+
+void Progress::on_warning(const std::string& message) {
+  if (warnings_.add(message)) status_.warn(message);
+}
+
+void Progress::on_end() {
+  status_.finish();
+  for (const std::string& line : warnings_.rest()) status_.warn(line);
 }
 
 std::string Progress::line(const RunLog& log) const {
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
-  const LoggedFrame& frame = log.frames().back();
-  std::string stages;
-  for (std::size_t i = 0; i < kStageCount; ++i) {
-    stages += fmt::format(" {} {:.1f}", to_string(static_cast<Stage>(i)), frame.stage_ms[i]);
-  }
-  return fmt::format("frame {}/{}  {:.1f} Hz  ms:{}  dynamic {:.0f} %  objects {}  {}",
-                     log.frames().size(), total_,
-                     static_cast<double>(log.frames().size()) / elapsed.count(), stages,
-                     100.0 * frame.dynamic_share, log.objects_now(), to_string(frame.status));
+  const std::size_t done = log.frames().size();
+  const double rate = static_cast<double>(done) / elapsed.count();
+  return fmt::format("frame {}/{}  {:.1f} Hz  {} left  {}{}", done, total_, rate,
+                     duration_text(static_cast<double>(total_ - done) / rate),
+                     to_string(log.frames().back().status), objects_text(log.objects_now()));
 }
 
 }  // namespace mms

@@ -3,20 +3,26 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/repeated_warnings.hpp"
 #include "apps/mms/console/status_line.hpp"
 #include "mms/run/run_observer.hpp"
 
 namespace mms {
 
-/// Shows the progress of a run on stderr; the first Ctrl-C ends the run early.
+/// Shows a run on stderr: its heading, a progress line of at most 79 characters, and warnings. The
+/// first Ctrl-C ends the run early.
 class Progress : public RunObserver {
  public:
-  void on_start(std::size_t frames) override;
+  /// @param quiet  only warnings
+  explicit Progress(bool quiet = false) : quiet_(quiet) {}
+
+  void on_start(const std::vector<std::string>& heading, std::size_t frames) override;
   void on_frame(const RunLog& log) override;
-  void on_warning(const std::string& message) override { status_.warn(message); }
-  void on_end() override { status_.finish(); }
+  void on_warning(const std::string& message) override;
+  void on_end() override;
   bool stop_requested() const override { return InterruptGuard::requested(); }
 
  private:
@@ -26,6 +32,8 @@ class Progress : public RunObserver {
 
   InterruptGuard interrupt_;
   StatusLine status_;
+  RepeatedWarnings warnings_;
+  bool quiet_ = false;
   std::size_t total_ = 0;
   Clock::time_point start_ = Clock::now();
 };

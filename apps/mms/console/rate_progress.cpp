@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "apps/mms/console/duration_text.hpp"
+
 namespace mms {
 
 double RateProgress::seconds() const {
@@ -13,8 +15,8 @@ double RateProgress::seconds() const {
 void RateProgress::show(int done, int total, int fresh, const std::string& note) {
   if (!status_.due(done >= total)) return;
   const double rate = std::max(fresh, 1) / std::max(seconds(), 1e-9);
-  status_.show(fmt::format("{} {}/{}  {:.1f}/s  {:.0f} s left{}", what_, done, total, rate,
-                           (total - done) / rate, note.empty() ? "" : "  " + note));
+  status_.show(fmt::format("{} {}/{}  {:.1f}/s  {} left{}", what_, done, total, rate,
+                           duration_text((total - done) / rate), note.empty() ? "" : "  " + note));
 }
 
 }  // namespace mms

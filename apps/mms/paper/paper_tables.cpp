@@ -111,8 +111,8 @@ PlainTable drift_table(const std::string& data, const std::vector<PaperRun>& run
   for (std::size_t i = 0; i < runs.size() && i < kPaperDrifts.size(); ++i) {
     const Drift& drift = runs[i].metrics.drift.value();
     const auto [first, second] = kPaperDrifts[i];
-    table.rows.push_back({runs[i].name, to_fixed(drift.atde_cm, 3), to_fixed(drift.mtde_cm, 3),
-                          fmt::format("{} / {}", first, second),
+    table.rows.push_back({runs[i].name, to_fixed(100.0 * drift.atde_m, 3),
+                          to_fixed(100.0 * drift.mtde_m, 3), fmt::format("{} / {}", first, second),
                           fmt::format("{} / {}", second, first)});
   }
   return table;
@@ -133,7 +133,7 @@ PlainTable localization_table(const std::string& data, const std::vector<PaperRu
       if (value.key == "rpe_trans_rmse_m") row.push_back(to_fixed(100.0 * value.value, 2));
       if (value.key == "rpe_rot_rmse_deg") row.push_back(to_fixed(value.value, 3));
     }
-    for (const char* key : {"SA", "DA", "AA"}) {
+    for (const char* key : {"sa_pct", "da_pct", "aa_pct"}) {
       std::string cell = "-";
       if (run.metrics.map) {
         for (const MetricValue& value : metric_values(*run.metrics.map)) {
@@ -158,7 +158,7 @@ PlainTable stage_table(const std::vector<PaperRun>& runs) {
     for (const auto& [name, times] : run.metrics.stages) row.push_back(to_fixed(times.mean, 1));
     row.push_back(to_fixed(run.metrics.ms_per_frame.mean, 1));
     row.push_back(to_fixed(run.metrics.ms_per_frame.p99, 1));
-    row.push_back(to_fixed(run.metrics.hz, 1));
+    row.push_back(to_fixed(run.metrics.rate_hz, 1));
     table.rows.push_back(row);
   }
   return table;

@@ -87,7 +87,7 @@ std::vector<MetricValue> metric_values(const GhostPointCount& ghost_points) {
           {"seen", "seen by the camera", static_cast<double>(ghost_points.seen), "", 0},
           {"ghost_points", "in front of the background",
            static_cast<double>(ghost_points.ghost_points), "", 0},
-          {"ghost_percent", "share of the map", ghost_points.percent, "%", 3}};
+          {"ghost_pct", "share of the map", ghost_points.percent, "%", 3}};
 }
 
 }  // namespace mms

@@ -41,7 +41,7 @@ GhostPointCount evaluate_ghost_points(std::span<const Eigen::Vector3f> map,
                                       const Image<float>& room_depth,
                                       const CameraIntrinsics& camera, double margin = 0.15);
 
-/// points, seen, ghost_points, ghost_percent.
+/// points, seen, ghost_points, ghost_pct.
 std::vector<MetricValue> metric_values(const GhostPointCount& ghost_points);
 
 }  // namespace mms

@@ -108,10 +108,10 @@ MapError evaluate_map(const Points& truth_static, const Points& truth_dynamic, c
 }
 
 std::vector<MetricValue> metric_values(const MapError& error) {
-  return {{"SA", "SA (static points kept)", error.SA, "%", 2},
-          {"DA", "DA (dynamic points removed)", error.DA, "%", 2},
-          {"AA", "AA (geometric mean)", error.AA, "%", 2},
-          {"HA", "HA (harmonic mean)", error.HA, "%", 2}};
+  return {{"sa_pct", "SA (static points kept)", error.SA, "%", 2},
+          {"da_pct", "DA (dynamic points removed)", error.DA, "%", 2},
+          {"aa_pct", "AA (geometric mean)", error.AA, "%", 2},
+          {"ha_pct", "HA (harmonic mean)", error.HA, "%", 2}};
 }
 
 }  // namespace mms

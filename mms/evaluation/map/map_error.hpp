@@ -29,7 +29,7 @@ MapError evaluate_map(const std::vector<Eigen::Vector3f>& truth_static,
                       const std::vector<Eigen::Vector3f>& truth_dynamic,
                       const std::vector<Eigen::Vector3f>& map, double radius = 0.05);
 
-/// JSON keys: SA, DA, AA, HA.
+/// JSON keys: sa_pct, da_pct, aa_pct, ha_pct.
 std::vector<MetricValue> metric_values(const MapError& error);
 
 }  // namespace mms

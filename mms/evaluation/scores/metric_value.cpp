@@ -8,6 +8,33 @@
 #include "mms/evaluation/scores/metric_json.hpp"
 
 namespace mms {
+namespace {
+
+/// Columns of a table in characters.
+struct Widths {
+  std::size_t name = 0;
+  std::size_t number = 0;
+
+  void fit(std::span<const MetricValue> values) {
+    for (const MetricValue& item : values) {
+      name = std::max(name, item.meaning.size());
+      number = std::max(number, to_fixed(item.value, item.decimals).size());
+    }
+  }
+};
+
+std::string lines_of(std::span<const MetricValue> values, const Widths& widths,
+                     const std::string& indent) {
+  std::string lines;
+  for (const MetricValue& item : values) {
+    const std::size_t number = to_fixed(item.value, item.decimals).size();
+    lines += indent + item.meaning + std::string(widths.name - item.meaning.size() + 2, ' ');
+    lines += std::string(widths.number - number, ' ') + with_unit(item) + "\n";
+  }
+  return lines;
+}
+
+}  // namespace
 
 std::string to_fixed(double value, int decimals) {
   if (!std::isfinite(value)) return "n/a";
@@ -39,17 +66,18 @@ std::string to_json(std::span<const MetricValue> values) {
 }
 
 std::string to_table(std::span<const MetricValue> values) {
-  std::size_t name_width = 0;
-  std::size_t number_width = 0;
-  for (const MetricValue& item : values) {
-    name_width = std::max(name_width, item.meaning.size());
-    number_width = std::max(number_width, to_fixed(item.value, item.decimals).size());
-  }
+  Widths widths;
+  widths.fit(values);
+  return lines_of(values, widths, "");
+}
+
+std::string to_table(std::span<const MetricSection> sections) {
+  Widths widths;
+  for (const MetricSection& section : sections) widths.fit(section.values);
   std::string table;
-  for (const MetricValue& item : values) {
-    const std::size_t number = to_fixed(item.value, item.decimals).size();
-    table += item.meaning + std::string(name_width - item.meaning.size() + 2, ' ');
-    table += std::string(number_width - number, ' ') + with_unit(item) + "\n";
+  for (const MetricSection& section : sections) {
+    table += section.title + (section.rating.empty() ? "" : ": " + section.rating) + "\n" +
+             lines_of(section.values, widths, "  ");
   }
   return table;
 }

@@ -15,6 +15,13 @@ struct MetricValue {
   int decimals = 3;     ///< decimals in tables; 0 marks a count, an integer in the JSON
 };
 
+/// Results with a common title.
+struct MetricSection {
+  std::string title;
+  std::string rating;  ///< "good", "fair" or "poor"; empty without ground truth
+  std::vector<MetricValue> values;
+};
+
 /// `value` with `decimals` places; "n/a" for NaN and infinities.
 std::string to_fixed(double value, int decimals);
 
@@ -26,5 +33,9 @@ std::string to_json(std::span<const MetricValue> values);
 
 /// Lines "meaning  value unit", columns aligned, each ended by a newline.
 std::string to_table(std::span<const MetricValue> values);
+
+/// Title and rating of each section, and its lines as above, indented; columns aligned over all
+/// sections.
+std::string to_table(std::span<const MetricSection> sections);
 
 }  // namespace mms

@@ -39,8 +39,8 @@ double MaskAgreement::precision() const {
 }
 
 std::vector<MetricValue> metric_values(const MaskAgreement& agreement) {
-  return {{"recall", "recall of points in masks", 100.0 * agreement.recall(), "%", 1},
-          {"precision", "precision of dynamic points", 100.0 * agreement.precision(), "%", 1}};
+  return {{"recall_pct", "recall of points in masks", 100.0 * agreement.recall(), "%", 1},
+          {"precision_pct", "precision of dynamic points", 100.0 * agreement.precision(), "%", 1}};
 }
 
 }  // namespace mms

@@ -27,7 +27,7 @@ struct MaskAgreement {
   double precision() const;
 };
 
-/// `recall` and `precision` [%].
+/// JSON keys: recall_pct, precision_pct.
 std::vector<MetricValue> metric_values(const MaskAgreement& agreement);
 
 }  // namespace mms

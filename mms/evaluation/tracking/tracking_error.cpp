@@ -149,9 +149,9 @@ TrackingError evaluate_tracking(const ObjectHistory& truth, const ObjectHistory&
 std::vector<MetricValue> metric_values(const TrackingError& error) {
   return {
       {"objects", "ground-truth objects", static_cast<double>(error.objects), "", 0},
-      {"IDF1", "IDF1", 100.0 * error.idf1, "%", 1},
-      {"recall", "recall of objects", 100.0 * error.recall, "%", 1},
-      {"false_discovery_rate", "false discovery rate", 100.0 * error.false_discovery_rate, "%", 1},
+      {"idf1_pct", "IDF1", 100.0 * error.idf1, "%", 1},
+      {"recall_pct", "recall of objects", 100.0 * error.recall, "%", 1},
+      {"false_discovery_pct", "false discovery rate", 100.0 * error.false_discovery_rate, "%", 1},
       {"id_switches", "ID switches", static_cast<double>(error.id_switches), "", 0},
       {"center_mean_m", "box center error, mean", error.center_mean, "m", 3},
       {"center_median_m", "box center error, median", error.center_median, "m", 3},

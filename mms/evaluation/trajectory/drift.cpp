@@ -8,7 +8,6 @@
 namespace mms {
 
 Drift evaluate_drift(const Trajectory& estimate) {
-  constexpr double kCentimetersPerMeter = 100.0;
   Trajectory finite;
   for (const StampedPose& pose : estimate) {
     if (pose.T_world_sensor.is_finite()) finite.push_back(pose);
@@ -20,16 +19,15 @@ Drift evaluate_drift(const Trajectory& estimate) {
   const Eigen::Vector3d origin = finite.front().T_world_sensor.translation();
   std::vector<double> distances;
   for (const StampedPose& pose : finite) {
-    const double meters = (pose.T_world_sensor.translation() - origin).norm();
-    distances.push_back(kCentimetersPerMeter * meters);
+    distances.push_back((pose.T_world_sensor.translation() - origin).norm());
   }
   return {finite.size(), mean(distances), maximum(distances)};
 }
 
 std::vector<MetricValue> metric_values(const Drift& drift) {
   return {{"poses", "poses", static_cast<double>(drift.poses), "", 0},
-          {"atde_cm", "ATDE (mean drift)", drift.atde_cm, "cm", 3},
-          {"mtde_cm", "MTDE (largest drift)", drift.mtde_cm, "cm", 3}};
+          {"atde_m", "ATDE (mean drift)", drift.atde_m, "m", 4},
+          {"mtde_m", "MTDE (largest drift)", drift.mtde_m, "m", 4}};
 }
 
 }  // namespace mms

@@ -12,15 +12,15 @@ namespace mms {
 /// from the first one, which counts with distance 0.
 struct Drift {
   std::size_t poses = 0;
-  double atde_cm = 0.0;  ///< mean
-  double mtde_cm = 0.0;  ///< maximum
+  double atde_m = 0.0;  ///< mean
+  double mtde_m = 0.0;  ///< maximum
 };
 
 /// Needs neither ground truth nor alignment. Ignores poses with NaN or infinite numbers.
 /// @throws DataError if no pose is left
 Drift evaluate_drift(const Trajectory& estimate);
 
-/// JSON keys: poses, atde_cm, mtde_cm.
+/// JSON keys: poses, atde_m, mtde_m.
 std::vector<MetricValue> metric_values(const Drift& drift);
 
 }  // namespace mms

@@ -52,6 +52,16 @@ std::vector<double> absolute_errors(const Trajectory& reference, const Trajector
   return errors;
 }
 
+double path_length(const Trajectory& reference, const std::vector<PoseMatch>& matches) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < matches.size(); ++i) {
+    length += (reference[matches[i].reference].T_world_sensor.translation() -
+               reference[matches[i - 1].reference].T_world_sensor.translation())
+                  .norm();
+  }
+  return length;
+}
+
 }  // namespace
 
 RelativeDelta rpe_delta(const TrajectoryErrorOptions& options) {
@@ -67,6 +77,7 @@ TrajectoryError evaluate_trajectory(const Trajectory& reference, const Trajector
   const std::vector<double> errors = absolute_errors(reference, estimate, matches);
   return {.matched = matches.size(),
           .poses = estimate.size(),
+          .path_m = path_length(reference, matches),
           .ate_rmse_m = root_mean_square(errors),
           .ate_mean_m = mean(errors),
           .ate_median_m = median(errors),
@@ -77,12 +88,13 @@ TrajectoryError evaluate_trajectory(const Trajectory& reference, const Trajector
 std::vector<MetricValue> metric_values(const TrajectoryError& error) {
   return {{"matched", "matched poses", static_cast<double>(error.matched), "", 0},
           {"poses", "estimated poses", static_cast<double>(error.poses), "", 0},
-          {"ate_rmse_m", "ATE rmse", error.ate_rmse_m, "m", 6},
-          {"ate_mean_m", "ATE mean", error.ate_mean_m, "m", 6},
-          {"ate_median_m", "ATE median", error.ate_median_m, "m", 6},
-          {"ate_max_m", "ATE max", error.ate_max_m, "m", 6},
-          {"rpe_trans_rmse_m", "drift (RPE translation rmse)", error.rpe.trans_rmse_m, "m", 6},
-          {"rpe_rot_rmse_deg", "drift (RPE rotation rmse)", error.rpe.rot_rmse_deg, "deg", 6}};
+          {"path_m", "length of the true path", error.path_m, "m", 2},
+          {"ate_rmse_m", "ATE rmse", error.ate_rmse_m, "m", 4},
+          {"ate_mean_m", "ATE mean", error.ate_mean_m, "m", 4},
+          {"ate_median_m", "ATE median", error.ate_median_m, "m", 4},
+          {"ate_max_m", "ATE max", error.ate_max_m, "m", 4},
+          {"rpe_trans_rmse_m", "drift (RPE translation rmse)", error.rpe.trans_rmse_m, "m", 4},
+          {"rpe_rot_rmse_deg", "drift (RPE rotation rmse)", error.rpe.rot_rmse_deg, "deg", 3}};
 }
 
 }  // namespace mms

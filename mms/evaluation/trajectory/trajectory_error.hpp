@@ -29,6 +29,7 @@ RelativeDelta rpe_delta(const TrajectoryErrorOptions& options);
 struct TrajectoryError {
   std::size_t matched = 0;  ///< matched poses of the estimate
   std::size_t poses = 0;    ///< poses of the estimate
+  double path_m = 0.0;      ///< length of the reference through the matched poses [m]
   /// Absolute trajectory error (ATE): distances of matched positions after rigid alignment of the
   /// estimate to the reference, without scale [m].
   double ate_rmse_m = 0.0;
@@ -42,7 +43,7 @@ struct TrajectoryError {
 TrajectoryError evaluate_trajectory(const Trajectory& reference, const Trajectory& estimate,
                                     const TrajectoryErrorOptions& options = {});
 
-/// JSON keys: matched, poses, ate_*_m, rpe_trans_rmse_m, rpe_rot_rmse_deg.
+/// JSON keys: matched, poses, path_m, ate_*_m, rpe_trans_rmse_m, rpe_rot_rmse_deg.
 std::vector<MetricValue> metric_values(const TrajectoryError& error);
 
 }  // namespace mms

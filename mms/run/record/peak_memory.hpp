@@ -4,11 +4,11 @@
 
 namespace mms {
 
-/// Peak memory of the process [MiB].
+/// Peak memory of the process [MB, 10^6 bytes].
 inline double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux reports KiB
+  return 1.024e-3 * static_cast<double>(usage.ru_maxrss);  // Linux reports KiB
 }
 
 }  // namespace mms

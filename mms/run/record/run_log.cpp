@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxPictures = 8;
 constexpr std::size_t kMinPosesForError = 3;
-constexpr double kStandsStill = 1.0;  ///< largest movement of a static sensor [cm]
+constexpr double kStandsStill = 0.01;  ///< largest movement of a static sensor [m]
 
 template <class Value>
 std::vector<double> column(const std::vector<LoggedFrame>& frames, const Value& value) {
@@ -73,7 +73,7 @@ void RunLog::finish(std::size_t skipped, const AsyncPipeline& pipeline, const Sl
   sum_up_latency(pipeline);
   sum_up_accuracy();
   metrics_.frames_skipped = static_cast<std::int64_t>(skipped + pipeline.dropped());
-  metrics_.peak_rss_mb = peak_memory_mb();
+  metrics_.peak_memory_mb = peak_memory_mb();
   for (const LoggedFrame& frame : frames_) {
     ++metrics_.status[static_cast<std::size_t>(frame.status)];
     metrics_.implausible_masks += frame.implausible_masks;
@@ -88,7 +88,7 @@ void RunLog::finish(std::size_t skipped, const AsyncPipeline& pipeline, const Sl
 void RunLog::sum_up_times() {
   const std::chrono::duration<double> elapsed = last_ - start_;
   metrics_.frames = static_cast<std::int64_t>(frames_.size());
-  metrics_.hz = static_cast<double>(frames_.size()) / elapsed.count();
+  metrics_.rate_hz = static_cast<double>(frames_.size()) / elapsed.count();
   metrics_.ms_per_frame =
       time_statistics(column(frames_, [](const LoggedFrame& f) { return f.interval_ms; }));
   metrics_.stages.emplace_back(
@@ -117,7 +117,7 @@ void RunLog::sum_up_accuracy() {
   if (matched.size() < kMinPosesForError) return;
   metrics_.trajectory = evaluate_trajectory(truth_, estimate);
   metrics_.drift = evaluate_drift(estimate);
-  metrics_.stood_still = evaluate_drift(truth_).mtde_cm < kStandsStill;
+  metrics_.stood_still = evaluate_drift(truth_).mtde_m < kStandsStill;
 }
 
 void RunLog::compare_objects(const ObjectHistory& truth) {

@@ -60,7 +60,8 @@ class RunLog {
   const std::vector<LoggedFrame>& frames() const { return frames_; }
   /// Smoothed objects (ObjectSmoother); empty before `finish`.
   const ObjectHistory& objects() const { return objects_; }
-  std::size_t objects_now() const { return live_objects_.back().objects.size(); }
+  /// The tracked objects of the last frame; call after `add`.
+  const std::vector<ObjectBox>& objects_now() const { return live_objects_.back().objects; }
   const std::vector<ReportPicture>& pictures() const { return pictures_; }
   const RunMetrics& metrics() const { return metrics_; }
   const Trajectory& truth() const { return truth_; }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mms/dataset/source/bag_topic_names.hpp"
 #include "mms/dataset/source/camera_options.hpp"
@@ -22,7 +23,9 @@ struct ViewOptions {
 struct RunOptions {
   std::string data = "sim:warehouse_loop";
   std::filesystem::path config;  ///< empty: the defaults
+  std::vector<std::string> set;  ///< settings "group.key=value", after those of `config`
   std::filesystem::path output;  ///< empty: `results/TIME_NAME`
+  bool overwrite = false;        ///< replace the results of an earlier run in `output`
   std::string segmenter;         ///< "network", "masks" or "none"
   std::filesystem::path masks;   ///< empty: the recording's own
   std::string weights;           ///< of the network; empty: as the config says

@@ -5,13 +5,15 @@
 
 namespace mms {
 
-/// Output folder of a run, created before the run, so that a folder that cannot be written is
-/// detected first.
+/// Output folder of a run, created before the run, so that a folder that cannot be used is detected
+/// first. Only one process uses it at a time.
 class ResultFolder {
  public:
-  /// @param output  empty: `results/TIME_NAME` in the working directory
-  /// @throws FileError if the folder cannot be made or written to.
-  ResultFolder(const std::filesystem::path& output, const std::string& data);
+  /// @param output     empty: `results/TIME_NAME` in the working directory
+  /// @param overwrite  removes the results of an earlier run
+  /// @throws FileError if the folder cannot be made or written to, has other files, has results
+  /// without `overwrite`, or is in use.
+  ResultFolder(const std::filesystem::path& output, const std::string& data, bool overwrite);
 
   /// Removes the folder if it was created for this run and is empty.
   ~ResultFolder();
@@ -27,6 +29,7 @@ class ResultFolder {
   std::filesystem::path path_;
   bool default_place_ = false;
   bool made_ = false;
+  int lock_ = -1;  // descriptor of the locked folder
 };
 
 }  // namespace mms

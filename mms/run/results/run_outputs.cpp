@@ -63,7 +63,7 @@ RunReport make_report(const std::string& data, const MapCloud& map, const MapClo
   report.up = log.has_image() ? UpAxis::kNegativeY : UpAxis::kPositiveZ;
   for (const auto& [name, unused] : log.metrics().stages) report.stages.push_back(name);
   report.frames = report_frames(log);
-  report.summary = metric_values(log.metrics());
+  report.summary = metric_sections(log.metrics());
   const MapPictureOptions view{.up = report.up, .point_size = voxel_size, .max_height = kCeiling};
   report.map_view = draw_map(map.points, map.colors, view);
   if (log.metrics().tracks > 0) {

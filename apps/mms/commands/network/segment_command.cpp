@@ -16,11 +16,13 @@
 #include "apps/mms/console/rate_progress.hpp"
 #include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
+#include "mms/io/config/config_assignments.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/io/image/coco_io.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
+#include "mms/io/text/output_folder.hpp"
 #include "mms/pipeline/system_config.hpp"
 #include "mms/run/record/peak_memory.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
@@ -42,11 +44,16 @@ struct SegmentArguments {
   std::size_t limit = kMaxImages;
   int threads = 0;
   bool json_only = false;
+  bool overwrite = false;
+  std::vector<std::string> set;
 };
+
+constexpr std::string_view kOutputs[] = {"masks", "overlays", "results.json", "images.json"};
 
 SegmentationConfig settings_of(const SegmentArguments& arguments) {
   SystemConfig config;
   if (!arguments.config.empty()) print_warnings(load_config(arguments.config, config));
+  print_warnings(assign(config, arguments.set, "--set"));
   if (!arguments.weights.empty()) config.segmentation.weights = arguments.weights.string();
   config.segmentation.threads = arguments.threads;
   return config.segmentation;
@@ -56,12 +63,12 @@ SegmentationConfig settings_of(const SegmentArguments& arguments) {
 class SegmentOutputs {
  public:
   SegmentOutputs(const fs::path& folder, std::vector<std::string> classes, double least_score,
-                 bool json_only)
+                 bool json_only, bool overwrite)
       : folder_(folder),
         classes_(std::move(classes)),
         least_score_(least_score),
         json_only_(json_only) {
-    make_folder(folder_);
+    take_output_folder(folder_, kOutputs, overwrite);
     results_.emplace(folder_ / "results.json");
     if (!json_only_) make_folder(folder_ / "masks");
     if (!json_only_) make_folder(folder_ / "overlays");
@@ -139,7 +146,7 @@ void segment(const SegmentArguments& arguments) {
       open_source(arguments, [&](const std::string& message) { progress.warn(message); });
   const std::unique_ptr<Detector> detector = make_detector(config);
   SegmentOutputs outputs(arguments.output, detector->classes(), config.objects.score,
-                         arguments.json_only);
+                         arguments.json_only, arguments.overwrite);
   const InterruptGuard interrupt;
   const auto total = static_cast<int>(std::min(source->size(), arguments.limit));
   PictureTimes times;
@@ -157,7 +164,7 @@ void segment(const SegmentArguments& arguments) {
     throw DataError(arguments.data, "none of its images could be read", "see the warnings above");
   }
   outputs.finish();
-  fmt::print("{}: {} images, {} objects with score {} or more, {}, {:.0f} MiB\n",
+  fmt::print("{}: {} images, {} objects with score {} or more, {}, {:.0f} MB\n",
              arguments.output.string(), outputs.pictures(), outputs.objects(), config.objects.score,
              times.text(), peak_memory_mb());
 }
@@ -177,6 +184,9 @@ void add_segment_command(CLI::App& app) {
       ->required();
   command->add_option("-c,--config", arguments->config,
                       "settings file, of which the group 'segmentation' is used");
+  add_set_option(*command, arguments->set);
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "replace the results of an earlier call in this folder");
   command->add_option("--weights", arguments->weights,
                       "network: our safetensors, or an ONNX model with YOLO-seg outputs");
   CLI::Option* annotations =
