@@ -6,11 +6,15 @@
 #include "mms/dataset/bag/bag_source.hpp"
 #include "mms/dataset/folder/folder_rgbd.hpp"
 #include "mms/dataset/lidar/lidar_scans.hpp"
+#include "mms/dataset/numbered/arkit_scenes.hpp"
 #include "mms/dataset/numbered/open3d.hpp"
 #include "mms/dataset/numbered/replica.hpp"
 #include "mms/dataset/numbered/scannet.hpp"
+#include "mms/dataset/numbered/scannetpp.hpp"
 #include "mms/dataset/numbered/tartan_air.hpp"
 #include "mms/dataset/simulated/simulated_source.hpp"
+#include "mms/dataset/source/folder_names.hpp"
+#include "mms/dataset/tum/euroc.hpp"
 #include "mms/dataset/tum/tum_rgbd.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/ros/bag_reader.hpp"
@@ -27,11 +31,16 @@ struct FolderLayout {
 };
 
 /// The first one that matches is used.
-constexpr FolderLayout kLayouts[] = {
-    {is_scannet_layout, open_scannet},        {is_open3d_layout, open_open3d},
-    {is_tum_rgbd_layout, open_tum_rgbd},      {is_replica_layout, open_replica},
-    {is_tartan_air_layout, open_tartan_air},  {is_folder_rgbd_layout, open_folder_rgbd},
-    {is_lidar_scans_layout, open_lidar_scans}};
+constexpr FolderLayout kLayouts[] = {{is_scannetpp_layout, open_scannetpp},
+                                     {is_arkit_scenes_layout, open_arkit_scenes},
+                                     {is_euroc_layout, open_euroc},
+                                     {is_scannet_layout, open_scannet},
+                                     {is_open3d_layout, open_open3d},
+                                     {is_tum_rgbd_layout, open_tum_rgbd},
+                                     {is_replica_layout, open_replica},
+                                     {is_tartan_air_layout, open_tartan_air},
+                                     {is_folder_rgbd_layout, open_folder_rgbd},
+                                     {is_lidar_scans_layout, open_lidar_scans}};
 
 const FolderLayout* layout_of(const Names& names) {
   const auto* found =
@@ -116,6 +125,9 @@ void fail_if_rosbag2(const fs::path& folder, const Names& names) {
 
 [[noreturn]] void fail_unknown(const fs::path& folder, const Names& names) {
   fail_if_rosbag2(folder, names);
+  if (has_name(names, "sequences")) {
+    throw DataError(folder.string(), "has several sequences", "choose one, as --sequence 00");
+  }
   std::string nested = find_recording(folder, names);
   if (nested.empty()) nested = find_bag(folder, names);
   throw DataError(folder.string(), found_text(names) + ": no recording found",

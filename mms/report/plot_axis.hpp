@@ -16,6 +16,12 @@ struct AxisRange {
   double max = 1.0;
 
   double length() const { return max - min; }
+
+  /// This interval, or one of length `extent` around its center if that is longer.
+  AxisRange widened_to(double extent) const {
+    const double added = 0.5 * (extent - length());
+    return added > 0.0 ? AxisRange{min - added, max + added} : *this;
+  }
 };
 
 /// Smallest interval with all plottable values of `series`, extended at both ends by `margin` of

@@ -37,6 +37,22 @@ std::string summary_table(const std::vector<MetricSection>& summary) {
   return "<table><tbody>" + rows + "</tbody></table>";
 }
 
+std::string list_of(const std::string& title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string items;
+  for (const std::string& line : lines) items += "<li>" + escape_html(line) + "</li>";
+  return "<h3>" + escape_html(title) + "</h3><ul>" + items + "</ul>";
+}
+
+std::string run_section(const RunReport& report) {
+  if (report.version.empty()) return "";
+  const std::string settings = report.settings.empty()
+                                   ? "<p>All settings have their defaults.</p>"
+                                   : list_of("Settings other than the defaults", report.settings);
+  return section("Run", "<p>mms " + escape_html(report.version) + "</p>" + settings +
+                            list_of("Warnings", report.warnings));
+}
+
 std::string image_element(const std::string& title, const Image<Rgb>& image,
                           const std::string& type, const std::vector<std::uint8_t>& bytes) {
   return "<img alt=\"" + escape_html(title) + "\" width=\"" + std::to_string(image.width()) +
@@ -84,6 +100,7 @@ std::string report_html(const RunReport& report) {
   page += section("Dynamic share of the points", share_plot(report));
   page += section("Status", status_strip(report));
   page += picture_section(report.pictures);
+  page += run_section(report);
   return page + "</body></html>\n";
 }
 

@@ -38,6 +38,9 @@ struct RunReport {
   std::vector<std::string> stages;  ///< names in pipeline order
   std::vector<ReportFrame> frames;  ///< in order of time
   std::vector<MetricSection> summary;
+  std::string version;                ///< of the program
+  std::vector<std::string> settings;  ///< those that differ from the defaults
+  std::vector<std::string> warnings;
   Image<Rgb> map_view;      ///< top view of the static map (draw_map)
   Image<Rgb> objects_view;  ///< the same with tracked objects
   std::vector<ReportPicture> pictures;

@@ -126,6 +126,9 @@ Values accumulated(const RunReport& report, std::size_t end) {
 
 }  // namespace
 
+/// [m]: a sensor that stands still looks so, where the errors of its poses are millimeters.
+constexpr double kMinExtent = 0.2;
+
 std::string trajectory_plot(const RunReport& report) {
   const bool camera = report.up == UpAxis::kNegativeY;
   SvgPlot plot({.title = "trajectory, top view",
@@ -133,7 +136,8 @@ std::string trajectory_plot(const RunReport& report) {
                 .y_label = camera ? "z [m]" : "y [m]",
                 .width = 520,
                 .height = 400,
-                .equal_aspect = true});
+                .equal_aspect = true,
+                .min_extent = kMinExtent});
   const ViewAxes axes = view_axes(Viewpoint::kTop, report.up);
   const Positions truth = aligned_truth(report);
   if (!truth.empty()) add_path(plot, "ground truth, aligned", kTruthColor, truth, axes);

@@ -23,12 +23,16 @@ table{width:100%;border-collapse:collapse}
 tbody{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(310px,100%),1fr));gap:0 36px}
 tr{display:flex;justify-content:space-between;gap:12px;border-bottom:1px solid var(--rule)}
 th,td{padding:4px 0;font-weight:400;text-align:left}th{color:var(--dim)}
+.group{grid-column:1/-1;margin-top:10px;border-bottom-width:2px}.group:first-child{margin-top:0}
+.group th{color:var(--ink);font-weight:600}
+h3{font-size:15px;margin:10px 0 4px}ul{margin:0;padding-left:20px;overflow-wrap:anywhere}
 td{font-variant-numeric:tabular-nums;font-weight:600;white-space:nowrap}
 .plain tbody{display:table-row-group}.plain tr{display:table-row}
 .plain th,.plain td{padding:4px 12px 4px 0;border-bottom:1px solid var(--rule);text-align:right}
 .plain th:first-child,.plain td:first-child{text-align:left}
 .plot{display:block;width:100%;height:auto}
 .plot text{fill:var(--dim);font-size:12px}
+@media(max-width:600px){.plot text{font-size:16px}}
 .grid{stroke:var(--rule);stroke-width:1;fill:none}
 .line{fill:none;stroke-width:1.6;stroke-linejoin:round;stroke-linecap:round}
 .marker{fill:none;stroke-width:10;stroke-linecap:round}

@@ -97,9 +97,11 @@ std::optional<SvgCanvas> SvgPlot::canvas() const {
     ys.push_back(series.y);
     if (series.kind == Kind::kBand) ys.push_back(series.low);
   }
-  const std::optional<AxisRange> x = range_of(xs, layout_.equal_aspect ? kMargin : 0.0);
+  std::optional<AxisRange> x = range_of(xs, layout_.equal_aspect ? kMargin : 0.0);
   std::optional<AxisRange> y = range_of(ys, kMargin);
   if (!x || !y) return std::nullopt;
+  x = x->widened_to(layout_.min_extent);
+  y = y->widened_to(layout_.min_extent);
   if (layout_.y_from_zero) y = AxisRange{0.0, std::max(y->max, 1e-6)};
   SvgCanvas canvas(layout_.width, layout_.height, *x, *y);
   if (layout_.equal_aspect) canvas.make_equal_aspect();

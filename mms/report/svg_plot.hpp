@@ -21,6 +21,7 @@ class SvgPlot {
     int height = 300;           ///< [px]
     bool equal_aspect = false;  ///< equal scale in x and y
     bool y_from_zero = false;
+    double min_extent = 0.0;  ///< smallest range of x and of y
   };
 
   explicit SvgPlot(Layout layout) : layout_(std::move(layout)) {}

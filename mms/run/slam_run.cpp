@@ -95,13 +95,14 @@ void SlamRun::warm_up() {
 }
 
 void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer) {
-  const auto warn = [&observer](const std::string& message) { observer.on_warning(message); };
-  source_->on_warning(warn);
-  journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, warn);
+  const auto handler = [this, &observer](const std::string& message) { warn(message, observer); };
+  const std::vector<std::string> of_settings = std::exchange(warnings_, {});
+  source_->on_warning(handler);
+  journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, handler);
   log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
                                   config_.dynamic_map);
   observer.on_start(run_heading(options_, *source_, config_, frames_, folder), frames_);
-  for (const std::string& warning : warnings_) observer.on_warning(warning);
+  for (const std::string& warning : of_settings) warn(warning, observer);
   if (options_.realtime) warm_up();
   AsyncPipeline pipeline(threads_of(options_, config_));
   // The check takes about 0.2 s, which a run in real time does not have.
@@ -112,7 +113,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   report_implausible(observer);
   observer.on_end();
   interrupted_ = observer.stop_requested();
-  if (interrupted_) observer.on_warning("interrupted, writing the results so far");
+  if (interrupted_) warn("interrupted, writing the results so far", observer);
   log_->finish(source_->skipped(), pipeline, system_);
   if (log_->frames().empty()) {
     throw DataError(options_.data,
@@ -134,6 +135,16 @@ AsyncPipeline::Source SlamRun::frames_for(RunObserver& observer) {
   };
 }
 
+/// Shows a warning, and keeps it for the report, which has at most so many.
+void SlamRun::warn(const std::string& message, RunObserver& observer) {
+  constexpr std::size_t kKept = 20;
+  {
+    const std::scoped_lock lock(warnings_mutex_);
+    if (warnings_.size() < kKept) warnings_.push_back(message);
+  }
+  observer.on_warning(message);
+}
+
 /// Checks frames of about the first second; called in the reading thread.
 void SlamRun::check_plausibility(const Frame& frame, RunObserver& observer) {
   constexpr std::int64_t kStride = 4;  // frames; neighbors are too similar
@@ -144,7 +155,7 @@ void SlamRun::check_plausibility(const Frame& frame, RunObserver& observer) {
 
 void SlamRun::report_implausible(RunObserver& observer) {
   if (!check_) return;
-  for (const std::string& fault : check_->faults()) observer.on_warning("implausible: " + fault);
+  for (const std::string& fault : check_->faults()) warn("implausible: " + fault, observer);
   check_.reset();
 }
 
@@ -189,7 +200,7 @@ void SlamRun::compare_with_truth(RunObserver& observer) {
     try {
       compare();
     } catch (const Error& error) {
-      observer.on_warning(what + " not evaluated: " + error.what());
+      warn(what + " not evaluated: " + error.what(), observer);
     }
   };
   attempt("the map is", [&] {
@@ -200,7 +211,7 @@ void SlamRun::compare_with_truth(RunObserver& observer) {
 }
 
 void SlamRun::write(const std::filesystem::path& folder) {
-  write_outputs(folder, options_.data, config_, system_, *log_);
+  write_outputs(folder, options_.data, config_, system_, *log_, warnings_);
   const auto calibration = source_->calibration();
   write_run_record(folder,
                    record_of(options_, calibration ? calibration->camera : std::nullopt,

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "mms/dataset/plausibility/recording_check.hpp"
@@ -49,6 +50,7 @@ class SlamRun {
   void warm_up();
   void process(const std::filesystem::path& folder, RunObserver& observer);
   void compare_with_truth(RunObserver& observer);
+  void warn(const std::string& message, RunObserver& observer);
   void check_plausibility(const Frame& frame, RunObserver& observer);
   void report_implausible(RunObserver& observer);
   void check_lost();
@@ -58,7 +60,8 @@ class SlamRun {
 
   RunOptions options_;
   std::unique_ptr<FrameSource> source_;
-  std::vector<std::string> warnings_;  // of the settings
+  std::vector<std::string> warnings_;  // of the settings, then of the run
+  std::mutex warnings_mutex_;
   SystemConfig config_;
   SlamSystem system_;
   std::size_t frames_ = 0;  // to be processed at most

@@ -41,8 +41,8 @@ TEST(TumRgbd, DescribesItself) {
   const auto lines = open_dataset(folder.path())->describe();
   for (const char* fact :
        {"layout: TUM RGB-D", "3 color and 3 depth images, 3 matched", "calibration.yaml",
-        "masks: none", "sensor: depth camera, 8x6 pixels, 1000 depth units", "frames: 3", "0.200 s",
-        "rate: 10.00 Hz", "ground truth: none"}) {
+        "masks: none", "sensor: depth camera, 8x6 pixels", "depth scale: 1000 units", "frames: 3",
+        "0.200 s", "rate: 10.00 Hz", "ground truth: none"}) {
     EXPECT_TRUE(any_has(lines, fact)) << fact;
   }
 }

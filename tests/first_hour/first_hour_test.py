@@ -125,6 +125,18 @@ def a_value_of_a_simulation_with_a_typo(folder):
     pass
 
 
+@case(1, "has several sequences", "--sequence 00", args=["run", "kitti"])
+def the_folder_of_all_sequences(folder):
+    (folder / "kitti/sequences").mkdir(parents=True)
+    (folder / "lidar").rename(folder / "kitti/sequences/00")
+
+
+@case(0, "results", "3 frames (KITTI LiDAR scans)",
+      args=["run", "kitti", "--sequence", "00", "--segmenter", "none", "-o", "out"])
+def a_sequence_by_its_number(folder):
+    the_folder_of_all_sequences(folder)
+
+
 # Lists and images
 
 

@@ -76,6 +76,16 @@ TEST(ConfigYaml, DumpIsDocumented) {
             "  count: 5  # number of keyframes, 1 to 100\n");
 }
 
+TEST(ConfigYaml, ListsChangedSettings) {
+  OuterConfig config;
+  const std::string defaults = dump_config(OuterConfig());
+  EXPECT_TRUE(changed_settings(dump_config(config), defaults).empty());
+  config.mode = Mode::kExact;
+  config.keyframes.count = 7;
+  EXPECT_EQ(changed_settings(dump_config(config), defaults),
+            (std::vector<std::string>{"mode: exact", "keyframes.count: 7"}));
+}
+
 TEST(ConfigYaml, DumpRoundTrips) {
   const TempFolder folder;
   OuterConfig config;

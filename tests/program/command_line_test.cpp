@@ -145,8 +145,9 @@ TEST(Info, DescribesRecording) {
   expect_success(outcome);
   for (const char* fact :
        {"layout: TUM RGB-D", "5 color and 5 depth images, 5 matched", "masks: 5 of 5",
-        "sensor: depth camera, 320x240 pixels, 1000 depth units per meter", "rate: 15.00 Hz",
-        "ground truth: 5 poses", "frame 0: readable", "frame 2: readable", "frame 4: readable"}) {
+        "sensor: depth camera, 320x240 pixels\n", "depth scale: 1000 units per meter",
+        "rate: 15.00 Hz", "ground truth: 5 poses", "frame 0: readable", "frame 2: readable",
+        "frame 4: readable"}) {
     expect_in(fact, outcome.out);
   }
 }

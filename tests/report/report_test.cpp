@@ -52,6 +52,20 @@ TEST(Report, HasEverySection) {
   }
 }
 
+TEST(Report, NamesVersionSettingsAndWarnings) {
+  RunReport report = sample(5);
+  EXPECT_FALSE(contains(report_html(report), "<h2>Run</h2>"));
+  report.version = "1.2.3";
+  EXPECT_TRUE(contains(report_html(report), "All settings have their defaults."));
+  report.settings = {"static_map.voxel_size: 0.07"};
+  report.warnings = {"frame <1> skipped"};
+  const std::string html = report_html(report);
+  for (const char* part :
+       {"mms 1.2.3", "<li>static_map.voxel_size: 0.07</li>", "<li>frame &lt;1&gt; skipped</li>"}) {
+    EXPECT_TRUE(contains(html, part)) << part;
+  }
+}
+
 TEST(Report, HasNoExternalReferences) {
   const std::string html = report_html(sample(20));
   for (const char* part : {"http", "<script", "<link", "@import", "url("}) {

@@ -10,6 +10,7 @@
 
 #include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/topic_options.hpp"
+#include "apps/mms/console/common_options.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/dataset/plausibility/recording_check.hpp"
 #include "mms/dataset/simulated/simulated_source.hpp"
@@ -106,10 +107,15 @@ void add_info_command(CLI::App& app) {
       ->add_option("DATA", options->data,
                    "folder of the recording, x.bag, sim:SCENE, or weights.safetensors")
       ->required();
+  const auto sequence = std::make_shared<std::string>();
+  add_sequence_option(*command, *sequence);
   command->add_option("--masks", options->masks, "folder of label images, named as the frames");
   add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
-  command->callback([options] { print_info(*options); });
+  command->callback([options, sequence] {
+    options->data = with_sequence(options->data, *sequence);
+    print_info(*options);
+  });
 }
 
 }  // namespace mms

@@ -96,6 +96,8 @@ void add_run_command(CLI::App& app) {
                    "recording (folder or .bag), or a simulation: "
                    "sim:warehouse_loop[?seed=N&frames=N]")
       ->capture_default_str();
+  const auto sequence = std::make_shared<std::string>();
+  add_sequence_option(*command, *sequence);
   command->add_option("-c,--config", options->config,
                       "settings file (mms config dump prints all settings)");
   add_set_option(*command, options->set);
@@ -141,6 +143,7 @@ void add_run_command(CLI::App& app) {
   add_bind_option(*command, *place);
   command->callback([=] {
     if (command->count("--view") > 0) options->view = view_of(*command, *view, *place, *options);
+    options->data = with_sequence(options->data, *sequence);
     if (options->segmenter.empty())
       options->segmenter = options->masks.empty() ? "network" : "masks";
     if (!options->weights.empty() && options->segmenter != "network") {

@@ -1,6 +1,7 @@
 #include "apps/mms/console/common_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 namespace mms {
 
@@ -13,6 +14,15 @@ void add_set_option(CLI::App& command, std::vector<std::string>& set) {
   command
       .add_option("--set", set, "a setting as group.key=value, after those of --config; repeatable")
       ->allow_extra_args(false);
+}
+
+void add_sequence_option(CLI::App& command, std::string& sequence) {
+  command.add_option("--sequence", sequence, "sequence of KITTI odometry below DATA, as 00");
+}
+
+std::string with_sequence(const std::string& data, const std::string& sequence) {
+  if (sequence.empty()) return data;
+  return (std::filesystem::path(data) / "sequences" / sequence).string();
 }
 
 void add_frames_option(CLI::App& command, std::size_t& frames, const std::string& help) {

@@ -18,6 +18,12 @@ void add_threads_option(CLI::App& command, int& threads,
 /// Adds --set for settings of the system: "group.key=value", repeatable.
 void add_set_option(CLI::App& command, std::vector<std::string>& set);
 
+/// Adds --sequence, a folder below DATA/sequences.
+void add_sequence_option(CLI::App& command, std::string& sequence);
+
+/// DATA, or its sequence if one is given.
+std::string with_sequence(const std::string& data, const std::string& sequence);
+
 /// Adds --frames, 1 to kMaxFrames.
 /// @param frames  unchanged by default: all
 void add_frames_option(CLI::App& command, std::size_t& frames, const std::string& help);

@@ -14,14 +14,15 @@ std::optional<Calibration> read_file_of(RgbdRecording& recording, const CameraOp
   const fs::path own = recording.folder / "calibration.yaml";
   if (options.file.empty() && !fs::exists(own)) return std::nullopt;
   const fs::path& file = options.file.empty() ? own : options.file;
-  const auto [calibration, format, assumed_scale] = read_any_calibration(file);
+  const FormattedCalibration read = read_any_calibration(file);
+  const Calibration& calibration = read.calibration;
   if (!calibration.camera && !options.intrinsics) {
     throw DataError(file.string(), "has no camera", "add fx fy cx cy width height depth_scale");
   }
   recording.facts.push_back(
       "calibration: " + (options.file.empty() ? own.filename() : file).string() +
-      (format == "MMS-SLAM" ? "" : " (" + format + ")"));
-  if (assumed_scale && !options.depth_scale) {
+      (read.format == "MMS-SLAM" ? "" : " (" + read.format + ")"));
+  if (read.assumed_depth_scale && !options.depth_scale) {
     recording.facts.emplace_back("depth scale: none, 1000 units per meter assumed");
   }
   return calibration;

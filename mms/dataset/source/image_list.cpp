@@ -90,9 +90,10 @@ auto read_list(const fs::path& list, std::size_t columns, const std::string& for
 
 }  // namespace
 
-std::vector<ListedImage> read_image_list(const fs::path& list, std::vector<std::string>& warnings) {
-  const auto parse = [](const fs::path& folder, const TextLine& line) {
-    return parse_image(folder, line, 0);
+std::vector<ListedImage> read_image_list(const fs::path& list, std::vector<std::string>& warnings,
+                                         const fs::path& below) {
+  const auto parse = [&below](const fs::path& folder, const TextLine& line) {
+    return parse_image(below.empty() ? folder : folder / below, line, 0);
   };
   return read_list(list, 2, "stamp path", parse, warnings);
 }

@@ -20,11 +20,13 @@ struct ListedPair {
   ListedImage depth;  ///< nearly simultaneous
 };
 
-/// Reads rgb.txt or depth.txt. Skips invalid lines and duplicate stamps with an entry in
-/// `warnings`.
+/// Reads rgb.txt, depth.txt, or a data.csv of EuRoC. Skips invalid lines and duplicate stamps with
+/// an entry in `warnings`.
+/// @param below  folder of the images, relative to that of the list
 /// @throws FileError if the list cannot be read; DataError if no image is left.
 std::vector<ListedImage> read_image_list(const std::filesystem::path& list,
-                                         std::vector<std::string>& warnings);
+                                         std::vector<std::string>& warnings,
+                                         const std::filesystem::path& below = {});
 
 /// Reads associations.txt, with color or depth first; skips lines as above.
 /// @throws FileError, DataError as above.

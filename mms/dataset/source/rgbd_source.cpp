@@ -114,8 +114,8 @@ std::vector<std::string> RgbdSource::facts() const {
   const Calibration& calibration = *recording_.calibration;
   std::vector<std::string> lines = recording_.facts;
   lines.push_back("sensor: depth camera, " +
-                  size_text(calibration.camera->width, calibration.camera->height) + " pixels, " +
-                  format_number(calibration.depth_scale) + " depth units per meter");
+                  size_text(calibration.camera->width, calibration.camera->height) + " pixels");
+  lines.push_back("depth scale: " + format_number(calibration.depth_scale) + " units per meter");
   return lines;
 }
 

@@ -1,16 +1,13 @@
 #include "mms/dataset/tum/tum_rgbd.hpp"
 
-#include <algorithm>
-#include <chrono>
-
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/assumed_stamp.hpp"
 #include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/first_image.hpp"
 #include "mms/dataset/source/folder_names.hpp"
-#include "mms/dataset/source/frame_association.hpp"
 #include "mms/dataset/source/image_list.hpp"
 #include "mms/dataset/source/rgbd_source.hpp"
+#include "mms/dataset/tum/matched_lists.hpp"
 #include "mms/dataset/tum/tum_calibration.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/files.hpp"
@@ -18,23 +15,6 @@
 namespace mms {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr Duration kMaxDifference = std::chrono::milliseconds(20);
-
-void add_frame(RgbdRecording& recording, const ListedImage& color, const ListedImage& depth) {
-  recording.frames.push_back({color.stamp,
-                              depth.stamp - color.stamp,
-                              color.path,
-                              depth.path,
-                              {},
-                              color.path.stem().string()});
-}
-
-std::vector<Timestamp> stamps_of(const std::vector<ListedImage>& images) {
-  std::vector<Timestamp> stamps;
-  for (const ListedImage& image : images) stamps.push_back(image.stamp);
-  return stamps;
-}
 
 /// Lists of the color images and of the depth images registered to them.
 struct ListNames {
@@ -47,20 +27,7 @@ constexpr ListNames kListNames[] = {{"rgb.txt", "depth.txt"},
 void match_lists(RgbdRecording& recording, const ListNames& names) {
   const auto color = read_image_list(recording.folder / names.color, recording.warnings);
   const auto depth = read_image_list(recording.folder / names.depth, recording.warnings);
-  for (const auto& [i, j] : associate(stamps_of(color), stamps_of(depth), kMaxDifference)) {
-    add_frame(recording, color[i], depth[j]);
-  }
-  const std::string counts =
-      std::to_string(color.size()) + " color and " + std::to_string(depth.size()) + " depth images";
-  if (recording.frames.empty()) {
-    throw DataError(
-        recording.folder.string(), "of " + counts + ", no two match within 0.02 s",
-        "the lists begin at " + color[0].stamp.to_string() + " and " + depth[0].stamp.to_string());
-  }
-  recording.facts.push_back("images: " + counts + ", " + std::to_string(recording.frames.size()) +
-                            " matched within 0.02 s, " +
-                            std::to_string(color.size() - recording.frames.size()) +
-                            " color images unmatched");
+  add_matched_frames(recording, color, depth);
 }
 
 void read_lists(RgbdRecording& recording) {
@@ -76,6 +43,7 @@ void read_lists(RgbdRecording& recording) {
     for (const ListedPair& pair : read_associations(associations, recording.warnings)) {
       add_frame(recording, pair.color, pair.depth);
     }
+    sort_by_stamp(recording);
     recording.facts.push_back("images: " + std::to_string(recording.frames.size()) +
                               " pairs in associations.txt");
   } else {
@@ -86,13 +54,6 @@ void read_lists(RgbdRecording& recording) {
                     "is a TUM-layout sequence, but " + missing + " missing",
                     "expected rgb.txt and depth.txt, or associations.txt");
   }
-}
-
-void sort_by_stamp(RgbdRecording& recording) {
-  const auto earlier = [](const RgbdFiles& a, const RgbdFiles& b) { return a.stamp < b.stamp; };
-  if (std::is_sorted(recording.frames.begin(), recording.frames.end(), earlier)) return;
-  std::stable_sort(recording.frames.begin(), recording.frames.end(), earlier);
-  recording.facts.emplace_back("stamps: not in order in the list, sorted");
 }
 
 /// The calibration of data sets in this layout.
@@ -156,7 +117,6 @@ std::unique_ptr<FrameSource> open_tum_rgbd(const fs::path& folder, const SourceO
   recording.folder = folder;
   recording.facts.emplace_back("layout: TUM RGB-D");
   read_lists(recording);
-  sort_by_stamp(recording);
   const std::optional<fs::path> icl_truth = find_icl_truth(folder);
   choose_calibration(recording, options.camera,
                      [&] { return known_calibration(recording, icl_truth); });

@@ -12,6 +12,7 @@
 #include "mms/io/config/calibration_ranges.hpp"
 #include "mms/io/config/camera_json.hpp"
 #include "mms/io/config/yaml_map.hpp"
+#include "mms/io/text/pose_text.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -147,6 +148,13 @@ CameraIntrinsics camera_of_lists(CameraMap& map) {
   return camera;
 }
 
+std::optional<Eigen::Isometry3d> pose_in_body(CameraMap& map) {
+  constexpr const char* kKey = "T_BS";
+  const auto node = map.find(std::array{kKey});
+  if (!node) return std::nullopt;
+  return isometry_from_rows(map.numbers(*node, kKey), kKey);
+}
+
 /// ORB-SLAM2 (prefix "Camera.") and ORB-SLAM3 ("Camera1.").
 CameraIntrinsics camera_of_orb_slam(CameraMap& map, const std::string& prefix) {
   constexpr Range kLens{-1e4, 1e4};
@@ -180,7 +188,7 @@ void check_ranges(const CameraIntrinsics& camera, const fs::path& path) {
 FormattedCalibration with_camera(const char* format, const CameraIntrinsics& camera,
                                  const fs::path& path) {
   check_ranges(camera, path);
-  FormattedCalibration result{{}, format, true};
+  FormattedCalibration result{{}, format, std::nullopt, true};
   result.calibration.camera = camera;
   return result;
 }
@@ -199,7 +207,8 @@ FormattedCalibration read_orb_slam(CameraMap& map, const std::string& prefix,
 }  // namespace
 
 FormattedCalibration read_any_calibration(const fs::path& path) {
-  if (path.extension() == ".json") return {read_camera_json(path), "Open3D or NICE-SLAM", false};
+  if (path.extension() == ".json")
+    return {read_camera_json(path), "Open3D or NICE-SLAM", std::nullopt, false};
   YamlMap file = YamlMap::load(path);
   CameraMap map(file, path.string());
   const auto has = [&](const char* key) { return file.find(key).has_value(); };
@@ -211,11 +220,15 @@ FormattedCalibration read_any_calibration(const fs::path& path) {
     CameraMap first(camera, path.string());
     return with_camera("Kalibr", camera_of_lists(first), path);
   }
-  if (has("intrinsics")) return with_camera("EuRoC", camera_of_lists(map), path);
+  if (has("intrinsics")) {
+    FormattedCalibration result = with_camera("EuRoC", camera_of_lists(map), path);
+    result.T_body_camera = pose_in_body(map);
+    return result;
+  }
   for (const char* key : {"camera_matrix", "Camera_Matrix", "cameraMatrix", "K"}) {
     if (has(key)) return with_camera("ROS or OpenCV", camera_of_matrix(map), path);
   }
-  return {read_calibration(path), "MMS-SLAM", false};
+  return {read_calibration(path), "MMS-SLAM", std::nullopt, false};
 }
 
 }  // namespace mms

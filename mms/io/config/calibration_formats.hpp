@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "mms/core/calibration.hpp"
@@ -9,8 +11,10 @@ namespace mms {
 
 /// A calibration, and how its file was read.
 struct FormattedCalibration {
-  Calibration calibration;           ///< with a camera, except for our own format
-  std::string format;                ///< "MMS-SLAM", "ROS or OpenCV", "Kalibr", ...
+  Calibration calibration;  ///< with a camera, except for our own format
+  std::string format;       ///< "MMS-SLAM", "ROS or OpenCV", "Kalibr", ...
+  /// Pose of the camera in the robot's body frame, as EuRoC's T_BS.
+  std::optional<Eigen::Isometry3d> T_body_camera = std::nullopt;
   bool assumed_depth_scale = false;  ///< the file has none; 1000 units per meter
 };
 

@@ -39,7 +39,36 @@ Calibration read_open3d(const JsonEntry& file) {
   return calibration;
 }
 
+/// A matrix as a list of rows.
+template <int kSide>
+Eigen::Matrix<double, kSide, kSide> matrix_of(const JsonEntry& entry) {
+  const auto rows = entry.elements();
+  if (rows.size() != kSide) entry.fail("has not " + std::to_string(kSide) + " rows");
+  Eigen::Matrix<double, kSide, kSide> matrix;
+  for (int y = 0; y < kSide; ++y) {
+    const auto numbers = rows[static_cast<std::size_t>(y)].elements();
+    if (numbers.size() != kSide) entry.fail("has not " + std::to_string(kSide) + " columns");
+    for (int x = 0; x < kSide; ++x) matrix(y, x) = numbers[static_cast<std::size_t>(x)].number();
+  }
+  return matrix;
+}
+
 }  // namespace
+
+std::map<std::string, PosedCamera> read_posed_cameras(const std::filesystem::path& path) {
+  const nlohmann::json json = parse_json(path);
+  const JsonEntry file(json, path.string());
+  if (!file.is_object()) file.fail("is no object with frames");
+  std::map<std::string, PosedCamera> cameras;
+  for (const auto& [name, unused] : json.items()) {
+    const JsonEntry frame = file.at(name);
+    const char* pose = frame.has("aligned_pose") ? "aligned_pose" : "pose";
+    PosedCamera& camera = cameras[name];
+    camera.matrix = matrix_of<3>(frame.at("intrinsic"));
+    camera.T_world_camera = Eigen::Isometry3d(matrix_of<4>(frame.at(pose)));
+  }
+  return cameras;
+}
 
 Calibration read_camera_json(const std::filesystem::path& path) {
   const nlohmann::json json = parse_json(path);

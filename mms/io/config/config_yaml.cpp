@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 #include "mms/io/config/yaml_map.hpp"
@@ -179,6 +180,26 @@ std::string dump_config_fields(const std::function<void(ConfigVisitor&)>& visit)
   ConfigWriter writer;
   visit(writer);
   return writer.text();
+}
+
+std::vector<std::string> changed_settings(const std::string& yaml, const std::string& defaults) {
+  std::istringstream lines(yaml);
+  std::istringstream other_lines(defaults);
+  std::vector<std::string> changed;
+  std::vector<std::string> groups;
+  for (std::string line, other; std::getline(lines, line) && std::getline(other_lines, other);) {
+    const std::size_t indent = line.find_first_not_of(' ');
+    const std::size_t colon = line.find(':');
+    if (indent == std::string::npos || line[indent] == '#' || colon == std::string::npos) continue;
+    groups.resize(indent / 2);
+    if (line != other) {
+      std::string path;
+      for (const std::string& group : groups) path += group + ".";
+      changed.push_back(path + line.substr(indent, line.find("  #") - indent));
+    }
+    groups.push_back(line.substr(indent, colon - indent));
+  }
+  return changed;
 }
 
 }  // namespace mms

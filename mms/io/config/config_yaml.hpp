@@ -32,6 +32,10 @@ std::vector<std::string> load_config(const std::filesystem::path& path, Config& 
   return warnings;
 }
 
+/// Settings of `yaml` that differ from those of `defaults`, as "group.key: value"; both are texts
+/// of `dump_config_fields` of the same struct.
+std::vector<std::string> changed_settings(const std::string& yaml, const std::string& defaults);
+
 /// YAML of a config struct with descriptions; `load_config` reads the same values back.
 template <class Config>
 std::string dump_config(Config config) {

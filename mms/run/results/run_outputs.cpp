@@ -86,7 +86,8 @@ void write_pictures(const std::filesystem::path& folder, const RunReport& report
 }  // namespace
 
 void write_outputs(const std::filesystem::path& folder, const std::string& data,
-                   const SystemConfig& config, const SlamSystem& system, const RunLog& log) {
+                   const SystemConfig& config, const SlamSystem& system, const RunLog& log,
+                   const std::vector<std::string>& warnings) {
   const MapCloud map = system.static_map().cloud();
   write_result_files(folder, log.trajectory(), log.keyframes(), map);
   write_robot_maps(folder, system.occupancy_map(), map, log.has_image());
@@ -96,8 +97,10 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
   write_file(folder / "config.yaml", dump_config(config));
   write_metrics(folder / "metrics.json", log.metrics());
   write_file(folder / "timing.csv", timing_csv(log));
-  const RunReport report =
-      make_report(data, map, with_objects, system.static_map().voxel_size(), log);
+  RunReport report = make_report(data, map, with_objects, system.static_map().voxel_size(), log);
+  report.version = MMS_VERSION;
+  report.settings = changed_settings(dump_config(config), dump_config(SystemConfig{}));
+  report.warnings = warnings;
   write_report_html(folder / "report.html", report);
   write_pictures(folder / "pictures", report);
 }
