@@ -166,7 +166,7 @@ std::optional<std::string> DepthAlignment::fault() const {
   if (edges_ < kMinEdges) return std::nullopt;
   struct Turn {
     Warp warp;
-    const char* name;
+    const char* name = "";
   };
   const Turn turns[] = {{{-1.0F, 1.0F}, "mirrored left to right"},
                         {{1.0F, -1.0F}, "mirrored top to bottom"},
@@ -180,7 +180,7 @@ std::optional<std::string> DepthAlignment::fault() const {
     best_score = found;
     best = &turn;
   }
-  const std::optional<std::string> warped = unregistered(as_is);
+  std::optional<std::string> warped = unregistered(as_is);
   if (best == nullptr) return warped;
   return best->name;
 }
