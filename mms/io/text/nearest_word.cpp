@@ -45,7 +45,16 @@ std::optional<std::string> nearest_word(std::string_view word, std::span<const s
 std::string suggestion(std::string_view word, std::span<const std::string> known) {
   if (known.empty()) return "";
   const auto nearest = nearest_word(word, known);
-  return nearest ? "did you mean '" + *nearest + "'?" : "known: " + joined(known);
+  if (nearest) return "did you mean '" + *nearest + "'?";
+  constexpr std::size_t kMaxListed = 40;
+  constexpr std::size_t kNearest = 3;
+  if (known.size() <= kMaxListed) return "known: " + joined(known);
+  std::vector<std::string> sorted(known.begin(), known.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const std::string& a, const std::string& b) {
+    return edit_distance(word, a) < edit_distance(word, b);
+  });
+  return "the nearest of " + std::to_string(known.size()) + ": " +
+         joined(std::span(sorted).first(kNearest));
 }
 
 }  // namespace mms

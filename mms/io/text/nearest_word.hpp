@@ -14,7 +14,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> known);
 
 /// Hint for an unknown `word`: "did you mean 'x'?" if one of `known` is close, else the list of
-/// all.
+/// all, of more than 40 the nearest three.
 std::string suggestion(std::string_view word, std::span<const std::string> known);
 
 }  // namespace mms
