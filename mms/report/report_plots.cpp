@@ -126,7 +126,7 @@ Values accumulated(const RunReport& report, std::size_t end) {
 
 }  // namespace
 
-/// [m]: a sensor that stands still looks so, where the errors of its poses are millimeters.
+/// [m]: so that a sensor at rest is a dot, though the errors of its poses are millimeters.
 constexpr double kMinExtent = 0.2;
 
 std::string trajectory_plot(const RunReport& report) {
