@@ -2,9 +2,11 @@
 
 #include "apps/mms/commands/commands.hpp"
 #include "apps/mms/console/run_app.hpp"
+#include "apps/mms/console/standard_streams.hpp"
 #include "apps/mms/console/waiting_threads.hpp"
 
 int main(int argc, char** argv) {
+  mms::open_missing_streams();
   mms::let_waiting_threads_sleep(argv);
   CLI::App app(
       "MMS-SLAM: localizes a camera or LiDAR among moving people and vehicles and maps the static "

@@ -145,7 +145,7 @@ def no_list_of_depth_images(folder):
     (folder / "data/depth.txt").unlink()
 
 
-@case(1, "none of its", "could be processed")
+@case(1, "3 more like: frame", "none of its", "could be processed")
 def all_depth_images_missing(folder):
     shutil.rmtree(folder / "data/depth")
 

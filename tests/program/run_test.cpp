@@ -27,7 +27,7 @@ constexpr int kFrames = 6;
 /// A run that is interrupted after `change` was called, which is when its output folder is in use.
 Outcome run_interrupted_after(const TempFolder& folder, const std::function<void()>& change) {
   RunningMms run(folder.path(), {"run", "sim:still_walker", "--segmenter", "none", "-o", "out"});
-  while (!fs::exists(folder.path() / "out/journal.bin")) {
+  for (int i = 0; i < 3000 && !fs::exists(folder.path() / "out/journal.bin"); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   change();

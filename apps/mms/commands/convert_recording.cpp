@@ -52,6 +52,9 @@ void convert_recording(const RecordingConversion& conversion) {
   recorder->finish(source->ground_truth());
   fmt::print("{}: {} frames, {} ground-truth poses\nplay it: mms run {}\n", output.string(), done,
              source->ground_truth().size(), output.string());
+  if (InterruptGuard::requested()) {
+    throw Interrupted(fmt::format("{} of {} frames are converted", done, source->size()));
+  }
 }
 
 }  // namespace mms

@@ -9,6 +9,7 @@
 
 #include "apps/mms/commands/topic_options.hpp"
 #include "apps/mms/console/common_options.hpp"
+#include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/progress.hpp"
 #include "apps/mms/console/viewing.hpp"
 #include "mms/core/error.hpp"
@@ -61,6 +62,7 @@ void play(SlamRun& run, const std::filesystem::path& folder, bool quiet) {
 void run(const RunOptions& options, const ConsoleOptions& console) {
   SlamRun run(options);
   if (run.view() != nullptr) announce(run.view()->server(), *options.view);
+  const InterruptGuard interrupt;  // also while the results are written
   const ResultFolder folder(options.output, options.data, options.overwrite);
   play(run, folder.path(), console.quiet);
   run.write(folder.path());

@@ -100,6 +100,9 @@ void simulate(const SimulateOptions& options) {
   const WrittenRecording written = write_simulation(scene, options.output, write);
   progress.finish();
   print_summary(options.output, scene, written, progress.seconds());
+  if (InterruptGuard::requested()) {
+    throw Interrupted(fmt::format("{} of {} frames are written", written.frames, scene.size()));
+  }
 }
 
 /// "a, b, c", for the help.

@@ -43,7 +43,7 @@ void write_set(const TrainingSetArguments& arguments) {
       "marked as crowd\n",
       arguments.output.string(), written.images, written.fresh, written.annotations, written.crowd);
   if (written.images < arguments.images) {
-    fmt::print("interrupted; the same command continues with image {}\n", written.images);
+    throw Interrupted(fmt::format("the same command continues with image {}", written.images));
   }
 }
 

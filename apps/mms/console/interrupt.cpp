@@ -1,32 +1,35 @@
 #include "apps/mms/console/interrupt.hpp"
 
-#include <csignal>
-
 namespace mms {
 namespace {
 
 volatile std::sig_atomic_t requested_flag = 0;
-
-void handle_both(void (*handler)(int)) {
-  std::signal(SIGINT, handler);
-  std::signal(SIGTERM, handler);
-}
+int guards = 0;  // only changed by the main thread
 
 /// A second signal ends the program.
 void on_signal(int) {
   requested_flag = 1;
-  handle_both(SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction now {};
+    sigaction(signal, nullptr, &now);
+    if (now.sa_handler == on_signal) std::signal(signal, SIG_DFL);
+  }
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
-  requested_flag = 0;
-  handle_both(on_signal);
+  if (guards++ == 0) requested_flag = 0;
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN && !requested()) std::signal(kSignals[i], on_signal);
+  }
 }
 
 InterruptGuard::~InterruptGuard() {
-  handle_both(SIG_DFL);
+  --guards;
+  if (requested()) return;  // the second signal ends the program
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
 }
 
 bool InterruptGuard::requested() {

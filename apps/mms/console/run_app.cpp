@@ -3,10 +3,14 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
 
+#include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/standard_streams.hpp"
 #include "apps/mms/console/usage.hpp"
 #include "mms/core/error.hpp"
 
@@ -15,6 +19,7 @@ namespace {
 
 constexpr int kFault = 1;
 constexpr int kUsage = 2;
+constexpr int kInterrupted = 130;
 
 int fail(const std::string& what, int exit_code = kFault) {
   fmt::print(stderr, "mms: {}\n", what);
@@ -28,7 +33,10 @@ int run_app(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool asked = error.get_exit_code() == 0;  // --help or --version
-    return asked ? app.exit(error) : fail(usage_fault(app, error), kUsage);
+    if (!asked) return fail(usage_fault(app, error), kUsage);
+    app.exit(error);
+  } catch (const Interrupted& error) {
+    return fail(error.what(), kInterrupted);
   } catch (const Error& error) {
     return fail(error.what());
   } catch (const std::bad_alloc&) {
@@ -36,7 +44,8 @@ int run_app(CLI::App& app, int argc, char** argv) {
   } catch (const std::exception& error) {
     return fail(error.what());
   }
-  return 0;
+  if (flush_output()) return 0;
+  return fail(std::string("standard output cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace mms

@@ -167,6 +167,9 @@ void segment(const SegmentArguments& arguments) {
   fmt::print("{}: {} images, {} objects with score {} or more, {}, {:.0f} MB\n",
              arguments.output.string(), outputs.pictures(), outputs.objects(), config.objects.score,
              times.text(), peak_memory_mb());
+  if (InterruptGuard::requested()) {
+    throw Interrupted(fmt::format("{} of {} images are segmented", outputs.pictures(), total));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,93 @@
+// Closed and full standard streams, and interrupted commands.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include "mms/io/text/files.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/recordings.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;  // NOLINT: helpers of the tests
+
+/// Exit status of the program by a shell, with redirections.
+int status_of(const TempFolder& folder, const std::string& line) {
+  const std::string command = "cd '" + folder.path().string() + "' && '" MMS_PROGRAM "' " + line;
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+TEST(Streams, LostOutputIsFault) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+  const TempFolder folder;
+  EXPECT_EQ(status_of(folder, "config dump > /dev/full 2> err"), 1);
+  EXPECT_EQ(status_of(folder, "--help > /dev/full 2> err"), 1);
+  expect_in("mms: ", read_file(folder.path() / "err"));
+  EXPECT_EQ(status_of(folder, "config dump >&- 2> err"), 1);
+  EXPECT_EQ(status_of(folder, "config dump > out 2> err"), 0);
+}
+
+TEST(Streams, ClosedErrorStreamDoesNotSpoilFiles) {
+  const TempFolder folder;
+  const std::string run = "run 'sim:still_walker?frames=3' --segmenter none";
+  EXPECT_EQ(status_of(folder, run + " -o a > out 2> err"), 0);
+  EXPECT_EQ(status_of(folder, run + " -o b > out 2>&-"), 0);
+  EXPECT_EQ(status_of(folder, run + " -o c > out 2>&- <&-"), 0);
+  for (const char* file : {"trajectory.tum", "static_map.ply", "objects.json"}) {
+    EXPECT_EQ(read_file(folder.path() / "b" / file), read_file(folder.path() / "a" / file)) << file;
+    EXPECT_EQ(read_file(folder.path() / "c" / file), read_file(folder.path() / "a" / file)) << file;
+  }
+  EXPECT_EQ(status_of(folder, "run no_such_recording 2>&-"), 1);
+}
+
+/// Waits for a file, at most a minute.
+bool appears(const fs::path& file) {
+  for (int i = 0; i < 6000 && !fs::exists(file); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return fs::exists(file);
+}
+
+/// Outcome of a command that gets a signal after a file appeared.
+Outcome interrupted(const TempFolder& folder, const std::vector<std::string>& arguments,
+                    const std::string& file) {
+  RunningMms program(folder.path(), arguments);
+  EXPECT_TRUE(appears(folder.path() / file));
+  program.send(SIGINT);
+  return program.wait();
+}
+
+TEST(Signals, InterruptedCommandsSaySo) {
+  const TempFolder folder;
+  const Outcome simulate =
+      interrupted(folder, {"simulate", "still_walker", "-o", "data"}, "data/depth/0.200000000.png");
+  EXPECT_EQ(simulate.exit_code, 130);
+  expect_in("of 300 frames are written", simulate.err);
+  const Outcome segment =
+      interrupted(folder, {"segment", "sim:still_walker", "-o", "found"}, "found/overlays");
+  EXPECT_EQ(segment.exit_code, 130) << segment.err;
+}
+
+TEST(Signals, IgnoredSignalStaysIgnored) {
+  const TempFolder folder;
+  struct sigaction before {};
+  sigaction(SIGHUP, nullptr, &before);
+  std::signal(SIGHUP, SIG_IGN);  // inherited by the program, as from nohup
+  RunningMms run(folder.path(),
+                 {"run", "sim:still_walker?frames=12", "--segmenter", "none", "-o", "out"});
+  sigaction(SIGHUP, &before, nullptr);
+  ASSERT_TRUE(appears(folder.path() / "out/journal.bin"));
+  run.send(SIGHUP);
+  expect_success(run.wait());
+  EXPECT_EQ(json_file(folder.path() / "out/metrics.json")["frames"], 12);
+}
+
+}  // namespace
+}  // namespace mms
