@@ -19,8 +19,8 @@ Calibration read_camera_json(const std::filesystem::path& path);
 
 /// A camera with its pose.
 struct PosedCamera {
-  Eigen::Matrix3d matrix;  ///< [px]
-  Eigen::Isometry3d T_world_camera;
+  Eigen::Matrix3d matrix;            ///< [px]
+  Eigen::Isometry3d T_world_camera;  ///< translation in the unit of the file [m]
 };
 
 /// Reads ScanNet++'s pose_intrinsic_imu.json: an object with an entry for each frame, as
