@@ -57,10 +57,15 @@ build() {
   NINJA_STATUS='[%p, %f of %t, %e s] ' cmake --build --preset "$1" --parallel "$(nproc)"
 }
 
-# cpp_files: all C++ files of the repository but those that git ignores, each ending with a zero byte.
+# cpp_files: all C++ files of the repository but those that git ignores, or of its source folders if
+# it was downloaded without git; each ending with a zero byte.
 cpp_files() {
   local file
-  git -c safe.directory='*' ls-files -z --cached --others --exclude-standard '*.cpp' '*.hpp' |
+  {
+    git -c safe.directory='*' ls-files -z --cached --others --exclude-standard '*.cpp' '*.hpp' \
+      2> /dev/null ||
+      find apps benchmarks examples interfaces mms tests -name '*.[ch]pp' -print0
+  } |
     while IFS= read -r -d '' file; do
       [ ! -e "$file" ] || printf '%s\0' "$file"
     done

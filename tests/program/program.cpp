@@ -69,6 +69,8 @@ RunningMms::RunningMms(const fs::path& folder, const std::vector<std::string>& a
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  // A reader must not see the output of an earlier run, nor its truncation.
+  for (const char* stream : {".stdout", ".stderr"}) fs::remove(folder / stream);
   child_ = fork();
   if (child_ == 0) execute_program(folder, pointers, folder / ".stdout", folder / ".stderr");
 }
