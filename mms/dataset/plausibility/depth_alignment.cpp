@@ -25,6 +25,9 @@ constexpr double kMirrorGain = 0.04;
 constexpr double kWarpGain = 0.04;
 /// [-]: score that shows any alignment. Right depth: at least 0.81; edges anywhere: 0.65 to 0.74.
 constexpr double kMinScore = 0.76;
+/// [px]: least shift at the same scale. Depth measured 20 ms later than color moves by up to 8 px
+/// in `fr1_xyz_clip`; cameras side by side differ by more, or in scale.
+constexpr float kMinShift = 12.0F;
 
 /// Half the resolution, gray.
 Image<float> half_gray(const Image<Rgb>& color) {
@@ -155,6 +158,9 @@ std::optional<std::string> DepthAlignment::unregistered(double score_as_is) cons
     }
   }
   if (best_score < std::max(kMinScore, score_as_is + kWarpGain)) return std::nullopt;
+  if (best.scale_x == 1.0F && 2.0F * std::hypot(best.shift_x, best.shift_y) < kMinShift) {
+    return std::nullopt;
+  }
   const int percent = static_cast<int>(std::lround(100.0F * best.scale_x));
   return "not registered: its edges fit the color images best if scaled to " +
          std::to_string(percent) + " % and moved by " +
