@@ -374,13 +374,13 @@ def an_output_that_is_a_file(folder):
     (folder / "out").write_text("mine")
 
 
-@case(1, "does not write, as mine.txt", args=RUN)
+@case(1, "did not write, as mine.txt", args=RUN)
 def an_output_with_other_files(folder):
     (folder / "out").mkdir()
     (folder / "out/mine.txt").write_text("mine")
 
 
-@case(1, "does not write", args=["run", "data", "--segmenter", "none", "-o", "data", "--overwrite"])
+@case(1, "did not write", args=["run", "data", "--segmenter", "none", "-o", "data", "--overwrite"])
 def an_output_into_the_recording(folder):
     pass
 
@@ -388,7 +388,7 @@ def an_output_into_the_recording(folder):
 @case(1, "has earlier results", "--overwrite", args=RUN)
 def an_output_with_earlier_results(folder):
     (folder / "out").mkdir()
-    (folder / "out/trajectory.tum").write_text("0 0 0 0 0 0 0 1\n")
+    (folder / "out/metrics.json").write_text("{}\n")
 
 
 @case(1, "did not end", "mms convert", args=RUN)

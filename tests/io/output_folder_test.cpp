@@ -16,49 +16,61 @@ using testing::expect_in;
 using testing::message_of;
 using testing::TempFolder;
 
-constexpr std::array<std::string_view, 2> kOwn = {"map.ply", "pictures"};
+constexpr std::array<std::string_view, 3> kOwn = {"map.ply", "pictures", "run.json"};
+constexpr std::array<std::string_view, 1> kMarks = {"run.json"};
 
 TEST(OutputFolder, IsMadeOrTakenIfEmpty) {
   const TempFolder folder;
-  EXPECT_TRUE(take_output_folder(folder.path() / "a/b", kOwn, false));
+  EXPECT_TRUE(take_output_folder(folder.path() / "a/b", kOwn, kMarks, false));
   EXPECT_TRUE(fs::is_directory(folder.path() / "a/b"));
-  EXPECT_FALSE(take_output_folder(folder.path() / "a/b", kOwn, false));
+  EXPECT_FALSE(take_output_folder(folder.path() / "a/b", kOwn, kMarks, false));
 }
 
 TEST(OutputFolder, KeepsEarlierOutputsUnlessAsked) {
   const TempFolder folder;
   folder.write("map.ply", "old");
+  folder.write("run.json", "{}");
   folder.write("pictures/1.png", "old");
   expect_in("has earlier results, as map.ply (replace them with --overwrite",
-            message_of<FileError>([&] { take_output_folder(folder.path(), kOwn, false); }));
+            message_of<FileError>([&] { take_output_folder(folder.path(), kOwn, kMarks, false); }));
   EXPECT_EQ(read_file(folder.path() / "map.ply"), "old");
-  EXPECT_FALSE(take_output_folder(folder.path(), kOwn, true));
+  EXPECT_FALSE(take_output_folder(folder.path(), kOwn, kMarks, true));
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(OutputFolder, NeverTouchesOtherFiles) {
   const TempFolder folder;
   folder.write("map.ply", "old");
+  folder.write("run.json", "{}");
   folder.write("mine.txt", "mine");
-  expect_in("has a file that this command does not write, as mine.txt",
-            message_of<FileError>([&] { take_output_folder(folder.path(), kOwn, true); }));
+  expect_in("has a file that this command did not write, as mine.txt",
+            message_of<FileError>([&] { take_output_folder(folder.path(), kOwn, kMarks, true); }));
   folder.write("a.txt", "mine");
-  expect_in("has 2 files that this command does not write, as a.txt",
-            message_of<FileError>([&] { take_output_folder(folder.path(), kOwn, true); }));
+  expect_in("has 2 files that this command did not write, as a.txt",
+            message_of<FileError>([&] { take_output_folder(folder.path(), kOwn, kMarks, true); }));
   EXPECT_EQ(read_file(folder.path() / "map.ply"), "old");
+}
+
+/// A folder of pictures, without a file that only this program writes, is somebody else's.
+TEST(OutputFolder, NeverTouchesFilesThatOnlyHaveTheSameName) {
+  const TempFolder folder;
+  folder.write("pictures/holiday.jpg", "mine");
+  expect_in("has a file that this command did not write, as pictures",
+            message_of<FileError>([&] { take_output_folder(folder.path(), kOwn, kMarks, true); }));
+  EXPECT_EQ(read_file(folder.path() / "pictures/holiday.jpg"), "mine");
 }
 
 TEST(OutputFolder, LeavesDevicesAlone) {
   const TempFolder folder;
   fs::create_symlink("/dev/null", folder.path() / "map.ply");
-  EXPECT_FALSE(take_output_folder(folder.path(), kOwn, true));
+  EXPECT_FALSE(take_output_folder(folder.path(), kOwn, kMarks, true));
   EXPECT_TRUE(fs::is_symlink(folder.path() / "map.ply"));
 }
 
 TEST(OutputFolder, RejectsFile) {
   const TempFolder folder;
   folder.write("out", "a file");
-  EXPECT_THROW(take_output_folder(folder.path() / "out", kOwn, true), FileError);
+  EXPECT_THROW(take_output_folder(folder.path() / "out", kOwn, kMarks, true), FileError);
 }
 
 }  // namespace

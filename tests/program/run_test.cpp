@@ -129,7 +129,7 @@ TEST(Run, RefusesFolderWithOtherFilesOrResults) {
   expect_success(run_mms(folder.path(), overwrite));
   folder.write("out/notes.txt", "mine");
   expect_error(run_mms(folder.path(), overwrite),
-               "out: has a file that this command does not write, as notes.txt");
+               "out: has a file that this command did not write, as notes.txt");
   EXPECT_EQ(read_file(folder.path() / "out/notes.txt"), "mine");
   EXPECT_TRUE(fs::exists(folder.path() / "out/trajectory.tum"));
 }
@@ -139,7 +139,7 @@ TEST(Run, NeverWritesIntoRecording) {
   write_scene(folder.path() / "data", small_scene(2));
   expect_error(
       run_mms(folder.path(), {"run", "data", "--segmenter", "none", "-o", "data", "--overwrite"}),
-      "files that this command does not write");
+      "files that this command did not write");
   EXPECT_TRUE(fs::exists(folder.path() / "data/rgb.txt"));
 }
 

@@ -21,18 +21,23 @@ bool is_special(const fs::path& path) {
 }  // namespace
 
 bool take_output_folder(const fs::path& folder, std::span<const std::string_view> own,
-                        bool overwrite) {
+                        std::span<const std::string_view> marks, bool overwrite) {
   const bool made = make_folder(folder);
   std::vector<std::string> names = list_folder(folder);
   std::erase_if(names, [&](const std::string& name) { return is_special(folder / name); });
-  const auto others = std::stable_partition(names.begin(), names.end(), [&](const std::string& n) {
-    return std::find(own.begin(), own.end(), n) != own.end();
-  });
+  const auto is_in = [](std::span<const std::string_view> list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  const bool marked = std::any_of(names.begin(), names.end(),
+                                  [&](const std::string& name) { return is_in(marks, name); });
+  const auto others =
+      std::stable_partition(names.begin(), names.end(),
+                            [&](const std::string& name) { return marked && is_in(own, name); });
   if (others != names.end()) {
     const auto count = names.end() - others;
     throw FileError(folder.string(),
                     "has " + (count == 1 ? "a file" : std::to_string(count) + " files") +
-                        " that this command does not write, as " + *others,
+                        " that this command did not write, as " + *others,
                     "choose a new folder with -o");
   }
   if (!names.empty() && !overwrite) {

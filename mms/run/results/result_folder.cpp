@@ -65,6 +65,10 @@ constexpr std::string_view kResults[] = {"config.yaml",
                                          "loop_none",
                                          "loop_multimodal"};
 
+/// Those that no other program writes.
+constexpr std::string_view kMarks[] = {"metrics.json", "run.json", "journal.bin",
+                                       "reproduction.json"};
+
 /// @throws FileError if the folder has the journal of a run that did not end.
 void check_no_journal(const fs::path& folder) {
   if (!fs::is_regular_file(folder / "journal.bin") || fs::exists(folder / "metrics.json")) return;
@@ -99,7 +103,7 @@ ResultFolder::ResultFolder(const fs::path& output, const std::string& data, bool
   lock_ = lock(path_);
   try {
     if (!overwrite) check_no_journal(path_);
-    take_output_folder(path_, kResults, overwrite);
+    take_output_folder(path_, kResults, kMarks, overwrite);
   } catch (...) {
     close(lock_);
     throw;

@@ -49,6 +49,7 @@ struct SegmentArguments {
 };
 
 constexpr std::string_view kOutputs[] = {"masks", "overlays", "results.json", "images.json"};
+constexpr std::string_view kMarks[] = {"results.json", "images.json"};
 
 SegmentationConfig settings_of(const SegmentArguments& arguments) {
   SystemConfig config;
@@ -68,7 +69,7 @@ class SegmentOutputs {
         classes_(std::move(classes)),
         least_score_(least_score),
         json_only_(json_only) {
-    take_output_folder(folder_, kOutputs, overwrite);
+    take_output_folder(folder_, kOutputs, kMarks, overwrite);
     results_.emplace(folder_ / "results.json");
     if (!json_only_) make_folder(folder_ / "masks");
     if (!json_only_) make_folder(folder_ / "overlays");
