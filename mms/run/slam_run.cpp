@@ -211,7 +211,11 @@ void SlamRun::compare_with_truth(RunObserver& observer) {
 }
 
 void SlamRun::write(const std::filesystem::path& folder) {
-  write_outputs(folder, options_.data, config_, system_, *log_, warnings_);
+  const std::vector<std::string> warnings = [this] {
+    const std::scoped_lock lock(warnings_mutex_);  // the journal may add one
+    return warnings_;
+  }();
+  write_outputs(folder, options_.data, config_, system_, *log_, warnings);
   const auto calibration = source_->calibration();
   write_run_record(folder,
                    record_of(options_, calibration ? calibration->camera : std::nullopt,

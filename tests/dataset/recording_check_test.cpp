@@ -183,6 +183,20 @@ TEST(RecordingCheck, NoticesEmptyAndConstantDepthAndDarkImages) {
             std::string::npos);
 }
 
+TEST(RecordingCheck, TakesNanAndInfinityForNoReturn) {
+  const Frames frames = frames_of("sim:crowd?seed=5&hz=1&frames=8");
+  EXPECT_EQ(faults_of(frames,
+                      [](Frame& f) {
+                        bool nan = false;
+                        for (float& depth : f.depth.pixels()) {
+                          if (depth > 0.0F) continue;
+                          depth = nan ? std::nanf("") : INFINITY;
+                          nan = !nan;
+                        }
+                      }),
+            "");
+}
+
 TEST(RecordingCheck, AcceptsCamerasOfDataSets) {
   for (const CameraIntrinsics& camera :
        {CameraIntrinsics{517.3, 516.5, 318.6, 255.3, 640, 480, {}},

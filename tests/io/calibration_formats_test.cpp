@@ -138,7 +138,7 @@ TEST(CalibrationFormats, NamesWhatItCannotUse) {
   expect_in("cam0.intrinsics is not fu, fv, pu, pv", fault_of(", 240.75]", "]"));
   expect_in("cam0.resolution is not width, height in pixels", fault_of("[640", "[0"));
   expect_in("key 'resolution' is missing", fault_of("resolution", "size"));
-  expect_in("fx is -610.500000, allowed: 0.001 to 100000", fault_of("[610.5", "[-610.5"));
+  expect_in("fx is -610.5, allowed: 0.001 to 100000", fault_of("[610.5", "[-610.5"));
   expect_in("has more than the five coefficients",
             fault_of("[0.1, 0.2, 0.0, 0.0]", "[0.1, 0, 0, 0, 0, 0.5]"));
   expect_in("'x', expected a number", fault_of("[610.5", "[x"));

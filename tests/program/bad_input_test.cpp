@@ -119,6 +119,25 @@ TEST(BadInput, SurvivesFiftyFramesWithoutDepth) {
   }
 }
 
+TEST(BadInput, EndsRunWhoseFramesAreLost) {
+  const TempFolder folder;
+  write_scene(folder.path() / "data", small_scene(1));
+  write_png(folder.path() / "data/depth/empty.png", Image<std::uint16_t>(320, 240, 0));
+  std::string color;
+  std::string depth;
+  for (int i = 0; i < 200; ++i) {
+    const std::string stamp = std::to_string(100 + i / 10) + "." + std::to_string(i % 10) + " ";
+    color += stamp + "rgb/" + frame_name(0) + ".png\n";
+    depth += stamp + (i == 0 ? "depth/" + frame_name(0) : "depth/empty") + ".png\n";
+  }
+  folder.write("data/rgb.txt", color);
+  folder.write("data/depth.txt", depth);
+  const Outcome outcome = run_data(folder);
+  EXPECT_EQ(outcome.exit_code, 1);
+  expect_in("frames were lost, so the run ended there", outcome.err);
+  EXPECT_LT(json_file(folder.path() / "out/metrics.json")["frames"], 150);
+}
+
 TEST(BadInput, SurvivesRecordingWithoutDepth) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(3));

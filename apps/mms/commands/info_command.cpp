@@ -68,7 +68,8 @@ void print_plausibility(const InfoOptions& options, std::size_t size) {
   }
   const std::vector<std::string> faults = check.faults();
   for (const std::string& fault : faults) fmt::print("implausible: {}\n", fault);
-  if (faults.empty()) fmt::print("plausible: {} frames checked\n", check.frames());
+  if (faults.empty() && check.frames() > 0)
+    fmt::print("plausible: {} frames checked\n", check.frames());
 }
 
 /// Prints architecture and cost of a weights file.

@@ -58,7 +58,9 @@ std::optional<Calibration> read_pincam(RgbdRecording& recording) {
     const std::string where = file.string();
     if (table.lines().empty()) throw DataError(where, "is empty");
     const std::vector<double> n = parse_finite(table.lines()[0].fields, where);
-    if (n.size() != 6) throw DataError(where, "is not width height fx fy cx cy");
+    const auto is_side = [](double side) { return side >= 1.0 && side <= kMaxImageSide; };
+    if (n.size() != 6 || !is_side(n[0]) || !is_side(n[1]))
+      throw DataError(where, "is not width height fx fy cx cy");
     recording.facts.push_back("calibration: " + file.filename().string());
     Calibration calibration;
     calibration.camera = CameraIntrinsics{

@@ -92,13 +92,14 @@ void DepthAlignment::add(const Image<Rgb>& color, const Image<float>& depth) {
   if (color.width() != depth.width() || color.height() != depth.height()) return;
   Frame frame{maximum_of_3x3(ranks_of(gradient_of(half_gray(color)))), {}};
   const auto at = [&](int x, int y) { return depth(2 * x, 2 * y); };
+  const auto is_valid = [](float d) { return std::isfinite(d) && d > 0.0F; };
   // The step from x, y to its neighbor in direction dx, dy.
   const auto add_edge = [&](int x, int y, int dx, int dy) {
     const float before = at(x - dx, y - dy);
     const float a = at(x, y);
     const float b = at(x + dx, y + dy);
     const float after = at(x + 2 * dx, y + 2 * dy);
-    if (std::min({before, a, b, after}) <= 0.0F) return;
+    if (!is_valid(before) || !is_valid(a) || !is_valid(b) || !is_valid(after)) return;
     const float step = std::abs(a - b);
     const float bend = std::max(std::abs(before - a), std::abs(b - after));
     if (step <= kJump * std::min(a, b) || step <= kStep * bend) return;

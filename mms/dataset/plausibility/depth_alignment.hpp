@@ -15,7 +15,7 @@ namespace mms {
 class DepthAlignment {
  public:
   /// Adds a frame; does nothing if the sizes of the images differ.
-  /// @param depth  [m]; 0: no return
+  /// @param depth  [m]; 0, NaN and infinity: no return
   void add(const Image<Rgb>& color, const Image<float>& depth);
 
   /// What is wrong, in one phrase such as "mirrored left to right"; nullopt if nothing is, or if

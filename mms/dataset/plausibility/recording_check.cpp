@@ -41,8 +41,9 @@ double percentile_of(std::vector<float> values, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-std::string rounded(double value, double step) {
-  return format_number(step * std::round(value / step));
+std::string rounded(double value, int decimals) {
+  const double power = std::pow(10.0, decimals);
+  return format_number(std::round(value * power) / power);
 }
 
 double mean_brightness(const Image<Rgb>& color) {
@@ -64,20 +65,20 @@ std::vector<std::string> camera_faults(const CameraIntrinsics& camera) {
       offset > kMaxOffsetIfSwapped && 2.0 * offset_of(camera.cy, camera.cx) < offset;
   const std::string size = std::to_string(camera.width) + "x" + std::to_string(camera.height);
   if (offset > kMaxOffset || swapped) {
-    faults.push_back("cx, cy = " + rounded(camera.cx, 0.1) + ", " + rounded(camera.cy, 0.1) +
+    faults.push_back("cx, cy = " + rounded(camera.cx, 1) + ", " + rounded(camera.cy, 1) +
                      " is far from the center of images of " + size +
                      ": are the intrinsics swapped, or for another resolution?");
   }
   const double aspect = std::max(camera.fx / camera.fy, camera.fy / camera.fx);
   if (aspect > kMaxAspect) {
-    faults.push_back("fx, fy = " + rounded(camera.fx, 0.1) + ", " + rounded(camera.fy, 0.1) +
-                     " differ by " + rounded(100.0 * (aspect - 1.0), 1.0) +
+    faults.push_back("fx, fy = " + rounded(camera.fx, 1) + ", " + rounded(camera.fy, 1) +
+                     " differ by " + rounded(100.0 * (aspect - 1.0), 0) +
                      " %: pixels of cameras are square; are the intrinsics swapped?");
   }
   const double view = 2.0 * std::atan(0.5 * camera.width / camera.fx) * 180.0 / std::numbers::pi;
   if (view < kMinView || view > kMaxView) {
-    faults.push_back("fx = " + rounded(camera.fx, 0.1) + " px means a field of view of " +
-                     rounded(view, 1.0) + " degrees for images of " + size +
+    faults.push_back("fx = " + rounded(camera.fx, 1) + " px means a field of view of " +
+                     rounded(view, 0) + " degrees for images of " + size +
                      ": are the intrinsics for another resolution?");
   }
   return faults;
@@ -90,7 +91,7 @@ void RecordingCheck::add(const Frame& frame) {
   if (frame.depth.empty()) return;
   depth_pixels_ += frame.depth.size() / kDepthStride;
   for (std::size_t i = 0; i < frame.depth.size(); i += kDepthStride) {
-    if (frame.depth[i] > 0.0F) depths_.push_back(frame.depth[i]);
+    if (std::isfinite(frame.depth[i]) && frame.depth[i] > 0.0F) depths_.push_back(frame.depth[i]);
   }
   if (!frame.color.empty()) alignment_.add(frame.color, frame.depth);
 }
@@ -99,18 +100,18 @@ std::vector<std::string> RecordingCheck::depth_faults() const {
   if (depth_pixels_ == 0) return {};
   const double share = static_cast<double>(depths_.size()) / static_cast<double>(depth_pixels_);
   if (share < kMinValidShare) {
-    return {"only " + rounded(100.0 * share, 0.1) +
+    return {"only " + rounded(100.0 * share, 1) +
             " % of the depth pixels have a value: are these the depth images?"};
   }
   const double near = percentile_of(depths_, 0.02);
   const double far = percentile_of(depths_, 0.98);
   if (far - near < kConstant) {
-    return {"all depths are " + rounded(far, 0.001) + " m: are these the depth images?"};
+    return {"all depths are " + rounded(far, 3) + " m: are these the depth images?"};
   }
   std::vector<std::string> faults;
   const bool in_meters = calibration_ && calibration_->depth_scale == 1.0;
   if (!in_meters && (far < kNearestFar || far > kFarthestFar)) {
-    faults.push_back("98 % of the depths are below " + rounded(far, 0.01) +
+    faults.push_back("98 % of the depths are below " + rounded(far, 2) +
                      " m, in rooms it is 2 to 12 m: is the depth scale of " +
                      format_number(calibration_ ? calibration_->depth_scale : 0.0) +
                      " units per meter right (--depth-scale)?");
@@ -134,7 +135,7 @@ std::vector<std::string> RecordingCheck::faults() const {
                       static_cast<double>(brightness_.size());
   if (mean < kDark || mean > kBright) {
     faults.push_back("the images are too " + std::string(mean < kDark ? "dark" : "bright") +
-                     ": their mean is " + rounded(mean, 1.0) + " of 255");
+                     ": their mean is " + rounded(mean, 0) + " of 255");
   }
   return faults;
 }

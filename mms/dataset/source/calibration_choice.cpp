@@ -50,6 +50,7 @@ void choose_calibration(RgbdRecording& recording, const CameraOptions& options,
                     "depth_scale in depth units per meter, or give --calibration, or --intrinsics "
                     "and --depth-scale");
   }
+  check_camera(*calibration->camera, recording.folder.string() + ": camera");
   if (options.depth_scale) {
     calibration->depth_scale = *options.depth_scale;
     recording.facts.push_back("depth scale: given, " + format_number(*options.depth_scale));

@@ -61,11 +61,13 @@ std::unique_ptr<FrameSource> open_euroc(const fs::path& folder, const SourceOpti
         "depth images in depth0/ are needed; stereo and IMU are not used");
   };
   add_matched_frames(recording, list_of("cam0"), list_of("depth0"));
-  const FormattedCalibration camera =
-      read_any_calibration(recording.folder / "cam0" / "sensor.yaml");
-  choose_calibration(recording, options.camera, [&] {
+  const fs::path sensor = recording.folder / "cam0" / "sensor.yaml";
+  FormattedCalibration camera;
+  if (fs::exists(sensor)) camera = read_any_calibration(sensor);
+  choose_calibration(recording, options.camera, [&]() -> std::optional<Calibration> {
+    if (!camera.calibration.camera) return std::nullopt;
     recording.facts.emplace_back("calibration: cam0/sensor.yaml, 1000 depth units per meter");
-    return std::optional(camera.calibration);
+    return camera.calibration;
   });
   read_body_poses(recording, recording.folder / kTruth / "data.csv",
                   camera.T_body_camera.value_or(Eigen::Isometry3d::Identity()));

@@ -12,6 +12,7 @@
 #include "mms/io/config/calibration_ranges.hpp"
 #include "mms/io/config/camera_json.hpp"
 #include "mms/io/config/yaml_map.hpp"
+#include "mms/io/text/numbers.hpp"
 #include "mms/io/text/pose_text.hpp"
 
 namespace mms {
@@ -105,8 +106,9 @@ std::array<double, 5> distortion_of(CameraMap& map, const YAML::Node& node, cons
   return distortion;
 }
 
+constexpr const char* kMatrix[] = {"camera_matrix", "Camera_Matrix", "cameraMatrix", "K"};
+
 CameraIntrinsics camera_of_matrix(CameraMap& map) {
-  constexpr const char* kMatrix[] = {"camera_matrix", "Camera_Matrix", "cameraMatrix", "K"};
   constexpr const char* kCoefficients[] = {"distortion_coefficients", "Distortion_Coefficients",
                                            "distCoeffs", "dist_coeffs", "D"};
   constexpr const char* kWidth[] = {"image_width", "image_Width", "width"};
@@ -148,11 +150,11 @@ CameraIntrinsics camera_of_lists(CameraMap& map) {
   return camera;
 }
 
-std::optional<Eigen::Isometry3d> pose_in_body(CameraMap& map) {
+std::optional<Eigen::Isometry3d> pose_in_body(CameraMap& map, const fs::path& path) {
   constexpr const char* kKey = "T_BS";
   const auto node = map.find(std::array{kKey});
   if (!node) return std::nullopt;
-  return isometry_from_rows(map.numbers(*node, kKey), kKey);
+  return isometry_from_rows(map.numbers(*node, kKey), path.string() + ": " + kKey);
 }
 
 /// ORB-SLAM2 (prefix "Camera.") and ORB-SLAM3 ("Camera1.").
@@ -172,22 +174,9 @@ CameraIntrinsics camera_of_orb_slam(CameraMap& map, const std::string& prefix) {
            coefficient("k3")}};
 }
 
-/// @throws ConfigError for a focal length or principal point that no camera has.
-void check_ranges(const CameraIntrinsics& camera, const fs::path& path) {
-  const auto check = [&](const char* name, double value, Range range) {
-    if (value >= range.min && value <= range.max) return;
-    throw ConfigError(path.string(), std::string(name) + " is " + std::to_string(value) +
-                                         ", allowed: " + to_string(range));
-  };
-  check("fx", camera.fx, kFocalRange);
-  check("fy", camera.fy, kFocalRange);
-  check("cx", camera.cx, kPrincipalPointRange);
-  check("cy", camera.cy, kPrincipalPointRange);
-}
-
 FormattedCalibration with_camera(const char* format, const CameraIntrinsics& camera,
                                  const fs::path& path) {
-  check_ranges(camera, path);
+  check_camera(camera, path.string());
   FormattedCalibration result{{}, format, std::nullopt, true};
   result.calibration.camera = camera;
   return result;
@@ -206,6 +195,20 @@ FormattedCalibration read_orb_slam(CameraMap& map, const std::string& prefix,
 
 }  // namespace
 
+void check_camera(const CameraIntrinsics& camera, const std::string& where) {
+  const auto check = [&](const char* name, double value, Range range) {
+    if (value >= range.min && value <= range.max) return;
+    throw ConfigError(where, std::string(name) + " is " + format_number(value) +
+                                 ", allowed: " + to_string(range));
+  };
+  check("fx", camera.fx, kFocalRange);
+  check("fy", camera.fy, kFocalRange);
+  check("cx", camera.cx, kPrincipalPointRange);
+  check("cy", camera.cy, kPrincipalPointRange);
+  check("width", camera.width, kImageSideRange);
+  check("height", camera.height, kImageSideRange);
+}
+
 FormattedCalibration read_any_calibration(const fs::path& path) {
   if (path.extension() == ".json")
     return {read_camera_json(path), "Open3D or NICE-SLAM", std::nullopt, false};
@@ -222,12 +225,10 @@ FormattedCalibration read_any_calibration(const fs::path& path) {
   }
   if (has("intrinsics")) {
     FormattedCalibration result = with_camera("EuRoC", camera_of_lists(map), path);
-    result.T_body_camera = pose_in_body(map);
+    result.T_body_camera = pose_in_body(map, path);
     return result;
   }
-  for (const char* key : {"camera_matrix", "Camera_Matrix", "cameraMatrix", "K"}) {
-    if (has(key)) return with_camera("ROS or OpenCV", camera_of_matrix(map), path);
-  }
+  if (map.find(kMatrix)) return with_camera("ROS or OpenCV", camera_of_matrix(map), path);
   return {read_calibration(path), "MMS-SLAM", std::nullopt, false};
 }
 

@@ -27,4 +27,7 @@ struct FormattedCalibration {
 /// wrong values, and for other camera and distortion models.
 FormattedCalibration read_any_calibration(const std::filesystem::path& path);
 
+/// @throws ConfigError at `where` for a size, focal length or principal point that no camera has.
+void check_camera(const CameraIntrinsics& camera, const std::string& where);
+
 }  // namespace mms

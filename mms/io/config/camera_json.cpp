@@ -4,6 +4,7 @@
 
 #include "mms/io/config/calibration_ranges.hpp"
 #include "mms/io/config/json_entry.hpp"
+#include "mms/io/text/pose_text.hpp"
 
 namespace mms {
 namespace {
@@ -39,18 +40,13 @@ Calibration read_open3d(const JsonEntry& file) {
   return calibration;
 }
 
-/// A matrix as a list of rows.
-template <int kSide>
-Eigen::Matrix<double, kSide, kSide> matrix_of(const JsonEntry& entry) {
-  const auto rows = entry.elements();
-  if (rows.size() != kSide) entry.fail("has not " + std::to_string(kSide) + " rows");
-  Eigen::Matrix<double, kSide, kSide> matrix;
-  for (int y = 0; y < kSide; ++y) {
-    const auto numbers = rows[static_cast<std::size_t>(y)].elements();
-    if (numbers.size() != kSide) entry.fail("has not " + std::to_string(kSide) + " columns");
-    for (int x = 0; x < kSide; ++x) matrix(y, x) = numbers[static_cast<std::size_t>(x)].number();
+/// The numbers of a matrix, which is a list of rows.
+std::vector<double> matrix_numbers_of(const JsonEntry& entry) {
+  std::vector<double> numbers;
+  for (const JsonEntry& row : entry.elements()) {
+    for (const JsonEntry& element : row.elements()) numbers.push_back(element.number());
   }
-  return matrix;
+  return numbers;
 }
 
 }  // namespace
@@ -63,9 +59,12 @@ std::map<std::string, PosedCamera> read_posed_cameras(const std::filesystem::pat
   for (const auto& [name, unused] : json.items()) {
     const JsonEntry frame = file.at(name);
     const char* pose = frame.has("aligned_pose") ? "aligned_pose" : "pose";
+    const std::vector<double> matrix = matrix_numbers_of(frame.at("intrinsic"));
+    if (matrix.size() != 9) frame.at("intrinsic").fail("has not nine numbers");
     PosedCamera& camera = cameras[name];
-    camera.matrix = matrix_of<3>(frame.at("intrinsic"));
-    camera.T_world_camera = Eigen::Isometry3d(matrix_of<4>(frame.at(pose)));
+    camera.matrix = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(matrix.data());
+    camera.T_world_camera = isometry_from_rows(matrix_numbers_of(frame.at(pose)),
+                                               path.string() + ": " + name + "." + pose);
   }
   return cameras;
 }
