@@ -23,10 +23,15 @@ endfunction()
 
 option(MMS_UNITY_BUILD "Compile several sources at a time in targets with expensive headers" ON)
 
-# mms_unity(TARGET): compiles the sources of TARGET in groups. For targets whose headers take longer
-# than their code; not for those that compute poses or maps, where it could change the last bits.
+# mms_unity(TARGET [SIZE]): compiles the sources of TARGET in groups of SIZE (default: 8). For targets
+# whose headers take longer than their code; not for those that compute poses or maps, where it could
+# change the last bits.
 function(mms_unity target)
   if(MMS_UNITY_BUILD)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set(size 8)
+    if(ARGC GREATER 1)
+      set(size ${ARGV1})
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
   endif()
 endfunction()
