@@ -41,6 +41,10 @@ string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 if(RosbagStorage_FOUND)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", librosbag-storage-dev")
 endif()
+if(Libav_FOUND)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+         ", libavformat-dev, libavcodec-dev, libswscale-dev")
+endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "visual and LiDAR SLAM among moving people and vehicles (development files)
 MMS-SLAM localizes a depth camera or LiDAR among walking people and moving

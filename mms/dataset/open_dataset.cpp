@@ -16,6 +16,7 @@
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/dataset/tum/euroc.hpp"
 #include "mms/dataset/tum/tum_rgbd.hpp"
+#include "mms/dataset/video/video_rgbd.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/ros/bag_reader.hpp"
 
@@ -40,6 +41,7 @@ constexpr FolderLayout kLayouts[] = {{is_scannetpp_layout, open_scannetpp},
                                      {is_replica_layout, open_replica},
                                      {is_tartan_air_layout, open_tartan_air},
                                      {is_folder_rgbd_layout, open_folder_rgbd},
+                                     {is_video_rgbd_layout, open_video_rgbd},
                                      {is_lidar_scans_layout, open_lidar_scans}};
 
 const FolderLayout* layout_of(const Names& names) {
@@ -95,7 +97,6 @@ constexpr OtherFile kOtherFiles[] = {
      "convert it to PCD files with the tools of the sensor"},
     {".sens", "is a scan of ScanNet",
      "export color, depth, poses and intrinsics with its SensReader"},
-    {".mp4", "is a video", "depth images are needed, too: give a folder with both"},
     {".mkv", "is a video or a recording of Azure Kinect",
      "export color/, depth/ and intrinsic.json with Open3D's azure_kinect_mkv_reader"},
     {".svo", "is a recording of a ZED camera", "export color and depth images with its SDK"},
@@ -108,8 +109,14 @@ constexpr OtherFile kOtherFiles[] = {
     {".tar", "is an archive", "unpack it"},
     {".7z", "is an archive", "unpack it"}};
 
+constexpr const char* kVideoHint =
+    "depth images are needed, too: give a folder with the video and depth/";
+
 [[noreturn]] void fail_file(const fs::path& file) {
   const std::string name = file.filename().string();
+  if (is_video_name(file) && !name.ends_with(".mkv")) {
+    throw DataError(file.string(), "is a video", kVideoHint);
+  }
   for (const OtherFile& other : kOtherFiles) {
     if (name.ends_with(other.ending)) throw DataError(file.string(), other.what, other.hint);
   }
@@ -125,6 +132,11 @@ void fail_if_rosbag2(const fs::path& folder, const Names& names) {
 
 [[noreturn]] void fail_unknown(const fs::path& folder, const Names& names) {
   fail_if_rosbag2(folder, names);
+  for (const std::string& name : names) {
+    if (is_video_name(name)) {
+      throw DataError(folder.string(), found_text(names) + ", and no depth images", kVideoHint);
+    }
+  }
   if (has_name(names, "sequences")) {
     throw DataError(folder.string(), "has several sequences", "choose one, as --sequence 00");
   }

@@ -95,7 +95,7 @@ def a_rosbag2_folder(folder):
     (folder / "bag2/bag2_0.db3").write_bytes(b"SQLite format 3\0")
 
 
-@case(1, "is a video", args=["run", "x.mp4"])
+@case(1, "is a video", "a folder with the video and depth/", args=["run", "x.mp4"])
 def a_video(folder):
     (folder / "x.mp4").write_bytes(b"\0\0\0\x18ftypmp42")
 
@@ -135,6 +135,18 @@ def the_folder_of_all_sequences(folder):
       args=["run", "kitti", "--sequence", "00", "--segmenter", "none", "-o", "out"])
 def a_sequence_by_its_number(folder):
     the_folder_of_all_sequences(folder)
+
+
+@case(1, "has x.mp4, and no depth images", args=["run", "video"])
+def a_video_without_depth_images(folder):
+    (folder / "video").mkdir()
+    (folder / "video/x.mp4").write_bytes(b"x")
+
+
+@case(1, "x.mp4: cannot be read as a video", args=["run", "video"])
+def a_damaged_video(folder):
+    a_video_without_depth_images(folder)
+    (folder / "data/depth").rename(folder / "video/depth")
 
 
 # Lists and images

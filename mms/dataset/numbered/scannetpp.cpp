@@ -5,6 +5,7 @@
 #include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/first_image.hpp"
 #include "mms/dataset/source/folder_names.hpp"
+#include "mms/dataset/source/resized_camera.hpp"
 #include "mms/io/config/camera_json.hpp"
 #include "mms/io/image/picture_files.hpp"
 
@@ -14,16 +15,8 @@ namespace {
 
 constexpr const char* kFrames = "pose_intrinsic_imu.json";
 
-CameraIntrinsics scaled_camera(const Eigen::Matrix3d& matrix, double scale, int width, int height) {
-  // Pixel centers have whole coordinates, so the corner of the image is at -0.5.
-  const auto center = [scale](double c) { return (c + 0.5) * scale - 0.5; };
-  return {scale * matrix(0, 0),
-          scale * matrix(1, 1),
-          center(matrix(0, 2)),
-          center(matrix(1, 2)),
-          width,
-          height,
-          {}};
+CameraIntrinsics camera_of_matrix(const Eigen::Matrix3d& m, int width, int height) {
+  return {m(0, 0), m(1, 1), m(0, 2), m(1, 2), width, height, {}};
 }
 
 }  // namespace
@@ -48,16 +41,15 @@ std::unique_ptr<FrameSource> open_scannetpp(const fs::path& folder, const Source
   const auto cameras = read_posed_cameras(recording.folder / kFrames);
   if (cameras.empty()) throw DataError((recording.folder / kFrames).string(), "has no frames");
   const Image<Rgb> color = first_color(recording);
-  const Eigen::Matrix3d& matrix = cameras.begin()->second.matrix;
+  recording.color_camera =
+      camera_of_matrix(cameras.begin()->second.matrix, color.width(), color.height());
   choose_calibration(recording, options.camera, [&] {
     const Image<float> depth = first_depth(recording);
-    const double scale = static_cast<double>(depth.width()) / color.width();
     Calibration calibration;
-    calibration.camera = scaled_camera(matrix, scale, depth.width(), depth.height());
+    calibration.camera = resized_camera(*recording.color_camera, depth.width(), depth.height());
     recording.facts.push_back(std::string("calibration: ") + kFrames);
     return std::optional(calibration);
   });
-  recording.color_camera = scaled_camera(matrix, 1.0, color.width(), color.height());
   for (const RgbdFiles& frame : recording.frames) {
     const auto camera = cameras.find(frame.name);
     if (camera == cameras.end()) continue;

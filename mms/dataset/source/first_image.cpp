@@ -2,7 +2,6 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/depth_file.hpp"
-#include "mms/io/image/image_io.hpp"
 
 namespace mms {
 namespace {
@@ -23,7 +22,8 @@ auto first_readable(const RgbdRecording& recording, const Read& read) {
 }  // namespace
 
 Image<Rgb> first_color(const RgbdRecording& recording) {
-  return first_readable(recording, [](const RgbdFiles& files) { return read_color(files.color); });
+  return first_readable(recording,
+                        [&](const RgbdFiles& files) { return read_color_of(recording, files); });
 }
 
 Image<float> first_depth(const RgbdRecording& recording) {

@@ -75,6 +75,10 @@ void find_masks(RgbdRecording& recording, const SourceOptions& options) {
                                " frames have a mask, the first one missing is " + missing);
 }
 
+Image<Rgb> read_color_of(const RgbdRecording& recording, const RgbdFiles& frame) {
+  return recording.video ? recording.video->read(frame.video_index) : read_color(frame.color);
+}
+
 RgbdSource::RgbdSource(RgbdRecording recording) : recording_(std::move(recording)) {
   set_ground_truth(std::move(recording_.ground_truth));
   set_map_truth(recording_.folder / "map_truth.ply");
@@ -94,7 +98,7 @@ Frame RgbdSource::read(std::size_t index) const {
   frame.calibration = recording_.calibration;
   frame.depth_offset = files.depth_offset;
   const CameraIntrinsics color_camera = recording_.color_camera.value_or(camera);
-  frame.color = read_color(files.color);
+  frame.color = read_color_of(recording_, files);
   check_size(frame.color, color_camera, files.color);
   frame.depth =
       read_depth(files.depth, recording_.calibration->depth_scale, recording_.invalid_depth);

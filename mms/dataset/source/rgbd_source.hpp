@@ -9,6 +9,7 @@
 
 #include "mms/dataset/source/recorded_source.hpp"
 #include "mms/dataset/source/source_options.hpp"
+#include "mms/io/video/video_reader.hpp"
 
 namespace mms {
 
@@ -16,10 +17,11 @@ namespace mms {
 struct RgbdFiles {
   Timestamp stamp;              ///< of the color image
   Duration depth_offset{0};     ///< of the depth image, relative to `stamp`
-  std::filesystem::path color;  ///< 8-bit image
+  std::filesystem::path color;  ///< 8-bit image, or the video
   std::filesystem::path depth;  ///< as of `read_depth`, registered to `color`
   std::filesystem::path mask;   ///< empty for none
   std::string name;             ///< file name of the frame's mask without ".png"
+  std::size_t video_index = 0;  ///< of the color image, if `color` is a video
 };
 
 /// An RGB-D recording before its images are read.
@@ -30,16 +32,21 @@ struct RgbdRecording {
   /// Camera of the color images and masks where it is not that of the depth images. It has the
   /// same place and orientation; colors and masks are sampled for the pixels of the depth images.
   std::optional<CameraIntrinsics> color_camera;
-  std::uint16_t invalid_depth = 0;    ///< raw value for no return besides 0
-  Trajectory ground_truth;            ///< empty for none
-  std::vector<std::string> facts;     ///< lines for `describe`
-  std::vector<std::string> warnings;  ///< non-fatal faults
+  std::shared_ptr<VideoReader> video;  ///< of the color images; null: each is a file
+  std::uint16_t invalid_depth = 0;     ///< raw value for no return besides 0
+  Trajectory ground_truth;             ///< empty for none
+  std::vector<std::string> facts;      ///< lines for `describe`
+  std::vector<std::string> warnings;   ///< non-fatal faults
 };
 
 /// Finds the frames' masks in `options.masks`, or else in the recording's masks/; adds their number
 /// to facts and warnings.
 /// @throws DataError if `options.masks` is given and has no mask for any frame.
 void find_masks(RgbdRecording& recording, const SourceOptions& options);
+
+/// The color image of a frame.
+/// @throws FileError, DataError if it cannot be read.
+Image<Rgb> read_color_of(const RgbdRecording& recording, const RgbdFiles& frame);
 
 /// Reads the images of an RGB-D recording. Images of a size other than the calibration's are
 /// damaged frames.
