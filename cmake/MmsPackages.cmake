@@ -45,6 +45,9 @@ if(Libav_FOUND)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
          ", libavformat-dev, libavcodec-dev, libswscale-dev")
 endif()
+if(Libpcap_FOUND)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libpcap-dev")
+endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "visual and LiDAR SLAM among moving people and vehicles (development files)
 MMS-SLAM localizes a depth camera or LiDAR among walking people and moving

@@ -4,6 +4,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_source.hpp"
+#include "mms/dataset/capture/capture_source.hpp"
 #include "mms/dataset/folder/folder_rgbd.hpp"
 #include "mms/dataset/lidar/lidar_scans.hpp"
 #include "mms/dataset/numbered/arkit_scenes.hpp"
@@ -17,6 +18,7 @@
 #include "mms/dataset/tum/euroc.hpp"
 #include "mms/dataset/tum/tum_rgbd.hpp"
 #include "mms/dataset/video/video_rgbd.hpp"
+#include "mms/io/capture/packet_capture.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/ros/bag_reader.hpp"
 
@@ -63,10 +65,10 @@ std::string found_text(const Names& names) {
   return text;
 }
 
-/// Bags in a folder are separate recordings.
+/// Bags and captures in a folder are separate recordings.
 std::string find_bag(const fs::path& folder, const Names& names) {
   for (const std::string& name : names) {
-    if (is_bag_name(name)) return (folder / name).string();
+    if (is_bag_name(name) || is_capture_name(name)) return (folder / name).string();
   }
   return "";
 }
@@ -93,8 +95,6 @@ constexpr OtherFile kOtherFiles[] = {
      "convert it to a ROS 1 bag, for example by rosbags-convert"},
     {".db3", "is a ROS 2 recording (rosbag2)",
      "convert it to a ROS 1 bag, for example by rosbags-convert"},
-    {".pcap", "is a capture of LiDAR packets",
-     "convert it to PCD files with the tools of the sensor"},
     {".sens", "is a scan of ScanNet",
      "export color, depth, poses and intrinsics with its SensReader"},
     {".mkv", "is a video or a recording of Azure Kinect",
@@ -120,7 +120,9 @@ constexpr const char* kVideoHint =
   for (const OtherFile& other : kOtherFiles) {
     if (name.ends_with(other.ending)) throw DataError(file.string(), other.what, other.hint);
   }
-  throw DataError(file.string(), "is a file; a recording is a folder or a ROS bag (.bag)");
+  throw DataError(file.string(),
+                  "is a file; a recording is a folder, a ROS bag (.bag) or a capture of "
+                  "LiDAR packets (.pcap)");
 }
 
 /// A folder of rosbag2 has such files beside its metadata.yaml.
@@ -167,6 +169,7 @@ std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOpti
   std::error_code error;
   if (!fs::exists(path, error)) throw DataError(path.string(), "no such recording");
   if (bag) return open_bag(path, options);
+  if (is_capture_name(path) && !fs::is_directory(path)) return open_capture(path, options);
   if (!fs::is_directory(path, error)) fail_file(path);
   const Names names = list_folder(path);
   const FolderLayout* layout = layout_of(names);

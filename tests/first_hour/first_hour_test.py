@@ -6,6 +6,7 @@ Every case makes its input from two small simulated recordings, runs the program
 exit status and words in its output. A fault is one line, so a trace or a second error fails, too.
 """
 
+import math
 import os
 import shutil
 import struct
@@ -78,7 +79,7 @@ def the_folder_above_the_recording(folder):
     (folder / "data").rename(folder / "above/data")
 
 
-@case(1, "is a file; a recording is a folder or a ROS bag", args=["run", "notes.txt"])
+@case(1, "is a file; a recording is a folder, a ROS bag", args=["run", "notes.txt"])
 def a_text_file(folder):
     (folder / "notes.txt").write_text("hello")
 
@@ -147,6 +148,48 @@ def a_video_without_depth_images(folder):
 def a_damaged_video(folder):
     a_video_without_depth_images(folder)
     (folder / "data/depth").rename(folder / "video/depth")
+
+
+def write_pcap(path, packets):
+    """Writes UDP payloads, each with its time [s], as a capture of Ethernet."""
+    with open(path, "wb") as file:
+        file.write(struct.pack("<IHHQII", 0xA1B2C3D4, 2, 4, 0, 65535, 1))
+        for time, payload in packets:
+            udp = struct.pack(">HHHH", 2368, 2368, 8 + len(payload), 0) + payload
+            ip = struct.pack(">BBHHHBBHII", 0x45, 0, 20 + len(udp), 0, 0, 64, 17, 0, 1, 2)
+            packet = bytes(12) + b"\x08\x00" + ip + udp
+            file.write(struct.pack("<IIII", 1700000000, int(1e6 * time), len(packet), len(packet)))
+            file.write(packet)
+
+
+def vlp16_packets(seconds):
+    """What a VLP-16 measures in a room of 8 x 6 x 3 m."""
+    block_time = 110.592e-6
+    for number in range(int(seconds / (12 * block_time))):
+        start = 12 * block_time * number
+        payload = b""
+        for block in range(12):
+            angle = (3600 * (start + block * block_time)) % 360
+            payload += struct.pack("<HH", 0xEEFF, int(100 * angle))
+            for channel in range(32):
+                up = math.radians(channel % 16 - (15 if channel % 2 == 0 else 0))
+                turn = math.radians(angle + 0.2 * (channel // 16) + 0.0083 * (channel % 16))
+                walls = (abs(4 / (math.cos(turn) * math.cos(up))),
+                         abs(3 / (math.sin(turn) * math.cos(up) or 1e-9)),
+                         abs(1.5 / (math.sin(up) or 1e-9)))
+                payload += struct.pack("<HB", int(min(walls) / 0.002), 50)
+        yield start, payload + struct.pack("<IBB", int(1e6 * start), 0x37, 0x22)
+
+
+@case(0, "Velodyne VLP-16", "4 frames", args=["run", "x.pcap", "--segmenter", "none", "-o", "out"])
+def a_capture_of_lidar_packets(folder):
+    write_pcap(folder / "x.pcap", vlp16_packets(0.43))
+
+
+@case(1, "x.pcap: has no data packets of a Velodyne or an Ouster, but UDP datagrams of 6464 bytes",
+      "as x.json beside it", args=["run", "x.pcap"])
+def a_capture_of_an_ouster_without_metadata(folder):
+    write_pcap(folder / "x.pcap", [(0.0, bytes(6464))])
 
 
 # Lists and images

@@ -27,7 +27,7 @@ constexpr const char* kDepthFolder = "depth";
 constexpr const char* kCameraMatrix = "camera_matrix.csv";
 constexpr const char* kOdometry = "odometry.csv";
 constexpr const char* kDigits = "0123456789";
-constexpr Duration kMaxDifference = std::chrono::milliseconds(20);  // as of TUM's lists
+constexpr Duration kMaxStampDifference = std::chrono::milliseconds(20);  // as of TUM's lists
 constexpr double kUsualShare = 0.9;  // of the images of the video that have depth
 constexpr double kMaxAspectDifference = 0.01;
 
@@ -102,7 +102,7 @@ void match_by_stamp(RgbdRecording& recording, const std::vector<NumberedDepth>& 
     if (!image.stamp) throw DataError(image.file.string(), "has no stamp in its name, others have");
     depth_stamps.push_back(*image.stamp);
   }
-  for (const auto& [color, i] : associate(color_stamps, depth_stamps, kMaxDifference)) {
+  for (const auto& [color, i] : associate(color_stamps, depth_stamps, kMaxStampDifference)) {
     add_frame(recording, color, color_stamps[color], depth_stamps[i] - color_stamps[color],
               depth[i]);
   }
