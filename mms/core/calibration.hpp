@@ -22,12 +22,21 @@ struct CameraIntrinsics {
   bool operator==(const CameraIntrinsics&) const = default;
 };
 
+/// A depth camera with a place of its own beside the color camera.
+struct DepthCamera {
+  CameraIntrinsics camera;                 ///< of the depth images
+  Transform<Camera, Depth> T_color_depth;  ///< extrinsics
+};
+
 /// Calibration of the sensor of a recording.
 struct Calibration {
   std::optional<CameraIntrinsics> camera;   ///< absent for LiDAR without a camera
   Transform<Camera, Lidar> T_camera_lidar;  ///< extrinsics, used if a frame has image and scan
   double depth_scale = 1000.0;              ///< depth image units per meter
   std::optional<double> max_depth;          ///< largest depth used for mapping [m], if known
+  /// Of depth images that are not registered to `camera`; recordings register them, so the
+  /// calibration of a frame has none.
+  std::optional<DepthCamera> depth_camera;
 };
 
 }  // namespace mms

@@ -4,11 +4,12 @@
 
 namespace mms {
 
-/// Coordinate frames of transforms. Camera: optical frame, x right, y down, z forward. Sensor:
-/// frame of the localized cloud, the camera frame for RGB-D, the LiDAR frame for LiDAR. World: the
-/// sensor frame of the first localized frame.
+/// Coordinate frames of transforms. Camera: optical frame, x right, y down, z forward. Depth: that
+/// of a depth camera beside it. Sensor: frame of the localized cloud, the camera frame for RGB-D,
+/// the LiDAR frame for LiDAR. World: the sensor frame of the first localized frame.
 struct World {};
 struct Camera {};
+struct Depth {};
 struct Lidar {};
 struct Sensor {};
 

@@ -166,6 +166,38 @@ TEST_F(BagSources, ReadsGroundTruthFromTransforms) {
   EXPECT_NEAR(played.source->ground_truth()[1].T_world_sensor.translation().x(), 11.5, 1e-12);
 }
 
+TEST_F(BagSources, RegistersDepthWithFrameOfItsOwn) {
+  camera_info();
+  color(0);
+  write("/depth/image",
+        image_message(header(0, "depth"), Image<float>(2 * kWidth, 2 * kHeight, 1.5F)));
+  const CameraIntrinsics camera{20, 20, 8.5, 6.5, 2 * kWidth, 2 * kHeight, {}};
+  write("/depth/camera_info", camera_info_message(header(0, "depth"), camera));
+  msg::TransformStamped fixed{header(0, "camera"), "depth", {}};
+  fixed.transform.position = {-0.3, 0, 0};  // 2 px to the left
+  bag_->write("/tf_static", at(0), msg::Transforms{{fixed}});
+  finish();
+  const Playback played = play();
+  ASSERT_EQ(played.frames.size(), 1U);
+  EXPECT_TRUE(any_has(played.source->describe(),
+                      "depth: registered to the color images by /depth/camera_info and the "
+                      "transform from depth to camera"));
+  for (int x = 0; x < kWidth; ++x) {
+    EXPECT_EQ(played.frames[0].depth(x, 2), x >= kWidth - 2 ? 0.0F : 1.5F) << x;
+  }
+}
+
+TEST_F(BagSources, RefusesDepthOfAnotherSizeWithoutTransform) {
+  camera_info();
+  color(0);
+  write("/depth/image",
+        image_message(header(0, "depth"), Image<float>(2 * kWidth, 2 * kHeight, 1.5F)));
+  finish();
+  const Playback played = play();
+  EXPECT_TRUE(played.frames.empty());
+  EXPECT_TRUE(any_has(played.warnings, "it must be registered to the color image"));
+}
+
 TEST_F(BagSources, ReadsCloudsWithCamera) {
   camera_info();
   LidarScan scan;

@@ -140,6 +140,25 @@ TEST(Euroc, ReadsStampsCameraAndBodyPoses) {
   EXPECT_TRUE(any_has(played.source->describe(), "layout: EuRoC with depth"));
 }
 
+TEST(Euroc, RegistersDepthOfCameraOfItsOwn) {
+  const TempFolder folder;
+  write_euroc(folder);
+  const auto sensor = [&](const char* name, const char* shift) {
+    folder.write(std::string(name) + "/sensor.yaml",
+                 std::string("T_BS:\n  rows: 4\n  cols: 4\n  data: [1, 0, 0, ") + shift +
+                     ", 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n"
+                     "resolution: [8, 6]\nintrinsics: [10, 10, 4, 3]\n"
+                     "distortion_model: radial-tangential\n"
+                     "distortion_coefficients: [0, 0, 0, 0]\n");
+  };
+  sensor("mav0/cam0", "0.3");
+  sensor("mav0/depth0", "0.3");
+  EXPECT_FALSE(any_has(open_dataset(folder.path())->describe(), "registered"));
+  sensor("mav0/depth0", "0.2");
+  EXPECT_TRUE(any_has(open_dataset(folder.path())->describe(),
+                      "depth: 8x6 pixels, registered to the color images"));
+}
+
 TEST(Euroc, NamesMissingDepth) {
   const TempFolder folder;
   write_euroc(folder);

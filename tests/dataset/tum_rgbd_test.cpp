@@ -285,5 +285,24 @@ TEST(TumRgbd, ReadsSharedRecordings) {
   EXPECT_EQ(open_dataset(shared / "fr1_xyz_clip")->ground_truth().empty(), false);
 }
 
+TEST(TumRgbd, RegistersDepthOfCameraOfItsOwn) {
+  const TempFolder folder;
+  write_tum(folder, 1);
+  // The depth camera is 0.15 m to the left: at 1.5 m and 10 px of focal length 1 px.
+  Image<std::uint16_t> depth(kWidth, kHeight, 1500);
+  for (int y = 0; y < kHeight; ++y) depth(3, y) = 0;
+  write_png(folder.path() / "depth" / file_of(0), depth);
+  folder.write("calibration.yaml",
+               kCalibration +
+                   "depth_camera:\n  fx: 10\n  fy: 10\n  cx: 4\n  cy: 3\n  width: 8\n  height: 6\n"
+                   "  T_color_depth: [1, 0, 0, -0.15, 0, 1, 0, 0, 0, 0, 1, 0]\n");
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.frames.size(), 1U);
+  EXPECT_TRUE(any_has(played.source->describe(), "registered to the color images"));
+  const Frame& frame = played.frames[0];
+  EXPECT_FALSE(frame.calibration->depth_camera);
+  for (int x = 0; x < kWidth; ++x) EXPECT_EQ(frame.depth(x, 2), x == 2 || x == 7 ? 0.0F : 1.5F);
+}
+
 }  // namespace
 }  // namespace mms

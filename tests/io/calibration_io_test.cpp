@@ -48,6 +48,8 @@ TEST(CalibrationIo, RoundTripsExactly) {
   Vector6d tangent;
   tangent << 0.1, -0.2, 1.0 / 3.0, 0.4, -0.5, 0.6;
   written.T_camera_lidar = Transform<Camera, Lidar>(se3::exp(tangent));
+  written.depth_camera = DepthCamera{{421.6, 421.7, 423.8, 240.2, 848, 480, {}},
+                                     Transform<Camera, Depth>(se3::exp(0.1 * tangent))};
   const auto path = folder.path() / "calibration.yaml";
   write_calibration(path, written);
   const Calibration read = read_calibration(path);
@@ -55,6 +57,10 @@ TEST(CalibrationIo, RoundTripsExactly) {
   EXPECT_EQ(read.depth_scale, written.depth_scale);
   EXPECT_EQ(read.max_depth, written.max_depth);
   EXPECT_EQ(read.T_camera_lidar.isometry().matrix(), written.T_camera_lidar.isometry().matrix());
+  ASSERT_TRUE(read.depth_camera);
+  EXPECT_EQ(read.depth_camera->camera, written.depth_camera->camera);
+  EXPECT_EQ(read.depth_camera->T_color_depth.isometry().matrix(),
+            written.depth_camera->T_color_depth.isometry().matrix());
 }
 
 TEST(CalibrationIo, ErrorsNameFileLineAndKey) {
@@ -62,6 +68,9 @@ TEST(CalibrationIo, ErrorsNameFileLineAndKey) {
   const std::pair<std::string, const char*> cases[] = {
       {kCamera + "fz: 3\n", ":8: unknown key 'fz' (did you mean 'fx'?)"},
       {"fx: 500\nfy: 500\n", ": key 'cx' is missing (a camera needs"},
+      {"depth_camera:\n  fx: 500\n", ": key 'fx' is missing"},
+      {kCamera + "depth_camera:\n  fx: 500\n", ": depth_camera: key 'fy' is missing"},
+      {kCamera + "depth_camera: 3\n", "depth_camera"},
       {"fx: 0\n" + kCamera.substr(8), ":1: fx is 0, allowed: 0.001 to 100000"},
       {"fx: -5\n" + kCamera.substr(8), ":1: fx is -5, allowed:"},
       {"fx: wide\n" + kCamera.substr(8), ":1: fx is 'wide', expected a number"},

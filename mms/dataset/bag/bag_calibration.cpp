@@ -1,6 +1,7 @@
 #include "mms/dataset/bag/bag_calibration.hpp"
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/bag/bag_topics.hpp"
 #include "mms/io/config/calibration_io.hpp"
 #include "mms/ros/camera_messages.hpp"
 
@@ -43,6 +44,28 @@ void read_extrinsics(BagRecording& recording, const TransformTree& transforms,
   }
 }
 
+/// The camera of depth images that have a frame and a camera_info of their own, and a transform to
+/// the color images. Drivers name topics of registered images so.
+void read_depth_camera(BagRecording& recording, const TransformTree& transforms,
+                       Calibration& calibration) {
+  const BagStream& depth = recording.depth;
+  if (depth.empty() || depth.frame_id == recording.color.frame_id) return;
+  for (const char* word : {"aligned", "registered", "to_color", "to_rgb"}) {
+    if (depth.topic.find(word) != std::string::npos) return;
+  }
+  const std::string info = camera_info_beside(depth.topic);
+  const auto T =
+      transforms.lookup(recording.color.frame_id, depth.frame_id, recording.frames.front().stamp);
+  if (!T || recording.bag->count(info) == 0) return;
+  const bool rectified = depth.topic.find("rect") != std::string::npos;
+  const CameraIntrinsics camera = intrinsics_of(recording.bag->read<msg::CameraInfo>(info, 0),
+                                                rectified, recording.bag->where(info, 0));
+  calibration.depth_camera = DepthCamera{camera, Transform<Camera, Depth>(*T)};
+  recording.facts.push_back("depth: registered to the color images by " + info +
+                            " and the transform from " + depth.frame_id + " to " +
+                            recording.color.frame_id);
+}
+
 }  // namespace
 
 Calibration bag_calibration(BagRecording& recording, const std::string& camera_info,
@@ -58,6 +81,7 @@ Calibration bag_calibration(BagRecording& recording, const std::string& camera_i
   }
   if (!recording.color.empty() && !calibration.camera) {
     read_camera(recording, camera_info, calibration, path.string());
+    read_depth_camera(recording, transforms, calibration);
   }
   return calibration;
 }

@@ -172,8 +172,10 @@ BagRecording read_bag_recording(const fs::path& path, const SourceOptions& optio
   recording.cloud = read_stream(bag, topics.cloud);
   topics.cloud.empty() ? make_rgbd_frames(recording, path.string()) : make_cloud_frames(recording);
   const TransformTree transforms = read_transforms(bag);
-  recording.calibration = std::make_shared<const Calibration>(
+  const auto calibration = std::make_shared<const Calibration>(
       bag_calibration(recording, topics.camera_info, transforms, path, options.camera.file));
+  recording.calibration = registered_calibration(calibration);
+  recording.registration = make_registration(*calibration);
   find_masks(recording, topics.mask, options);
   if (!topics.truth.empty()) {
     const BagStream& sensor = topics.cloud.empty() ? recording.color : recording.cloud;

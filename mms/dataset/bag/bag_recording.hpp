@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mms/core/calibration.hpp"
 #include "mms/core/trajectory.hpp"
 #include "mms/dataset/source/source_options.hpp"
+#include "mms/geometry/depth_registration.hpp"
 #include "mms/ros/bag_reader.hpp"
 
 namespace mms {
@@ -39,7 +41,8 @@ struct BagRecording {
   std::unique_ptr<BagReader> bag;
   BagStream color, depth, cloud, mask;  ///< no stamps if absent
   std::vector<BagFrame> frames;
-  std::shared_ptr<const Calibration> calibration;
+  std::shared_ptr<const Calibration> calibration;  ///< of the frames
+  std::optional<DepthRegistration> registration;   ///< of depth images that need it
   Trajectory ground_truth;
   std::vector<std::string> facts;     ///< lines for `describe`
   std::vector<std::string> warnings;  ///< non-fatal faults

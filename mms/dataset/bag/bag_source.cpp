@@ -81,9 +81,12 @@ class BagSource final : public RecordedSource {
     frame.color = read_color(bag, recording_.color, at.color);
     check_size(frame.color, camera, bag.where(recording_.color.topic, at.color));
     if (at.depth != BagFrame::kNone) {
+      const auto& registration = recording_.registration;
       frame.depth = read_depth(bag, recording_.depth, at.depth);
-      check_size(frame.depth, camera, bag.where(recording_.depth.topic, at.depth),
-                 "it must be registered to the color image");
+      check_size(frame.depth, registration ? registration->depth_camera() : camera,
+                 bag.where(recording_.depth.topic, at.depth),
+                 registration ? "" : "it must be registered to the color image");
+      if (registration) frame.depth = registration->apply(frame.depth);
       frame.depth_offset = recording_.depth.stamps[at.depth] - at.stamp;
     }
     if (at.mask != BagFrame::kNone) {

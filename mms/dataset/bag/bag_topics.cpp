@@ -118,16 +118,10 @@ int color_rank(const BagTopic& topic, const EncodingOf& encoding_of) {
   return rank;
 }
 
-/// The name without its last part and the parts of compressed or rectified images.
-std::string camera_of(std::string topic) {
-  if (topic.ends_with("/compressed")) topic.resize(topic.rfind('/'));
-  return topic.substr(0, topic.rfind('/') + 1);
-}
-
 std::string find_camera_info(const Choice& choice, const std::string& color) {
   return choice.best([&](const BagTopic& topic) {
     if (topic.type != "sensor_msgs/CameraInfo") return 0;
-    const bool beside = topic.name == camera_of(color) + "camera_info";
+    const bool beside = topic.name == camera_info_beside(color);
     return beside ? 100'000 : 1 + static_cast<int>(common(topic.name, color));
   });
 }
@@ -143,6 +137,13 @@ std::string find_truth(const Choice& choice) {
 }
 
 }  // namespace
+
+std::string camera_info_beside(std::string topic) {
+  for (const char* part : {"/compressedDepth", "/compressed"}) {
+    if (topic.ends_with(part)) topic.resize(topic.rfind('/'));
+  }
+  return topic.substr(0, topic.rfind('/') + 1) + "camera_info";
+}
 
 BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicNames& given,
                             const EncodingOf& encoding_of, const std::string& where) {

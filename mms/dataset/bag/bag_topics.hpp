@@ -23,4 +23,7 @@ using EncodingOf = std::function<std::string(const BagTopic&)>;
 BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicNames& given,
                             const EncodingOf& encoding_of, const std::string& where);
 
+/// Topic of the camera_info beside a topic of images: "/rgb/camera_info" for "/rgb/image".
+std::string camera_info_beside(std::string topic);
+
 }  // namespace mms

@@ -118,7 +118,8 @@ std::vector<std::string> RecordingCheck::depth_faults() const {
   }
   if (const auto fault = alignment_.fault()) {
     faults.push_back("the depth is " + *fault +
-                     "; depth images must be registered to the color images");
+                     "; depth images must be registered to the color images, or their camera be "
+                     "stated as depth_camera in calibration.yaml");
   }
   return faults;
 }

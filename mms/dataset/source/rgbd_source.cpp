@@ -79,7 +79,10 @@ Image<Rgb> read_color_of(const RgbdRecording& recording, const RgbdFiles& frame)
   return recording.video ? recording.video->read(frame.video_index) : read_color(frame.color);
 }
 
-RgbdSource::RgbdSource(RgbdRecording recording) : recording_(std::move(recording)) {
+RgbdSource::RgbdSource(RgbdRecording recording)
+    : recording_(std::move(recording)),
+      calibration_(registered_calibration(recording_.calibration)),
+      registration_(make_registration(*recording_.calibration)) {
   set_ground_truth(std::move(recording_.ground_truth));
   set_map_truth(recording_.folder / "map_truth.ply");
   set_objects_truth(recording_.folder / "objects_truth.json");
@@ -95,14 +98,15 @@ Frame RgbdSource::read(std::size_t index) const {
   const RgbdFiles& files = recording_.frames[index];
   const CameraIntrinsics& camera = *recording_.calibration->camera;
   Frame frame;
-  frame.calibration = recording_.calibration;
+  frame.calibration = calibration_;
   frame.depth_offset = files.depth_offset;
   const CameraIntrinsics color_camera = recording_.color_camera.value_or(camera);
   frame.color = read_color_of(recording_, files);
   check_size(frame.color, color_camera, files.color);
   frame.depth =
       read_depth(files.depth, recording_.calibration->depth_scale, recording_.invalid_depth);
-  check_size(frame.depth, camera, files.depth);
+  check_size(frame.depth, registration_ ? registration_->depth_camera() : camera, files.depth);
+  if (registration_) frame.depth = registration_->apply(frame.depth);
   if (!files.mask.empty()) {
     frame.mask = read_mask(files.mask);
     check_size(frame.mask, color_camera, files.mask);
@@ -119,6 +123,11 @@ std::vector<std::string> RgbdSource::facts() const {
   std::vector<std::string> lines = recording_.facts;
   lines.push_back("sensor: depth camera, " +
                   size_text(calibration.camera->width, calibration.camera->height) + " pixels");
+  if (registration_) {
+    const CameraIntrinsics& depth = registration_->depth_camera();
+    lines.push_back("depth: " + size_text(depth.width, depth.height) +
+                    " pixels, registered to the color images by the extrinsics");
+  }
   lines.push_back("depth scale: " + format_number(calibration.depth_scale) + " units per meter");
   return lines;
 }

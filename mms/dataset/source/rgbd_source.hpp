@@ -9,6 +9,7 @@
 
 #include "mms/dataset/source/recorded_source.hpp"
 #include "mms/dataset/source/source_options.hpp"
+#include "mms/geometry/depth_registration.hpp"
 #include "mms/io/video/video_reader.hpp"
 
 namespace mms {
@@ -18,7 +19,7 @@ struct RgbdFiles {
   Timestamp stamp;              ///< of the color image
   Duration depth_offset{0};     ///< of the depth image, relative to `stamp`
   std::filesystem::path color;  ///< 8-bit image, or the video
-  std::filesystem::path depth;  ///< as of `read_depth`, registered to `color`
+  std::filesystem::path depth;  ///< as of `read_depth`
   std::filesystem::path mask;   ///< empty for none
   std::string name;             ///< file name of the frame's mask without ".png"
   std::size_t video_index = 0;  ///< of the color image, if `color` is a video
@@ -26,9 +27,10 @@ struct RgbdFiles {
 
 /// An RGB-D recording before its images are read.
 struct RgbdRecording {
-  std::filesystem::path folder;                    ///< of the recording
-  std::vector<RgbdFiles> frames;                   ///< in order of stamps
-  std::shared_ptr<const Calibration> calibration;  ///< with a camera
+  std::filesystem::path folder;   ///< of the recording
+  std::vector<RgbdFiles> frames;  ///< in order of stamps
+  /// With a camera; its `depth_camera` is that of the depth images, if they are not registered.
+  std::shared_ptr<const Calibration> calibration;
   /// Camera of the color images and masks where it is not that of the depth images. It has the
   /// same place and orientation; colors and masks are sampled for the pixels of the depth images.
   std::optional<CameraIntrinsics> color_camera;
@@ -57,7 +59,7 @@ class RgbdSource final : public RecordedSource {
 
   std::size_t size() const override { return recording_.frames.size(); }
   bool has_masks() const override;
-  std::shared_ptr<const Calibration> calibration() const override { return recording_.calibration; }
+  std::shared_ptr<const Calibration> calibration() const override { return calibration_; }
 
  protected:
   Timestamp stamp_at(std::size_t index) const override { return recording_.frames[index].stamp; }
@@ -67,6 +69,8 @@ class RgbdSource final : public RecordedSource {
 
  private:
   RgbdRecording recording_;
+  std::shared_ptr<const Calibration> calibration_;  ///< of the frames
+  std::optional<DepthRegistration> registration_;   ///< of depth images that need it
 };
 
 }  // namespace mms

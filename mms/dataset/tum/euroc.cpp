@@ -42,6 +42,21 @@ void read_body_poses(RgbdRecording& recording, const fs::path& file,
                             std::to_string(recording.ground_truth.size()));
 }
 
+/// Depth images with a camera of their own are registered. Registered ones have that of cam0.
+void add_depth_camera(RgbdRecording& recording, const Eigen::Isometry3d& T_body_color,
+                      Calibration& calibration) {
+  const fs::path file = recording.folder / "depth0" / "sensor.yaml";
+  if (!fs::exists(file)) return;
+  const FormattedCalibration depth = read_any_calibration(file);
+  if (!depth.calibration.camera || !depth.T_body_camera) return;
+  const Eigen::Isometry3d T_color_depth = T_body_color.inverse() * *depth.T_body_camera;
+  if (*depth.calibration.camera == *calibration.camera &&
+      T_color_depth.isApprox(Eigen::Isometry3d::Identity()))
+    return;
+  calibration.depth_camera =
+      DepthCamera{*depth.calibration.camera, Transform<Camera, Depth>(T_color_depth)};
+}
+
 }  // namespace
 
 bool is_euroc_layout(const std::vector<std::string>& names) {
@@ -67,6 +82,9 @@ std::unique_ptr<FrameSource> open_euroc(const fs::path& folder, const SourceOpti
   choose_calibration(recording, options.camera, [&]() -> std::optional<Calibration> {
     if (!camera.calibration.camera) return std::nullopt;
     recording.facts.emplace_back("calibration: cam0/sensor.yaml, 1000 depth units per meter");
+    if (camera.T_body_camera) {
+      add_depth_camera(recording, *camera.T_body_camera, camera.calibration);
+    }
     return camera.calibration;
   });
   read_body_poses(recording, recording.folder / kTruth / "data.csv",

@@ -175,6 +175,7 @@ bool has_size(const CameraIntrinsics& camera, int width, int height) {
 
 /// Where video and depth images differ in size, the calibration may be that of either.
 void fit_cameras(RgbdRecording& recording) {
+  if (recording.calibration->depth_camera) return;  // the depth images are registered
   const int width = recording.video->width();
   const int height = recording.video->height();
   const Image<float> depth = first_depth(recording);
@@ -184,7 +185,8 @@ void fit_cameras(RgbdRecording& recording) {
                     "has a video of " + std::to_string(width) + "x" + std::to_string(height) +
                         " pixels and depth images of " + std::to_string(depth.width()) + "x" +
                         std::to_string(depth.height()),
-                    "depth images must be registered to the color images");
+                    "depth images must be registered to the color images, or their camera be "
+                    "stated as depth_camera in calibration.yaml");
   }
   Calibration calibration = *recording.calibration;
   CameraIntrinsics& camera = *calibration.camera;

@@ -70,13 +70,21 @@ CameraIntrinsics read_camera(YamlMap& map, const std::string& file) {
   return camera;
 }
 
-Eigen::Isometry3d read_transform(const YamlMap& map, const YAML::Node& node) {
-  constexpr std::string_view kKey = "T_camera_lidar";
+Eigen::Isometry3d read_transform(const YamlMap& map, const YAML::Node& node, std::string_view key) {
   try {
-    return isometry_from_rows(matrix_numbers(map, node, kKey), std::string(kKey));
+    return isometry_from_rows(matrix_numbers(map, node, key), std::string(key));
   } catch (const DataError& error) {
-    map.fail(node, kKey, std::string("is not a rigid transform: ") + error.what());
+    map.fail(node, key, std::string("is not a rigid transform: ") + error.what());
   }
+}
+
+DepthCamera read_depth_camera(YamlMap map, const std::string& file) {
+  DepthCamera depth;
+  depth.camera = read_camera(map, file + ": depth_camera");
+  const YAML::Node transform = required(map, file + ": depth_camera", "T_color_depth");
+  depth.T_color_depth = Transform<Camera, Depth>(read_transform(map, transform, "T_color_depth"));
+  map.reject_unknown();
+  return depth;
 }
 
 std::string list(std::span<const double> numbers) {
@@ -85,24 +93,44 @@ std::string list(std::span<const double> numbers) {
   return text + "]";
 }
 
+std::string camera_text(const CameraIntrinsics& camera, const std::string& indent) {
+  return indent + "fx: " + format_number(camera.fx) + "  # [px]\n" +   //
+         indent + "fy: " + format_number(camera.fy) + "\n" +           //
+         indent + "cx: " + format_number(camera.cx) + "\n" +           //
+         indent + "cy: " + format_number(camera.cy) + "\n" +           //
+         indent + "width: " + std::to_string(camera.width) + "\n" +    //
+         indent + "height: " + std::to_string(camera.height) + "\n" +  //
+         indent + "distortion: " + list(camera.distortion) + "  # k1 k2 p1 p2 k3\n";
+}
+
+std::string rows_text(const Eigen::Isometry3d& transform) {
+  const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows = transform.matrix().topRows<3>();
+  return list(std::span(rows.data(), 12)) + "  # 3x4, row by row [m]\n";
+}
+
 }  // namespace
 
 Calibration read_calibration(const std::filesystem::path& path) {
   YamlMap map = YamlMap::load(path);
   Calibration calibration;
   if (const auto node = map.find("T_camera_lidar")) {
-    calibration.T_camera_lidar = Transform<Camera, Lidar>(read_transform(map, *node));
+    calibration.T_camera_lidar =
+        Transform<Camera, Lidar>(read_transform(map, *node, "T_camera_lidar"));
   }
   const auto camera =
       std::count_if(std::begin(kCameraKeys), std::end(kCameraKeys),
                     [&](std::string_view key) { return map.find(key).has_value(); });
+  const bool has_depth_camera = map.find("depth_camera").has_value();
   map.reject_unknown();
-  if (camera == 0) return calibration;
+  if (camera == 0 && !has_depth_camera) return calibration;
   calibration.camera = read_camera(map, path.string());
   calibration.depth_scale =
       map.number(required(map, path.string(), "depth_scale"), "depth_scale", kDepthScaleRange);
   if (const auto node = map.find("max_depth")) {
     calibration.max_depth = map.number(*node, "max_depth", kMaxDepth);
+  }
+  if (has_depth_camera) {
+    calibration.depth_camera = read_depth_camera(map.child("depth_camera"), path.string());
   }
   return calibration;
 }
@@ -110,22 +138,17 @@ Calibration read_calibration(const std::filesystem::path& path) {
 void write_calibration(const std::filesystem::path& path, const Calibration& calibration) {
   std::string text;
   if (calibration.camera) {
-    const CameraIntrinsics& camera = *calibration.camera;
-    text += "fx: " + format_number(camera.fx) + "  # [px]\n";
-    text += "fy: " + format_number(camera.fy) + "\n";
-    text += "cx: " + format_number(camera.cx) + "\n";
-    text += "cy: " + format_number(camera.cy) + "\n";
-    text += "width: " + std::to_string(camera.width) + "\n";
-    text += "height: " + std::to_string(camera.height) + "\n";
-    text += "distortion: " + list(camera.distortion) + "  # k1 k2 p1 p2 k3\n";
+    text += camera_text(*calibration.camera, "");
     text += "depth_scale: " + format_number(calibration.depth_scale) + "  # units per meter\n";
     if (calibration.max_depth) {
       text += "max_depth: " + format_number(*calibration.max_depth) + "  # [m]\n";
     }
   }
-  const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows =
-      calibration.T_camera_lidar.isometry().matrix().topRows<3>();
-  text += "T_camera_lidar: " + list(std::span(rows.data(), 12)) + "  # 3x4, row by row [m]\n";
+  if (calibration.depth_camera) {
+    text += "depth_camera:\n" + camera_text(calibration.depth_camera->camera, "  ");
+    text += "  T_color_depth: " + rows_text(calibration.depth_camera->T_color_depth.isometry());
+  }
+  text += "T_camera_lidar: " + rows_text(calibration.T_camera_lidar.isometry());
   write_file(path, text);
 }
 
