@@ -39,6 +39,10 @@ const connection = new Connection(socketAddress(), {
   },
 });
 
+if (!hasWebGl()) {
+  notice.stop('This browser has no WebGL 2', 'Turn on graphics acceleration in its settings, or use another browser.');
+  throw new Error('WebGL 2 is missing');
+}
 const scene = new SceneView(part('scene'), run, settings);
 const player = new Player(run, (command) => connection.send(command));
 new Place(run, (command) => connection.send(command));
@@ -73,6 +77,10 @@ addEventListener('resize', () => sendWanted());
 
 connection.connect();
 setInterval(sendFocus, kFocusEvery);
+
+function hasWebGl(): boolean {
+  return document.createElement('canvas').getContext('webgl2') !== null;
+}
 
 function showBadge(): void {
   const badge = part('badge');

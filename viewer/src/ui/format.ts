@@ -1,5 +1,10 @@
 import type { Unit } from '../protocol/messages';
 
+/** Place of a frame, given by its index, among all, counted from 1. */
+export function frameOf(index: number, frames: number): string {
+  return `frame ${Math.min(index + 1, frames)} of ${frames}`;
+}
+
 /** 83.4 s as 1:23.4. */
 export function clock(seconds: number): string {
   const tenths = Math.round(seconds * 10);

@@ -13,6 +13,8 @@ export class ImagePanel {
   private image: ImageBitmap | null = null;
   private overlay: HTMLCanvasElement | null = null;
   private busy = false;
+  /** The image of the frame is not there yet. */
+  private pending = true;
   private waiting: FrameMessage | null = null;
 
   constructor(
@@ -30,13 +32,15 @@ export class ImagePanel {
 
   private clear(): void {
     this.image = this.overlay = null;
+    this.pending = this.run.frame === null;
     delete this.canvas.dataset.frame;
     this.draw();
   }
 
   /** Decoding may take longer than a frame on a slow machine: then only the newest image is decoded. */
   private show(frame: FrameMessage): void {
-    if (frame.picturesPending) return; // keeps the last image until the next one arrives
+    this.pending = frame.picturesPending;
+    if (this.pending) return this.draw(); // keeps the last image until the next one arrives
     if (!frame.image && !frame.mask) return this.clear();
     this.waiting = frame;
     if (!this.busy) void this.decodeWaiting();
@@ -72,7 +76,8 @@ export class ImagePanel {
   private emptyText(): string {
     if (!this.run.hello) return '';
     if (this.run.hello.picturesNote) return this.run.hello.picturesNote;
-    return this.run.hello.image ? 'No image came with this frame' : 'This run has no camera images';
+    if (!this.run.hello.image) return 'This run has no camera images';
+    return this.pending ? 'Loading image' : 'No image came with this frame';
   }
 }
 

@@ -13,6 +13,8 @@ export class Notice {
   private readonly text = h('p');
   private readonly again: HTMLElement;
   private state: ConnectionState = { kind: 'connecting', attempt: 0 };
+  /** Why the page cannot work in this browser. */
+  private fault: { title: string; text: string } | null = null;
 
   constructor(
     private readonly run: Run,
@@ -32,6 +34,12 @@ export class Notice {
     this.update();
   }
 
+  /** Says why the page cannot work in this browser. */
+  stop(title: string, text: string): void {
+    this.fault = { title, text };
+    this.update();
+  }
+
   toast(message: string): void {
     const known = [...part('toasts').children].find((child) => child.textContent === message);
     known?.remove();
@@ -45,15 +53,18 @@ export class Notice {
     const said = this.words();
     this.card.hidden = said === null;
     this.card.classList.toggle('small', run.frame !== null);
+    this.card.classList.toggle('stopped', this.fault !== null);
     this.again.hidden = state.kind !== 'waiting';
     setText(this.title, said?.title ?? '');
     setText(this.text, said?.text ?? '');
     this.pill.dataset.state = state.kind;
-    setText(this.pill, { connecting: 'Connecting', open: 'Connected', waiting: 'Offline' }[state.kind]);
+    const word = { connecting: 'Connecting', open: 'Connected', waiting: 'Offline' }[state.kind];
+    setText(this.pill, this.fault ? 'Stopped' : word);
     document.body.classList.toggle('offline', state.kind !== 'open');
   }
 
   private words(): { title: string; text: string } | null {
+    if (this.fault) return this.fault;
     const { state, run } = this;
     const known = run.frame !== null;
     if (state.kind === 'waiting') {

@@ -1,7 +1,7 @@
 import type { Command } from '../protocol/messages';
 import type { Run } from '../state/run';
 import { h, part, setText, throttled } from './dom';
-import { clock } from './format';
+import { clock, frameOf } from './format';
 import { icon } from './icons';
 
 const kSpeeds = [0.25, 0.5, 1, 2, 4, 8];
@@ -118,7 +118,7 @@ export class Player {
     this.range.style.setProperty('--done', `${(100 * frame) / Math.max(1, this.last)}%`);
     const [now, end] = [trajectory.time(frame), trajectory.time(this.last)];
     setText(this.time, now === null ? '' : `${clock(now)} / ${clock(end ?? now)}`);
-    setText(this.frames, hello ? `frame ${frame} of ${this.last}` : '');
+    setText(this.frames, hello ? frameOf(frame, this.run.frames) : '');
     this.speed.hidden = this.run.live;
     this.speed.value = String(playback.speed);
     this.updateLive(frame);

@@ -33,7 +33,7 @@ after(async () => {
 
 const scene = () => page.locator('#scene');
 const pixels = () => countPixels(page, scene());
-const frame = async () => Number(/frame (\d+)/.exec(await page.textContent('.frames'))?.[1] ?? -1);
+const frame = async () => Number(/frame (\d+)/.exec(await page.textContent('.frames'))?.[1] ?? 0) - 1;
 const image = () => countPixels(page, page.locator('#image'));
 const pill = () => page.textContent('#connection');
 

@@ -1,13 +1,16 @@
 import { describe, expect, it } from 'vitest';
 import { plotData } from '../../src/ui/chart_data';
 import { classWord } from '../../src/state/class_words';
-import { clock, quantity, words } from '../../src/ui/format';
+import { clock, frameOf, quantity, words } from '../../src/ui/format';
 import { tint } from '../../src/ui/mask_overlay';
 
 describe('format', () => {
   it('formats times and quantities', () => {
     expect(clock(83.44)).toBe('1:23.4');
     expect(clock(59.97)).toBe('1:00.0');
+    expect(frameOf(0, 149)).toBe('frame 1 of 149');
+    expect(frameOf(148, 149)).toBe('frame 149 of 149');
+    expect(frameOf(0, 0)).toBe('frame 0 of 0');
     expect(quantity(9.94, 'ms')).toBe('9.9 ms');
     expect(quantity(143.2, 'ms')).toBe('143 ms');
     expect(quantity(0.104, 'ratio')).toBe('10.4 %');
