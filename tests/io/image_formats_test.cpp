@@ -134,6 +134,14 @@ TEST(ImageFormats, RejectsHugeSizesBeforeDecoding) {
   expect_in("is 5x65535 pixels", message_of<DataError>([&] {
               read_color(folder.write("a.jpg", changed(jpeg, frame + 5, "\xFF\xFF")));
             }));
+  enable_exr();
+  const std::string exr = encoded(".exr", pattern(CV_32FC1));
+  const std::string window("dataWindow\0box2i\0\x10\0\0\0", 21);
+  const std::size_t right = exr.find(window) + window.size() + 8;
+  ASSERT_NE(exr.find(window), std::string::npos);
+  expect_in("is 65536x4 pixels, allowed: up to 16384x16384", message_of<DataError>([&] {
+              read_stored_depth(folder.write("a.exr", changed(exr, right, {"\xFF\xFF\0\0", 4})));
+            }));
 }
 
 }  // namespace

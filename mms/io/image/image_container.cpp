@@ -149,6 +149,34 @@ bool pfm_is_whole(Bytes bytes) {
   return bytes.size() - header->second >= width * height * pixel;
 }
 
+/// Iterates over the attributes (name, type, size, value) of the header up to dataWindow, which has
+/// xMin, yMin, xMax, yMax as int32.
+std::optional<Size> exr_size(Bytes bytes) {
+  std::size_t at = 8;  // after signature and version
+  while (at < bytes.size() && bytes[at] != '\0') {
+    const std::size_t name_end = bytes.find('\0', at);
+    const std::size_t type_end =
+        name_end == Bytes::npos ? name_end : bytes.find('\0', name_end + 1);
+    if (type_end == Bytes::npos || type_end + 5 > bytes.size()) return std::nullopt;
+    const std::size_t value = type_end + 5;
+    const std::uint64_t length = little_endian(bytes, type_end + 1, 4);
+    if (length > bytes.size() - value) return std::nullopt;
+    if (bytes.substr(at, name_end - at) == "dataWindow" && length == 16) {
+      const auto side = [&](std::size_t low) {
+        const auto number = [&](std::size_t k) {
+          return static_cast<std::int64_t>(
+              static_cast<std::int32_t>(little_endian(bytes, value + k, 4)));
+        };
+        return static_cast<std::uint64_t>(
+            std::max<std::int64_t>(0, number(low + 8) - number(low) + 1));
+      };
+      return Size(side(0), side(4));
+    }
+    at = value + length;
+  }
+  return std::nullopt;
+}
+
 bool is_whole(Bytes) {
   return true;
 }
@@ -169,7 +197,7 @@ constexpr Container kContainers[] = {{"PNG", kPngSignature, png_is_whole, png_si
                                      {"TIFF", Bytes("II*\0", 4), is_whole, tiff_size},
                                      {"TIFF", Bytes("MM\0*", 4), is_whole, tiff_size},
                                      {"BMP", "BM", bmp_is_whole, bmp_size},
-                                     {"EXR", "\x76\x2F\x31\x01", is_whole, unknown_size},
+                                     {"EXR", "\x76\x2F\x31\x01", is_whole, exr_size},
                                      {"PFM", "Pf\n", pfm_is_whole, pfm_size},
                                      {"PFM", "PF\n", pfm_is_whole, pfm_size},
                                      {"WebP", "RIFF", webp_is_whole, unknown_size}};
