@@ -214,10 +214,10 @@ TEST(LidarScans, ReadsSensorsOfHeLiPR) {
       {"Aeva", helipr_record(29, 20, kNanoseconds)}};
   for (const auto& [sensor, record] : sensors) {
     const TempFolder folder;
-    folder.write("LiDAR/" + sensor + "/1689519062000000000.bin", record + record);
-    folder.write("LiDAR/" + sensor + "/1689519062100000000.bin", record);
+    folder.write("LiDAR/" + sensor + "/1691936558000000000.bin", record + record);
+    folder.write("LiDAR/" + sensor + "/1691936558100000000.bin", record);
     folder.write("LiDAR_GT/global_" + sensor + "_gt.txt",
-                 "1689519062000000000 1 2 3 0 0 0 1\n1689519062100000000 1.5 2 3 0 0 0 1\n");
+                 "1691936558000000000 1 2 3 0 0 0 1\n1691936558100000000 1.5 2 3 0 0 0 1\n");
     const Playback played(open_dataset(folder.path() / "LiDAR" / sensor));
     ASSERT_EQ(played.frames.size(), 2U) << sensor;
     const LidarScan& scan = played.frames[0].scan;
@@ -239,6 +239,16 @@ TEST(LidarScans, ReadsOusterOfHeLiPRFromTheFolderAbove) {
   ASSERT_EQ(played.frames.size(), 1U);
   EXPECT_EQ(played.frames[0].scan.points.size(), 8U);
   EXPECT_EQ(played.source->ground_truth().size(), 1U);
+}
+
+TEST(LidarScans, ReadsShorterRecordsOfEarlierAeva) {
+  const TempFolder folder;
+  const std::string record = helipr_record(25, 20, std::uint32_t{50'000'000});
+  folder.write("LiDAR/Aeva/1689519062000000000.bin", record + record + record);
+  const Playback early(open_dataset(folder.path() / "LiDAR/Aeva"));
+  ASSERT_EQ(early.frames.size(), 1U);
+  EXPECT_EQ(early.frames[0].scan.points.size(), 3U);
+  EXPECT_NEAR(early.frames[0].scan.time_offset.at(2), 0.05F, 1e-6F);
 }
 
 TEST(LidarScans, SkipsScansWithTimesThatAreNone) {

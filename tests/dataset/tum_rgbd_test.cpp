@@ -241,7 +241,37 @@ TEST(TumRgbd, ReadsListsOfOpenLoris) {
   write_tum(folder, 2);
   std::filesystem::rename(folder.path() / "rgb.txt", folder.path() / "color.txt");
   std::filesystem::rename(folder.path() / "depth.txt", folder.path() / "aligned_depth.txt");
-  EXPECT_EQ(Playback(open_dataset(folder.path())).names(), "f0 f1");
+  std::filesystem::remove(folder.path() / "calibration.yaml");
+  folder.write("sensors.yaml", R"(%YAML:1.0
+---
+d400_depth_optical_frame:
+   intrinsics: !!opencv-matrix
+      rows: 1
+      cols: 4
+      dt: d
+      data: [ 1, 1, 1, 1 ]
+d400_color_optical_frame:
+   sensor_type: camera
+   fps: 30
+   width: 8
+   height: 6
+   model: pinhole
+   intrinsics: !!opencv-matrix
+      rows: 1
+      cols: 4
+      dt: d
+      data: [ 10., 4., 11., 3. ]
+   distortion_model: "radial-tangential"
+   distortion_coefficients: !!opencv-matrix
+      rows: 1
+      cols: 5
+      dt: d
+      data: [ 0.1, 0., 0., 0., 0. ]
+)");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "f0 f1");
+  EXPECT_EQ(*played.source->calibration()->camera,
+            (CameraIntrinsics{10, 11, 4, 3, 8, 6, {0.1, 0, 0, 0, 0}}));
 }
 
 /// ICL-NUIM numbers its images in place of stamps, and the y axis of its camera is up.

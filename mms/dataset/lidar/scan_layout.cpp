@@ -6,6 +6,7 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/io/text/files.hpp"
+#include "mms/io/text/numbers.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -55,11 +56,21 @@ constexpr HeLiPRSensor kHeLiPRSensors[] = {
       .time = PointTime::kIntegerNanoseconds,
       .time_at = 15}},
     {"Aeva",
-     {.kind = Kind::kRecords,
-      .bytes = 29,
-      .has_intensity = false,
-      .time = PointTime::kIntegerNanoseconds,
-      .time_at = 20}}};
+     {.kind = Kind::kRecords, .bytes = 29, .time = PointTime::kIntegerNanoseconds, .time_at = 20}}};
+
+/// Until this stamp, records of the Aeva end before the last float32, an intensity besides the
+/// reflectivity.
+constexpr std::int64_t kLastShortAeva = 1'691'936'557'946'849'179;  // [ns]
+constexpr std::size_t kShortAevaBytes = 25;
+
+ScanFormat format_of(const HeLiPRSensor& sensor, const fs::path& scan) {
+  ScanFormat format = sensor.format;
+  const auto stamp = parse_integer(scan.stem().string());
+  if (sensor.name == std::string_view("Aeva") && stamp && *stamp <= kLastShortAeva) {
+    format.bytes = kShortAevaBytes;
+  }
+  return format;
+}
 
 /// @param folder  of the scans
 const HeLiPRSensor* helipr_sensor(const fs::path& folder) {
@@ -137,8 +148,10 @@ ScanLayout find_scan_layout(const fs::path& folder) {
         scans_in(*known.folder == '\0' ? folder : folder / known.folder, known.ending);
     if (scans.empty()) continue;
     const HeLiPRSensor* sensor = helipr_sensor(scans.front().parent_path());
-    if (sensor != nullptr)
-      return {"HeLiPR", ScanDataset::kHeLiPR, std::move(scans), sensor->format};
+    if (sensor != nullptr) {
+      const ScanFormat format = format_of(*sensor, scans.front());
+      return {"HeLiPR", ScanDataset::kHeLiPR, std::move(scans), format};
+    }
     return {known.name, known.dataset, std::move(scans), known.format};
   }
   throw DataError(folder.string(), "has no *.bin scans, and neither has velodyne/");

@@ -9,6 +9,7 @@
 #include "mms/dataset/source/rgbd_source.hpp"
 #include "mms/dataset/tum/matched_lists.hpp"
 #include "mms/dataset/tum/tum_calibration.hpp"
+#include "mms/io/config/calibration_formats.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/files.hpp"
 
@@ -63,6 +64,12 @@ std::optional<Calibration> known_calibration(RgbdRecording& recording,
   if (fs::exists(eth3d)) {
     recording.facts.emplace_back("calibration: calibration.txt (ETH3D)");
     return read_eth3d_calibration(eth3d, first_color(recording));
+  }
+  const fs::path openloris = recording.folder / "sensors.yaml";
+  if (fs::exists(openloris)) {
+    recording.facts.emplace_back(
+        "calibration: sensors.yaml (OpenLORIS), 1000 depth units per meter");
+    return read_any_calibration(openloris).calibration;
   }
   if (icl_truth) {
     recording.facts.emplace_back("calibration: default of ICL-NUIM");

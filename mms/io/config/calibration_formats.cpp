@@ -150,6 +150,24 @@ CameraIntrinsics camera_of_lists(CameraMap& map) {
   return camera;
 }
 
+/// The color camera of OpenLORIS, whose intrinsics are fx, cx, fy, cy.
+CameraIntrinsics camera_of_openloris(CameraMap& map) {
+  constexpr const char* kIntrinsics[] = {"intrinsics"};
+  constexpr const char* kCoefficients[] = {"distortion_coefficients"};
+  constexpr const char* kWidth[] = {"width"};
+  constexpr const char* kHeight[] = {"height"};
+  map.check_model("model", kPinhole);
+  map.check_model("distortion_model", kPlumbBob);
+  const YAML::Node intrinsics = map.required(kIntrinsics);
+  const std::vector<double> k = map.numbers(intrinsics, kIntrinsics[0]);
+  if (k.size() != 4) map.fail(intrinsics, kIntrinsics[0], "is not fx, cx, fy, cy");
+  CameraIntrinsics camera{k[0], k[2], k[1], k[3], map.side(kWidth), map.side(kHeight), {}};
+  if (const auto node = map.find(kCoefficients)) {
+    camera.distortion = distortion_of(map, *node, kCoefficients[0]);
+  }
+  return camera;
+}
+
 std::optional<Eigen::Isometry3d> pose_in_body(CameraMap& map, const fs::path& path) {
   constexpr const char* kKey = "T_BS";
   const auto node = map.find(std::array{kKey});
@@ -222,6 +240,12 @@ FormattedCalibration read_any_calibration(const fs::path& path) {
     YamlMap camera = file.child("cam0");
     CameraMap first(camera, path.string());
     return with_camera("Kalibr", camera_of_lists(first), path);
+  }
+  constexpr const char* kOpenLoris = "d400_color_optical_frame";
+  if (has(kOpenLoris)) {
+    YamlMap camera = file.child(kOpenLoris);
+    CameraMap color(camera, path.string());
+    return with_camera("OpenLORIS", camera_of_openloris(color), path);
   }
   if (has("intrinsics")) {
     FormattedCalibration result = with_camera("EuRoC", camera_of_lists(map), path);

@@ -20,9 +20,9 @@ struct FormattedCalibration {
 
 /// Reads a calibration file of any known format, recognized by its keys: calibration.yaml
 /// (`read_calibration`), the YAML of ROS camera_info and OpenCV, of Kalibr (cam0), of EuRoC's
-/// sensor.yaml and of ORB-SLAM, and the JSON of `read_camera_json`. Of other formats than our own
-/// only the first camera is read: a pinhole camera with up to five coefficients of the model
-/// plumb_bob (radtan).
+/// sensor.yaml, OpenLORIS's sensors.yaml and of ORB-SLAM, and the JSON of `read_camera_json`. Of
+/// other formats than our own only the first camera is read: a pinhole camera with up to five
+/// coefficients of the model plumb_bob (radtan).
 /// @throws FileError if the file cannot be read; ConfigError, DataError with the key for missing or
 /// wrong values, and for other camera and distortion models.
 FormattedCalibration read_any_calibration(const std::filesystem::path& path);
