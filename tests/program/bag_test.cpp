@@ -57,6 +57,9 @@ TEST_F(BagCommands, CompressedBagsAreSmaller) {
   expect_success(run({"convert", "x.bag", "-o", "small.bag", "--compressed"}));
   EXPECT_LT(2 * fs::file_size(path("small.bag")), fs::file_size(path("x.bag")));
   expect_success(run({"run", "small.bag", "--segmenter", "none", "--frames", "3"}));
+  expect_error(run({"convert", "tum", "-o", "small.bag"}),
+               "small.bag: exists already (replace it with --overwrite)");
+  expect_success(run({"convert", "tum", "-o", "small.bag", "--overwrite"}));
 }
 
 TEST_F(BagCommands, ErrorsOfBadBagsAreOneLine) {

@@ -61,6 +61,17 @@ TEST(Convert, ConvertsCloudsBothDirections) {
   EXPECT_EQ(read_file(folder.path() / "a.ply"), read_file(folder.path() / "b.PLY"));
 }
 
+TEST(Convert, ReplacesFilesOnlyIfAsked) {
+  const TempFolder folder;
+  write_trajectory_tum(folder.path() / "a.tum", sample_poses());
+  folder.write("a_kitti.txt", "mine");
+  expect_error(run_mms(folder.path(), {"convert", "a.tum"}),
+               "a_kitti.txt: exists already (replace it with --overwrite)");
+  EXPECT_EQ(read_file(folder.path() / "a_kitti.txt"), "mine");
+  expect_success(run_mms(folder.path(), {"convert", "a.tum", "--overwrite"}));
+  expect_error(run_mms(folder.path(), {"convert", "a.tum", "-o", "a.tum"}), "exists already");
+}
+
 TEST(Convert, ErrorsExplainImpossibleConversions) {
   const TempFolder folder;
   const auto run = [&](const Words& words) {
@@ -106,6 +117,7 @@ TEST(Convert, ErrorsExplainDamagedJournal) {
   EXPECT_FALSE(fs::exists(folder.path() / "results/trajectory.tum"));
   const Outcome outcome = convert(header + encode_frame({}) + "torn");
   expect_success(outcome);
+  expect_error(convert(header + encode_frame({})), "results/trajectory.tum: exists already");
   expect_in("data: 1 frames up to stamp 0.000000000", outcome.out);
   expect_in("the record at byte", outcome.out);
 }

@@ -73,6 +73,12 @@ TEST(Signals, InterruptedCommandsSaySo) {
   const Outcome segment =
       interrupted(folder, {"segment", "sim:still_walker", "-o", "found"}, "found/overlays");
   EXPECT_EQ(segment.exit_code, 130) << segment.err;
+  const Outcome convert =
+      interrupted(folder, {"convert", "sim:still_walker", "-o", "x.bag"}, "x.bag.part");
+  EXPECT_EQ(convert.exit_code, 130) << convert.err;
+  expect_in("of 300 frames are in x.partial.bag", convert.err);
+  EXPECT_TRUE(fs::exists(folder.path() / "x.partial.bag"));
+  EXPECT_FALSE(fs::exists(folder.path() / "x.bag"));
 }
 
 TEST(Signals, IgnoredSignalStaysIgnored) {

@@ -7,7 +7,7 @@
 
 #include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/commands.hpp"
-#include "mms/core/error.hpp"
+#include "apps/mms/console/overwrite_option.hpp"
 #include "mms/io/config/calibration_formats.hpp"
 #include "mms/io/config/calibration_io.hpp"
 
@@ -25,9 +25,7 @@ struct CalibrationArguments {
 void convert_calibration(const CalibrationArguments& arguments) {
   FormattedCalibration read = read_any_calibration(arguments.input);
   if (arguments.depth_scale) read.calibration.depth_scale = *arguments.depth_scale;
-  if (fs::exists(arguments.output) && !arguments.overwrite) {
-    throw FileError(arguments.output.string(), "exists already", "replace it with --overwrite");
-  }
+  refuse_existing_file(arguments.output, arguments.overwrite);
   write_calibration(arguments.output, read.calibration);
   fmt::print("{}: calibration of {} ({})\n", arguments.output.string(), arguments.input.string(),
              read.format);
@@ -49,7 +47,7 @@ void add_calibration_command(CLI::App& app) {
   command->add_option("IN", arguments->input, "calibration file")->required();
   command->add_option("-o,--output", arguments->output, "file to write")->required();
   add_depth_scale_option(*command, arguments->depth_scale);
-  command->add_flag("--overwrite", arguments->overwrite, "replace the file");
+  add_overwrite_flag(*command, arguments->overwrite);
   command->callback([arguments] { convert_calibration(*arguments); });
 }
 

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/convert_files.hpp"
 #include "apps/mms/commands/convert_journal.hpp"
 #include "apps/mms/commands/convert_recording.hpp"
 #include "apps/mms/commands/topic_options.hpp"
+#include "apps/mms/console/overwrite_option.hpp"
 
 namespace mms {
 namespace {
@@ -17,20 +19,22 @@ struct ConvertArguments {
   std::filesystem::path output;  ///< empty: next to the input
   std::filesystem::path stamps;  ///< empty: none
   BagTopicNames topics;
+  CameraOptions camera;
   bool compressed = false;
+  bool overwrite = false;
 };
 
 void convert(const ConvertArguments& arguments) {
   if (is_recording_conversion(arguments.input.string(), arguments.output)) {
-    return convert_recording(
-        {arguments.input.string(), arguments.output, arguments.topics, arguments.compressed});
+    return convert_recording({arguments.input.string(), arguments.output, arguments.topics,
+                              arguments.camera, arguments.compressed, arguments.overwrite});
   }
   const bool journal =
       std::filesystem::is_directory(arguments.input) || arguments.input.filename() == kJournalName;
   if (journal) {
-    convert_journal(arguments.input, arguments.output);
+    convert_journal(arguments.input, arguments.output, arguments.overwrite);
   } else {
-    convert_file(arguments.input, arguments.output, arguments.stamps);
+    convert_file(arguments.input, arguments.output, arguments.stamps, arguments.overwrite);
   }
 }
 
@@ -41,7 +45,7 @@ void add_convert_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "convert",
       "Convert trajectories (.tum, _kitti.txt), clouds (.ply, .pcd) and recordings (folders, "
-      ".bag), or recover trajectory and map from the journal of a killed run");
+      ".bag, .pcap), or recover trajectory and map from the journal of a killed run");
   command
       ->add_option("IN", arguments->input,
                    "file, recording, sim:SCENE, or the result folder of a killed run")
@@ -55,7 +59,9 @@ void add_convert_command(CLI::App& app) {
                       "KITTI's times.txt, for KITTI trajectories, which have no stamps");
   command->add_flag("--compressed", arguments->compressed,
                     "write images into a bag as JPEG, and depth as PNG in millimeters");
+  add_overwrite_flag(*command, arguments->overwrite);
   add_topic_options(*command, arguments->topics);
+  add_calibration_options(*command, arguments->camera);
   command->callback([arguments] { convert(*arguments); });
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/mms/console/overwrite_option.hpp"
 #include "mms/core/error.hpp"
 #include "mms/io/cloud/pcd_io.hpp"
 #include "mms/io/cloud/ply_io.hpp"
@@ -109,7 +110,8 @@ void convert_trajectory(const fs::path& input, Format from, const fs::path& outp
 
 }  // namespace
 
-void convert_file(const fs::path& input, const fs::path& given, const fs::path& stamps) {
+void convert_file(const fs::path& input, const fs::path& given, const fs::path& stamps,
+                  bool overwrite) {
   const Format from = format_of_input(input);
   const fs::path output = given.empty() ? other_file(input, from) : given;
   const Format to = format_of(output);
@@ -119,6 +121,7 @@ void convert_file(const fs::path& input, const fs::path& given, const fs::path& 
                                 input.string(), is_cloud(from) ? "cloud" : "trajectory"),
                     is_cloud(from) ? "choose .ply or .pcd" : "choose .tum or .txt");
   }
+  refuse_existing_file(output, overwrite);
   if (is_cloud(from)) return convert_cloud(input, from, output, to);
   convert_trajectory(input, from, output, to, stamps);
 }

@@ -8,8 +8,9 @@ namespace mms {
 /// @param input   .tum or .txt (TUM or KITTI, by its columns), .ply or .pcd
 /// @param output  of the same kind; empty: next to the input in the other format
 /// @param stamps  file whose lines begin with the stamps of a KITTI trajectory's poses; empty: none
-/// @throws DataError for an unknown or unsuitable extension and invalid files
+/// @throws DataError for an unknown or unsuitable extension and invalid files; FileError if the
+/// output exists, unless `overwrite`.
 void convert_file(const std::filesystem::path& input, const std::filesystem::path& output,
-                  const std::filesystem::path& stamps);
+                  const std::filesystem::path& stamps, bool overwrite);
 
 }  // namespace mms

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/core.h>
 
+#include "apps/mms/console/overwrite_option.hpp"
 #include "mms/core/error.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/run/record/recovered_run.hpp"
@@ -10,6 +11,9 @@
 
 namespace mms {
 namespace {
+
+constexpr const char* kRecoveredFiles[] = {"trajectory.tum", "trajectory_kitti.txt",
+                                           "keyframes.tum", "static_map.ply", "static_map.pcd"};
 
 namespace fs = std::filesystem;
 
@@ -44,10 +48,11 @@ void print_summary(const RecoveredRun& run, const fs::path& folder) {
 
 }  // namespace
 
-void convert_journal(const fs::path& input, const fs::path& output) {
+void convert_journal(const fs::path& input, const fs::path& output, bool overwrite) {
   const fs::path journal = journal_of(input);
   const RecoveredRun run = recover_run(journal);
   const fs::path folder = output.empty() ? journal.parent_path() : output;
+  for (const char* file : kRecoveredFiles) refuse_existing_file(folder / file, overwrite);
   if (!folder.empty()) make_folder(folder);
   write_result_files(folder, run.trajectory, run.keyframes, run.map);
   print_summary(run, folder);

@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 
 #include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/overwrite_option.hpp"
 #include "apps/mms/console/rate_progress.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/dataset/recorder/frame_recorder.hpp"
 #include "mms/dataset/simulated/simulated_source.hpp"
+#include "mms/io/capture/packet_capture.hpp"
 #include "mms/ros/bag_reader.hpp"
 
 namespace mms {
@@ -18,8 +20,17 @@ namespace fs = std::filesystem;
 /// x.bag becomes the folder x, a folder x the bag x.bag.
 fs::path other_recording(const RecordingConversion& conversion) {
   if (!conversion.output.empty()) return conversion.output;
-  if (is_bag_name(conversion.input)) return fs::path(conversion.input).replace_extension();
+  if (is_bag_name(conversion.input) || is_capture_name(conversion.input)) {
+    return fs::path(conversion.input).replace_extension();
+  }
   throw DataError(conversion.input, "has no default output name", "use -o x.bag");
+}
+
+/// "x.partial.bag", "x.partial" of a folder.
+fs::path partial_name(const fs::path& output) {
+  fs::path partial = output;
+  if (is_bag_name(output)) return partial.replace_extension(".partial.bag");
+  return partial += ".partial";
 }
 
 std::unique_ptr<FrameRecorder> open_recorder(const fs::path& output, bool compressed) {
@@ -29,13 +40,15 @@ std::unique_ptr<FrameRecorder> open_recorder(const fs::path& output, bool compre
 }  // namespace
 
 bool is_recording_conversion(const std::string& input, const fs::path& output) {
-  return is_bag_name(input) || is_bag_name(output) || is_simulated(input);
+  return is_bag_name(input) || is_bag_name(output) || is_capture_name(input) || is_simulated(input);
 }
 
 void convert_recording(const RecordingConversion& conversion) {
   const fs::path output = other_recording(conversion);
   const auto source =
-      open_dataset(conversion.input, {.map_truth = false, .topics = conversion.topics});
+      open_dataset(conversion.input,
+                   {.map_truth = false, .topics = conversion.topics, .camera = conversion.camera});
+  refuse_existing_file(output, conversion.overwrite);
   const auto recorder = open_recorder(output, conversion.compressed);
   RateProgress progress("frame");
   source->on_warning([&](const std::string& message) { progress.warn(message); });
@@ -50,11 +63,14 @@ void convert_recording(const RecordingConversion& conversion) {
   progress.finish();
   if (done == 0) throw DataError(conversion.input, "none of its frames could be read");
   recorder->finish(source->ground_truth());
+  if (InterruptGuard::requested()) {
+    const fs::path partial = partial_name(output);
+    fs::rename(output, partial);
+    throw Interrupted(
+        fmt::format("{} of {} frames are in {}", done, source->size(), partial.string()));
+  }
   fmt::print("{}: {} frames, {} ground-truth poses\nplay it: mms run {}\n", output.string(), done,
              source->ground_truth().size(), output.string());
-  if (InterruptGuard::requested()) {
-    throw Interrupted(fmt::format("{} of {} frames are converted", done, source->size()));
-  }
 }
 
 }  // namespace mms

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/eval/eval_parts.hpp"
 #include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
@@ -21,6 +22,7 @@ struct MapArguments {
   std::string truth;  ///< PLY with labels, or the recording for the ghost points
   std::string map;
   bool json = false;
+  CameraOptions camera;  ///< in place of the recording's
 };
 
 void evaluate_cleanness(const MapArguments& arguments) {
@@ -45,7 +47,8 @@ void evaluate_cleanness(const MapArguments& arguments) {
 }
 
 void evaluate_ghost_points_of(const MapArguments& arguments) {
-  const auto source = open_dataset(arguments.truth, {.masks = {}, .load_masks = false});
+  const auto source =
+      open_dataset(arguments.truth, {.masks = {}, .load_masks = false, .camera = arguments.camera});
   source->on_warning(
       [](const std::string& message) { fmt::print(stderr, "warning: {}\n", message); });
   RoomDepth room;
@@ -85,6 +88,7 @@ void add_ghost_points(CLI::App& command, bool is_former_name) {
   command.add_option("DATA", arguments->truth, "recording of a static camera")->required();
   command.add_option("MAP", arguments->map, "PLY of its static map")->required();
   add_json_flag(command, arguments->json);
+  add_calibration_options(command, arguments->camera);
   command.callback([arguments, is_former_name] {
     if (is_former_name) print_warnings({"mms eval residue is now called mms eval ghost-points"});
     evaluate_ghost_points_of(*arguments);

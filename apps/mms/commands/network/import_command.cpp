@@ -1,4 +1,5 @@
 #include "apps/mms/commands/commands.hpp"
+#include "apps/mms/console/overwrite_option.hpp"
 
 #include <fmt/core.h>
 
@@ -21,6 +22,7 @@ struct ImportArguments {
   std::filesystem::path output;
   std::vector<std::string> classes;
   bool half = false;
+  bool overwrite = false;
 };
 
 /// The given names, or COCO's if their number fits, or numbers.
@@ -42,6 +44,7 @@ std::vector<std::string> names_for(const NetworkConfig& config,
 
 void import(const ImportArguments& arguments) {
   const std::string where = arguments.checkpoint.string();
+  refuse_existing_file(arguments.output, arguments.overwrite);
   ImportedNetwork imported = import_checkpoint(read_safetensors(arguments.checkpoint), where);
   SegmentationModel model = {imported.config, names_for(imported.config, arguments.classes),
                              std::move(imported.weights)};
@@ -69,6 +72,7 @@ void add_import_command(CLI::App& app) {
       ->add_option("--classes", arguments->classes,
                    "comma-separated class names (default: COCO's 80)")
       ->delimiter(',');
+  add_overwrite_flag(*command, arguments->overwrite);
   command->add_flag("--half", arguments->half, "write float16, half the size");
   command->callback([arguments] { import(*arguments); });
 }

@@ -65,8 +65,10 @@ class PictureFiles final : public PictureSource {
 
 class RecordedPictures final : public PictureSource {
  public:
-  RecordedPictures(const std::string& where, const PictureWarning& warning)
-      : source_(open_dataset(where, {.masks = {}, .load_masks = false, .map_truth = false})) {
+  RecordedPictures(const std::string& where, const PictureWarning& warning,
+                   const CameraOptions& camera)
+      : source_(open_dataset(
+            where, {.masks = {}, .load_masks = false, .map_truth = false, .camera = camera})) {
     source_->on_warning(warning);
   }
 
@@ -94,12 +96,13 @@ std::vector<PictureFile> pictures_of(const fs::path& folder) {
 }  // namespace
 
 std::unique_ptr<PictureSource> open_pictures(const std::string& where,
-                                             const PictureWarning& warning) {
+                                             const PictureWarning& warning,
+                                             const CameraOptions& camera) {
   if (fs::is_regular_file(where) && is_picture(where)) {
     return std::make_unique<PictureFiles>(std::vector<PictureFile>{{1, where}}, warning);
   }
   try {  // recordings first: some have their depth images in the same folder
-    return std::make_unique<RecordedPictures>(where, warning);
+    return std::make_unique<RecordedPictures>(where, warning, camera);
   } catch (const DataError&) {
     std::vector<PictureFile> files;
     if (fs::is_directory(where)) files = pictures_of(where);

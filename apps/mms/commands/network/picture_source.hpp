@@ -9,6 +9,7 @@
 #include <string>
 
 #include "mms/core/image.hpp"
+#include "mms/dataset/source/camera_options.hpp"
 
 namespace mms {
 
@@ -34,9 +35,11 @@ using PictureWarning = std::function<void(const std::string&)>;
 
 /// An image file (PNG or JPEG), a folder of them, or a recording (mms run's DATA). Ids count from
 /// 1.
+/// @param camera  in place of the recording's
 /// @throws FileError, DataError if it is none of these.
 std::unique_ptr<PictureSource> open_pictures(const std::string& where,
-                                             const PictureWarning& warning);
+                                             const PictureWarning& warning,
+                                             const CameraOptions& camera = {});
 
 /// The images of a COCO file with its ids, optionally of one split. They are in `folder`, or in its
 /// subfolder images/.

@@ -1,4 +1,5 @@
 #include "apps/mms/commands/commands.hpp"
+#include "apps/mms/console/overwrite_option.hpp"
 
 #include <fmt/core.h>
 
@@ -31,6 +32,7 @@ struct QuantizeArguments {
   std::size_t judged = 8;
   bool int8_weights = false;
   bool sensitivity = false;
+  bool overwrite = false;
 };
 
 void stop_if_asked() {
@@ -104,6 +106,7 @@ void print_sensitivities(const SegmentationModel& model, const QuantizeArguments
 
 void quantize(const QuantizeArguments& arguments) {
   const InterruptGuard interrupt;
+  refuse_existing_file(arguments.output, arguments.overwrite);
   const std::string where = arguments.weights.string();
   SegmentationModel model = unpack_model(read_safetensors(arguments.weights), where);
   if (arguments.long_side > 0) resize_input(model.network, arguments.long_side);
@@ -138,6 +141,7 @@ void add_quantize_command(CLI::App& app) {
       ->add_option("-o,--output", arguments->output,
                    "weights file to write: the weights in float16, with the ranges for int8")
       ->required();
+  add_overwrite_flag(*command, arguments->overwrite);
   command->add_option("--images", arguments->images, "number of calibration images")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100000}))
       ->capture_default_str();

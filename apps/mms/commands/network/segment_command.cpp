@@ -1,3 +1,4 @@
+#include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/commands.hpp"
 
 #include <fmt/core.h>
@@ -45,6 +46,7 @@ struct SegmentArguments {
   int threads = 0;
   bool json_only = false;
   bool overwrite = false;
+  CameraOptions camera;
   std::vector<std::string> set;
 };
 
@@ -136,7 +138,8 @@ class PictureTimes {
 
 std::unique_ptr<PictureSource> open_source(const SegmentArguments& arguments,
                                            const PictureWarning& warning) {
-  if (arguments.annotations.empty()) return open_pictures(arguments.data, warning);
+  if (arguments.annotations.empty())
+    return open_pictures(arguments.data, warning, arguments.camera);
   return open_annotated(arguments.annotations, arguments.data, arguments.split, warning);
 }
 
@@ -203,6 +206,7 @@ void add_segment_command(CLI::App& app) {
       ->default_str("all");
   add_threads_option(*command, arguments->threads, "of the network (default: one per core)");
   command->add_flag("--json-only", arguments->json_only, "write no masks and overlays");
+  add_calibration_options(*command, arguments->camera);
   command->callback([arguments] { segment(*arguments); });
 }
 
