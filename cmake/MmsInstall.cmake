@@ -29,6 +29,8 @@ if(TARGET mms_program)
   install(DIRECTORY config DESTINATION ${CMAKE_INSTALL_DATADIR}/mms COMPONENT program)
   install(FILES packaging/mms.bash-completion RENAME mms
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+  install(FILES packaging/mms.zsh-completion RENAME _mms
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
   # The program prints its manual page and default settings; when cross-compiling it needs an emulator.
   if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
     add_custom_command(

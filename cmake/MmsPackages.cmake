@@ -1,5 +1,5 @@
 # Debian packages by cpack, from any build without libtorch: mms-slam (program, weights, settings,
-# manual page, bash completion) and libmms-dev (headers, static libraries, CMake package).
+# manual page, bash and zsh completion) and libmms-dev (headers, static libraries, CMake package).
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT TARGET mms_program OR MMS_WITH_TORCH)
   return()
 endif()

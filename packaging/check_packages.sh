@@ -66,6 +66,7 @@ check_packages() {
     test -s results/latest/static_map.ply
     zgrep -q "^\.SS mms run" /usr/share/man/man1/mms.1.gz
     test -s /usr/share/bash-completion/completions/mms
+    test -s /usr/share/zsh/vendor-completions/_mms
     test -s /usr/share/mms/config/default.yaml'
   say "the library"
   in_root 'cd /tmp
