@@ -44,6 +44,7 @@ struct LabeledCloud {
   std::vector<float> time_offset;
   std::vector<PointLabel> labels;        ///< static, dynamic or no return
   std::vector<Rgb> colors;               ///< empty without an image
+  std::vector<std::uint8_t> intensity;   ///< of a LiDAR, 255 at most; empty if unknown
   std::vector<std::int16_t> cluster;     ///< index into `clusters`, -1 for none
   std::vector<DynamicCluster> clusters;  ///< the dynamic objects of the frame
   int implausible_masks = 0;             ///< masks dropped, since they cannot be objects in 3D

@@ -83,6 +83,22 @@ TEST(ScanFusion, TransfersMaskByExtrinsics) {
   EXPECT_NEAR(cloud.clusters[0].centroid.x(), 2.5F, 0.1F);
 }
 
+TEST(ScanFusion, ScalesIntensity) {
+  ScanView view = scan(room_with_person(), 0);
+  const auto intensity_of = [&](float low, float high) {
+    view.frame.scan.intensity.assign(view.frame.scan.points.size(), low);
+    view.frame.scan.intensity.back() = high;
+    return SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation).intensity;
+  };
+  EXPECT_EQ(intensity_of(0.2F, 1.0F).front(), 51);
+  EXPECT_EQ(intensity_of(0.2F, 1.0F).back(), 255);
+  EXPECT_EQ(intensity_of(30.0F, 900.0F).front(), 30);
+  EXPECT_EQ(intensity_of(30.0F, 900.0F).back(), 255);
+  EXPECT_EQ(intensity_of(std::nanf(""), 0.5F).front(), 0);
+  view.frame.scan.intensity.clear();
+  EXPECT_TRUE(SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation).intensity.empty());
+}
+
 TEST(ScanFusion, RestoresWallUnderDilatedMask) {
   const ScanView view = scan(room_with_person(), 15);
   const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);

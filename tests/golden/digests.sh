@@ -15,6 +15,9 @@ trap 'rm -rf "$out"' EXIT
 values_of_json() { sed -E 's/"[A-Za-z0-9_]+"[[:space:]]*://g' "$1"; }
 values_of_table() { tail -n +2 "$1"; }
 
+# Comments say the frame of the points.
+points_of_ply() { LC_ALL=C sed '1,/^end_header$/{/^comment /d}' "$1"; }
+
 digest() { sha256sum | cut -c1-16; }
 
 # row NAME RECORDING FLAGS...
@@ -28,7 +31,7 @@ row() {
     return 1
   fi
   printf '%s %s %s %s %s %s\n' "$name" \
-    "$(digest < "$out/run/trajectory.tum")" "$(digest < "$out/run/static_map.ply")" \
+    "$(digest < "$out/run/trajectory.tum")" "$(points_of_ply "$out/run/static_map.ply" | digest)" \
     "$(values_of_json "$out/run/objects.json" | digest)" \
     "$(values_of_table "$out/run/frames.csv" | digest)" "$(digest < "$out/run/map.pgm")"
   rm -rf "$out/run"

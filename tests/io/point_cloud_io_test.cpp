@@ -50,6 +50,16 @@ TEST(PointCloudIo, RoundTripsExactly) {
   }
 }
 
+TEST(PointCloudIo, WritesCommentsOfPly) {
+  const TempFolder folder;
+  const PointCloudFile cloud = full_cloud();  // random
+  write_ply(folder.path() / "a.ply", cloud, {"frame: world", "units: m"});
+  expect_equal(read_ply(folder.path() / "a.ply"), cloud);
+  EXPECT_TRUE(read_file(folder.path() / "a.ply")
+                  .starts_with("ply\nformat binary_little_endian 1.0\ncomment frame: world\n"
+                               "comment units: m\nelement vertex 100\n"));
+}
+
 TEST(PointCloudIo, KeepsNonFinitePoints) {
   const TempFolder folder;
   const float nan = std::numeric_limits<float>::quiet_NaN();

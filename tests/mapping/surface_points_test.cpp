@@ -97,6 +97,16 @@ TEST(SurfacePoints, KeepFarPointsOfScans) {
   const auto points = surface_points(scan, {});
   ASSERT_EQ(points.size(), 1U);
   EXPECT_EQ(points[0].point.x(), 50.0F);
+  EXPECT_EQ(points[0].color, (Rgb{128, 128, 128}));
+  const auto grey_of = [&](std::uint8_t intensity) {
+    scan.intensity = {intensity, 0, 0, 0};
+    return surface_points(scan, {})[0].color.g;
+  };
+  EXPECT_EQ(grey_of(0), 55);
+  EXPECT_EQ(grey_of(64), 155);  // a quarter
+  EXPECT_EQ(grey_of(255), 255);
+  scan.colors.assign(4, {1, 2, 3});
+  EXPECT_EQ(surface_points(scan, {})[0].color, (Rgb{1, 2, 3}));
 }
 
 }  // namespace

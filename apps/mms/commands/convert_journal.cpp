@@ -54,7 +54,8 @@ void convert_journal(const fs::path& input, const fs::path& output, bool overwri
   const fs::path folder = output.empty() ? journal.parent_path() : output;
   for (const char* file : kRecoveredFiles) refuse_existing_file(folder / file, overwrite);
   if (!folder.empty()) make_folder(folder);
-  write_result_files(folder, run.trajectory, run.keyframes, run.map);
+  write_result_files(folder, run.trajectory, run.keyframes, run.map,
+                     run.organised ? MapFrame::kCamera : MapFrame::kLidar);
   print_summary(run, folder);
 }
 

@@ -185,11 +185,12 @@ bool SlamNode::save_map(TriggerRequest&, TriggerResponse& response) {
   try {
     const bool done = between_frames([&](const SlamSystem& system) {
       if (trajectory_.empty()) throw DataError("map", "no frame received yet");
-      const MapCloud map = system.static_map().cloud();
+      const bool is_depth = settings_.sensor == FrameAssembler::Sensor::kDepth;
+      const MapFrame frame = is_depth ? MapFrame::kCamera : MapFrame::kLidar;
+      const MapCloud map = result_map(system.static_map(), frame);
       std::filesystem::create_directories(folder);
-      write_result_files(folder, trajectory_, keyframes_, map);
-      write_robot_maps(folder, system.occupancy_map(), map,
-                       settings_.sensor == FrameAssembler::Sensor::kDepth);
+      write_result_files(folder, trajectory_, keyframes_, map, frame);
+      write_robot_maps(folder, system.occupancy_map(), system.static_map().cloud(), is_depth);
       response.message = std::to_string(map.size()) + " points, " +
                          std::to_string(trajectory_.size()) + " poses in " +
                          std::filesystem::absolute(folder).string();

@@ -1,5 +1,6 @@
 #include "mms/fusion/clouds/scan_cloud.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -54,6 +55,21 @@ void add_colors(const Frame& frame, LabeledCloud& cloud) {
   }
 }
 
+/// Intensity of points. Sensors give 0 to 255 or more, data sets also 0 to 1.
+std::vector<std::uint8_t> scaled_intensity(const std::vector<float>& raw) {
+  constexpr float kMaxIntensity = 255.0F;
+  const bool shares = std::all_of(raw.begin(), raw.end(), [](float i) { return !(i > 1.0F); });
+  std::vector<std::uint8_t> scaled;
+  scaled.reserve(raw.size());
+  for (const float value : raw) {
+    const float intensity = shares ? kMaxIntensity * value : value;
+    // 0 for NaN
+    scaled.push_back(
+        static_cast<std::uint8_t>(intensity > 0.0F ? std::min(intensity, kMaxIntensity) : 0.0F));
+  }
+  return scaled;
+}
+
 }  // namespace
 
 LabeledCloud build_scan_cloud(const Frame& frame, const FusionConfig& config) {
@@ -64,6 +80,7 @@ LabeledCloud build_scan_cloud(const Frame& frame, const FusionConfig& config) {
   cloud.stamp = frame.stamp;
   cloud.points = frame.scan.points;
   cloud.time_offset = frame.scan.time_offset;
+  cloud.intensity = scaled_intensity(frame.scan.intensity);
   cloud.width = static_cast<int>(cloud.points.size());
   cloud.height = cloud.points.empty() ? 0 : 1;
   cloud.labels.assign(cloud.points.size(), PointLabel::kStatic);

@@ -107,11 +107,13 @@ PointCloudFile read_ply(const std::filesystem::path& path) {
   return decode(text.rest(), header.vertices, header.record, path.string());
 }
 
-void write_ply(const std::filesystem::path& path, const PointCloudFile& cloud) {
+void write_ply(const std::filesystem::path& path, const PointCloudFile& cloud,
+               const std::vector<std::string>& comments) {
   const PointRecord record = record_of(cloud, false);
   AtomicFile file(path);
-  file.stream() << "ply\nformat binary_little_endian 1.0\nelement vertex " << cloud.points.size()
-                << '\n';
+  file.stream() << "ply\nformat binary_little_endian 1.0\n";
+  for (const std::string& comment : comments) file.stream() << "comment " << comment << '\n';
+  file.stream() << "element vertex " << cloud.points.size() << '\n';
   for (const PointColumn& column : record) {
     file.stream() << "property " << ply_name(column.type) << ' ' << ply_name(column.channel)
                   << '\n';

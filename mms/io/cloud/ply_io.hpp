@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "mms/io/cloud/point_cloud_file.hpp"
 
@@ -13,8 +15,10 @@ namespace mms {
 PointCloudFile read_ply(const std::filesystem::path& path);
 
 /// Writes binary_little_endian PLY.
+/// @param comments  lines of its header
 /// @throws FileError if the file cannot be written; DataError if the cloud's vectors differ in
 /// size.
-void write_ply(const std::filesystem::path& path, const PointCloudFile& cloud);
+void write_ply(const std::filesystem::path& path, const PointCloudFile& cloud,
+               const std::vector<std::string>& comments = {});
 
 }  // namespace mms

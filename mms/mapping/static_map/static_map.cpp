@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mms/mapping/free_space/scan_sight.hpp"
+#include "mms/mapping/static_map/sparse_normals.hpp"
 #include "mms/mapping/static_map/voxel_normals.hpp"
 
 namespace mms {
@@ -167,18 +168,38 @@ Eigen::Vector3f StaticMap::normal_of(const VoxelBlock& block, const Voxel& voxel
   return neighbourhood_normal(grid_, block, voxel, viewpoints_.at(voxel.last_frame));
 }
 
-MapCloud StaticMap::cloud() const {
+template <class Visit>
+void StaticMap::for_each_shown(const Visit& visit) const {
   const std::size_t needed = std::min(static_cast<std::size_t>(config_.min_observations), views());
-  MapCloud cloud;
   for (const VoxelBlock& block : grid_.blocks()) {
     for (const Voxel& voxel : block.voxels) {
-      if (!is_voxel_shown(voxel.hits, block.views, needed)) continue;
-      cloud.points.push_back(voxel.position);
-      cloud.colors.push_back(to_rgb(voxel.color));
-      cloud.normals.push_back(normal_of(block, voxel));
-      cloud.observations.push_back(voxel.hits);
+      if (is_voxel_shown(voxel.hits, block.views, needed)) visit(block, voxel);
     }
   }
+}
+
+MapCloud StaticMap::cloud() const {
+  MapCloud cloud;
+  for_each_shown([&](const VoxelBlock& block, const Voxel& voxel) {
+    cloud.points.push_back(voxel.position);
+    cloud.colors.push_back(to_rgb(voxel.color));
+    cloud.normals.push_back(normal_of(block, voxel));
+    cloud.observations.push_back(voxel.hits);
+  });
+  return cloud;
+}
+
+MapCloud StaticMap::cloud_with_normals() const {
+  MapCloud cloud = this->cloud();
+  std::vector<SparsePoint> sparse;
+  std::size_t index = 0;
+  for_each_shown([&](const VoxelBlock&, const Voxel& voxel) {
+    if (cloud.normals[index].isZero(0.0F)) {
+      sparse.push_back({index, viewpoints_.at(voxel.last_frame)});
+    }
+    ++index;
+  });
+  fill_sparse_normals(cloud, sparse);
   return cloud;
 }
 

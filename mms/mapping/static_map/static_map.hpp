@@ -72,6 +72,10 @@ class StaticMap {
   /// fewer), in the order in which they came into the map.
   MapCloud cloud() const;
 
+  /// The same with a normal for every point, as needed for a LiDAR's (`fill_sparse_normals`). It
+  /// takes about a second for 500,000 points.
+  MapCloud cloud_with_normals() const;
+
   /// Changes by the last view: `apply` of all views' changes, in order, makes a map that shows the
   /// same voxels; their means and counts are those of when the count last doubled.
   MapChanges changes() const;
@@ -97,6 +101,8 @@ class StaticMap {
   void prune_viewpoints();
   std::uint32_t last_frame() const { return viewpoints_.last(); }
   Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
+  template <class Visit>
+  void for_each_shown(const Visit& visit) const;
 
   StaticMapConfig config_;
   VoxelGrid grid_;

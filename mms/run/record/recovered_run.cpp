@@ -37,7 +37,7 @@ RecoveredRun recover_run(const std::filesystem::path& journal) {
     throw DataError(run.damage.empty() ? journal.string() : run.damage, "has no complete frame",
                     "the run ended before its first frame was processed");
   }
-  run.map = map.cloud();
+  run.map = run.organised ? map.cloud() : map.cloud_with_normals();
   return run;
 }
 

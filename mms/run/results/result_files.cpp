@@ -6,17 +6,27 @@
 
 namespace mms {
 
+MapCloud result_map(const StaticMap& map, MapFrame frame) {
+  return frame == MapFrame::kLidar ? map.cloud_with_normals() : map.cloud();
+}
+
+std::vector<std::string> ply_comments(MapFrame frame) {
+  return {"units: m", frame == MapFrame::kCamera
+                          ? "frame: world, the first camera frame, x right, y down, z forward"
+                          : "frame: world, the first LiDAR frame, x forward, y left, z up"};
+}
+
 PointCloudFile file_of(const MapCloud& map) {
   return {map.points, map.normals, map.colors, {}, map.observations};
 }
 
 void write_result_files(const std::filesystem::path& folder, const Trajectory& trajectory,
-                        const Trajectory& keyframes, const MapCloud& map) {
+                        const Trajectory& keyframes, const MapCloud& map, MapFrame frame) {
   const PointCloudFile file = file_of(map);
   write_trajectory_tum(folder / "trajectory.tum", trajectory);
   write_trajectory_kitti(folder / "trajectory_kitti.txt", trajectory);
   write_trajectory_tum(folder / "keyframes.tum", keyframes);
-  write_ply(folder / "static_map.ply", file);
+  write_ply(folder / "static_map.ply", file, ply_comments(frame));
   write_pcd(folder / "static_map.pcd", file);
 }
 

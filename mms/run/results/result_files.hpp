@@ -1,12 +1,26 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "mms/core/trajectory.hpp"
 #include "mms/io/cloud/point_cloud_file.hpp"
-#include "mms/mapping/static_map/map_cloud.hpp"
+#include "mms/mapping/static_map/static_map.hpp"
 
 namespace mms {
+
+/// Axes of the world frame, those of the first sensor frame.
+enum class MapFrame {
+  kCamera,  ///< x right, y down, z forward
+  kLidar,   ///< x forward, y left, z up
+};
+
+/// The map for result files: that of a LiDAR has a normal for every point.
+MapCloud result_map(const StaticMap& map, MapFrame frame);
+
+/// Comments of PLY files that say their frame.
+std::vector<std::string> ply_comments(MapFrame frame);
 
 /// The map as content of a point cloud file.
 PointCloudFile file_of(const MapCloud& map);
@@ -14,6 +28,6 @@ PointCloudFile file_of(const MapCloud& map);
 /// Writes trajectory.tum, trajectory_kitti.txt, keyframes.tum, static_map.ply and static_map.pcd.
 /// @throws FileError with the file that cannot be written.
 void write_result_files(const std::filesystem::path& folder, const Trajectory& trajectory,
-                        const Trajectory& keyframes, const MapCloud& map);
+                        const Trajectory& keyframes, const MapCloud& map, MapFrame frame);
 
 }  // namespace mms

@@ -88,12 +88,13 @@ void write_pictures(const std::filesystem::path& folder, const RunReport& report
 void write_outputs(const std::filesystem::path& folder, const std::string& data,
                    const SystemConfig& config, const SlamSystem& system, const RunLog& log,
                    const std::vector<std::string>& warnings) {
-  const MapCloud map = system.static_map().cloud();
-  write_result_files(folder, log.trajectory(), log.keyframes(), map);
-  write_robot_maps(folder, system.occupancy_map(), map, log.has_image());
+  const MapFrame frame = log.has_image() ? MapFrame::kCamera : MapFrame::kLidar;
+  const MapCloud map = result_map(system.static_map(), frame);
+  write_result_files(folder, log.trajectory(), log.keyframes(), map, frame);
+  write_robot_maps(folder, system.occupancy_map(), system.static_map().cloud(), log.has_image());
   write_file(folder / "objects.json", objects_json(log.objects()));
   const MapCloud with_objects = semantic_map(map, log.objects());
-  write_ply(folder / "semantic_map.ply", file_of(with_objects));
+  write_ply(folder / "semantic_map.ply", file_of(with_objects), ply_comments(frame));
   write_file(folder / "config.yaml", dump_config(config));
   write_metrics(folder / "metrics.json", log.metrics());
   write_file(folder / "timing.csv", timing_csv(log));
