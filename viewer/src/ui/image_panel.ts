@@ -13,7 +13,7 @@ export class ImagePanel {
   private image: ImageBitmap | null = null;
   private overlay: HTMLCanvasElement | null = null;
   private busy = false;
-  /** The image of the frame is not there yet. */
+  /** The image of the frame has not arrived or is not decoded. */
   private pending = true;
   private waiting: FrameMessage | null = null;
 
@@ -39,9 +39,9 @@ export class ImagePanel {
 
   /** Decoding may take longer than a frame on a slow machine: then only the newest image is decoded. */
   private show(frame: FrameMessage): void {
-    this.pending = frame.picturesPending;
-    if (this.pending) return this.draw(); // keeps the last image until the next one arrives
-    if (!frame.image && !frame.mask) return this.clear();
+    if (!frame.picturesPending && !frame.image && !frame.mask) return this.clear();
+    this.pending = true;
+    if (frame.picturesPending) return this.draw(); // keeps the last image until the next one arrives
     this.waiting = frame;
     if (!this.busy) void this.decodeWaiting();
   }
@@ -52,6 +52,7 @@ export class ImagePanel {
       const { frame, image, mask } = this.waiting;
       this.waiting = null;
       const decoded = await Promise.all([decode(image, 'image/jpeg'), decode(mask, 'image/png')]);
+      this.pending = false;
       this.image?.close();
       this.image = decoded[0];
       this.overlay = decoded[1] && tintMask(decoded[1], this.run.hello?.classes.map(classColor) ?? []);

@@ -172,6 +172,33 @@ test('the page has no errors and no foreign requests', () => {
   assert.deepEqual(faults, []);
 });
 
+test('says what is missing in a browser without WebGL', async () => {
+  const without = await browser.newPage();
+  await without.addInitScript(() => {
+    const real = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return kind.startsWith('webgl') ? null : real.call(this, kind, ...rest);
+    };
+  });
+  await without.goto(server.address);
+  await eventually('the notice', () => without.textContent('#notice'), (text) => /no WebGL 2/.test(text));
+  assert.equal(await without.textContent('#connection'), 'Stopped');
+  await without.close();
+});
+
+test('counts frames from 1 and says that an image is loading', async () => {
+  await pause();
+  await scrub(1);
+  await eventually('the last frame', () => page.textContent('.frames'), (text) => /^frame (\d+) of \1$/.test(text));
+  const early = await browser.newPage();
+  await early.addInitScript(() => {
+    window.createImageBitmap = () => new Promise(() => {}); // images never arrive
+  });
+  await early.goto(server.address);
+  await eventually('the text', () => early.textContent('#image-empty'), (text) => text === 'Loading image');
+  await early.close();
+});
+
 test('the page fits a phone', async () => {
   await browser.close();
   ({ browser, page, faults } = await openBrowser(join(folder, 'phone'), server.address, kPhone));
