@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -45,11 +46,11 @@ const std::map<Words, Words> kCommands = {
     {{"convert"},
      {"IN", "-o,--output", "--stamps", ".tum", "_kitti.txt", ".ply", ".pcd", "journal",
       "--overwrite", "--calibration"}},
-    {{"info"}, {"DATA", "--masks"}},
+    {{"info"}, {"DATA", "--masks", "--json"}},
     {{"config"}, {"dump", "check"}},
     {{"config", "dump"}, {"FILE"}},
     {{"config", "check"}, {"FILE"}},
-    {{"doctor"}, {"--help"}},
+    {{"doctor"}, {"--help", "--json"}},
 };
 
 /// Sets or unsets an environment variable and restores it at the end.
@@ -163,6 +164,23 @@ TEST(Info, ReportsDamagedFrame) {
   expect_in("frame 1: readable", outcome.out);
 }
 
+TEST(Info, PrintsJson) {
+  const TempFolder folder;
+  write_scene(folder.path() / "data", small_scene(3));
+  folder.write("data/rgb/0000.png", "");
+  const Outcome outcome = run_mms(folder.path(), {"info", "data", "--json"});
+  expect_success(outcome);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["frames"], 3);
+  EXPECT_EQ(json["facts"]["layout"][0], "TUM RGB-D");
+  EXPECT_EQ(json["checked_frames"][0]["index"], 0);
+  EXPECT_EQ(json["checked_frames"][0]["readable"], false);
+  EXPECT_EQ(json["checked_frames"][1]["readable"], true);
+  EXPECT_TRUE(json["implausible"].is_array());
+  const std::string weights = MMS_SOURCE_DIR "/weights/nano.safetensors";
+  expect_error(run_mms(folder.path(), {"info", weights, "--json"}), "is no recording");
+}
+
 TEST(Info, DescribesLidarFolder) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 2);
@@ -180,6 +198,10 @@ TEST(Doctor, PassesOnThisMachine) {
     expect_in(line, outcome.out);
   }
   EXPECT_EQ(outcome.out.find("FAILED"), std::string::npos) << outcome.out;
+  const auto json = nlohmann::json::parse(run_mms(folder.path(), {"doctor", "--json"}).out);
+  EXPECT_EQ(json["ok"], true);
+  EXPECT_EQ(json["checks"].size(), 3U);
+  EXPECT_GT(json["network_time_per_image_ms"], 0.0);
 }
 
 }  // namespace

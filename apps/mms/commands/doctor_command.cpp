@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
@@ -22,21 +23,52 @@ namespace {
 
 constexpr int kTrialFrames = 10;
 
-void print_machine() {
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                        static_cast<double>(sysconf(_SC_PAGE_SIZE)) / (1024.0 * 1024.0 * 1024.0);
-  fmt::print("mms {} built with compiler {}\n", MMS_VERSION, __VERSION__);
-  fmt::print("cores   {}\nmemory  {:.1f} GiB\n", std::thread::hardware_concurrency(), memory);
-}
+/// Prints each result immediately, or all as one JSON object at the end.
+class DoctorReport {
+ public:
+  explicit DoctorReport(bool json) : json_(json) {
+    const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                          static_cast<double>(sysconf(_SC_PAGE_SIZE)) / (1024.0 * 1024.0 * 1024.0);
+    const unsigned cores = std::thread::hardware_concurrency();
+    report_ = {{"version", MMS_VERSION},
+               {"compiler", __VERSION__},
+               {"cores", cores},
+               {"memory_gib", memory},
+               {"ok", true},
+               {"checks", Json::array()}};
+    if (json_) return;
+    fmt::print("mms {} built with compiler {}\n", MMS_VERSION, __VERSION__);
+    fmt::print("cores   {}\nmemory  {:.1f} GiB\n", cores, memory);
+  }
 
-bool check(const std::string& what, const std::string& fault) {
-  fmt::print("{:<44} {}\n", what, fault.empty() ? "ok" : "FAILED: " + fault);
-  return fault.empty();
-}
+  /// @param key  with its unit
+  void time(const char* key, const std::string& what, double milliseconds, const std::string& per) {
+    report_[key] = milliseconds;
+    if (!json_) fmt::print("{:<44} {:.1f} {}\n", what, milliseconds, per);
+  }
+
+  void check(const std::string& what, const std::string& fault) {
+    report_["checks"].push_back({{"name", what}, {"ok", fault.empty()}, {"fault", fault}});
+    if (!fault.empty()) report_["ok"] = false;
+    if (!json_) fmt::print("{:<44} {}\n", what, fault.empty() ? "ok" : "FAILED: " + fault);
+  }
+
+  /// @throws Error if a check failed.
+  void finish() const {
+    if (json_) fmt::print("{}\n", report_.dump(2, ' ', false, Json::error_handler_t::replace));
+    if (!report_["ok"]) throw Error("doctor", "a check failed", "see the lines above");
+  }
+
+ private:
+  using Json = nlohmann::ordered_json;
+
+  bool json_;
+  Json report_;
+};
 
 /// Tracks a few simulated frames.
 /// @returns the fault; empty if none
-std::string trial_run() {
+std::string trial_run(DoctorReport& report) {
   const auto source = open_dataset(fmt::format("sim:rack_aisle?frames={}", kTrialFrames));
   SlamSystem system({}, std::make_unique<MaskSegmenter>());
   const auto start = std::chrono::steady_clock::now();
@@ -50,13 +82,14 @@ std::string trial_run() {
     if (system.process(*frame).odometry.status == Status::kLost) return "lost track";
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  fmt::print("{:<44} {:.1f} ms/frame, sequential on one thread\n", "speed without network",
-             1000.0 * (elapsed.count() - read_seconds) / kTrialFrames);
+  report.time("time_per_frame_ms", "speed without network",
+              1000.0 * (elapsed.count() - read_seconds) / kTrialFrames,
+              "ms/frame, sequential on one thread");
   return "";
 }
 
 /// Segments a simulated frame with the default network.
-std::string network_trial() {
+std::string network_trial(DoctorReport& report) {
   try {
     const std::unique_ptr<Detector> detector = make_detector({});
     const auto frame = open_dataset("sim:crowd?frames=1")->next();
@@ -65,7 +98,8 @@ std::string network_trial() {
     const std::size_t objects = detector->detect(frame->color).size();
     const std::chrono::duration<double, std::milli> elapsed =
         std::chrono::steady_clock::now() - start;
-    fmt::print("{:<44} {:.1f} ms/image, one thread\n", "speed of the network", elapsed.count());
+    report.time("network_time_per_image_ms", "speed of the network", elapsed.count(),
+                "ms/image, one thread");
     return objects > 0 ? "" : "detected no person in a crowd";
   } catch (const Error& error) {
     return error.what();
@@ -87,13 +121,14 @@ std::string write_trial() {
 
 void add_doctor_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("doctor", "Check that the program works on this machine");
-  command->callback([] {
-    print_machine();
-    const bool tracked = check("tracking in a simulated warehouse", trial_run());
-    const bool segmented = check("person detection by the network", network_trial());
-    const bool writable = check("writing to the working directory", write_trial());
-    if (!tracked || !segmented || !writable)
-      throw Error("doctor", "a check failed", "see the lines above");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "print one JSON object");
+  command->callback([json] {
+    DoctorReport report(*json);
+    report.check("tracking in a simulated warehouse", trial_run(report));
+    report.check("person detection by the network", network_trial(report));
+    report.check("writing to the working directory", write_trial());
+    report.finish();
   });
 }
 

@@ -3,14 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
-#include <set>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/topic_options.hpp"
 #include "apps/mms/console/common_options.hpp"
+#include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/dataset/plausibility/recording_check.hpp"
 #include "mms/dataset/simulated/simulated_source.hpp"
@@ -28,6 +30,7 @@ struct InfoOptions {
   std::string masks;
   BagTopicNames topics;
   CameraOptions camera;
+  bool json = false;
 
   std::unique_ptr<FrameSource> open() const {
     return open_dataset(data, {.masks = masks, .topics = topics, .camera = camera});
@@ -40,36 +43,90 @@ std::string fault_of_frame(const InfoOptions& options, std::size_t index) {
   const auto source = options.open();
   std::vector<std::string> warnings;
   source->on_warning([&](const std::string& message) { warnings.push_back(message); });
-  warnings.clear();  // those of opening are shown by print_info
+  warnings.clear();  // those of opening are in info_of
   source->skip(index);
   const auto frame = source->next();
   const bool read = frame && frame->index == static_cast<std::int64_t>(index);
   return read || warnings.empty() ? "" : warnings.front();
 }
 
-void print_frame_checks(const InfoOptions& options, std::size_t size) {
-  const std::set<std::size_t> checked = {0, size / 2, size - 1};
-  for (const std::size_t index : checked) {
-    const std::string fault = fault_of_frame(options, index);
-    fmt::print("frame {}: {}\n", index, fault.empty() ? "readable" : fault);
+/// What is known of a recording and what was checked in it.
+struct RecordingInfo {
+  std::vector<std::string> facts;  ///< "name: text" each
+  std::vector<std::string> warnings;
+  std::size_t frames = 0;
+  std::map<std::size_t, std::string> frame_faults;  ///< of the frames that were read, or empty
+  std::size_t plausibility_frames = 0;              ///< that were checked for it
+  std::vector<std::string> implausible;
+};
+
+void check_frames(const InfoOptions& options, RecordingInfo& info) {
+  for (const std::size_t index : {std::size_t{0}, info.frames / 2, info.frames - 1}) {
+    if (!info.frame_faults.contains(index)) {
+      info.frame_faults[index] = fault_of_frame(options, index);
+    }
   }
 }
 
-/// Reads frames spread over the recording and prints what is implausible in them.
-void print_plausibility(const InfoOptions& options, std::size_t size) {
+/// Reads frames spread over the recording.
+void check_plausibility(const InfoOptions& options, RecordingInfo& info) {
   RecordingCheck check;
   const auto source = options.open();
-  const std::size_t step = std::max<std::size_t>(1, size / RecordingCheck::kFrames);
+  const std::size_t step = std::max<std::size_t>(1, info.frames / RecordingCheck::kFrames);
   for (std::size_t i = 0; i < RecordingCheck::kFrames; ++i) {
     const auto frame = source->next();
     if (!frame) break;
     check.add(*frame);
     source->skip(step - 1);
   }
-  const std::vector<std::string> faults = check.faults();
-  for (const std::string& fault : faults) fmt::print("implausible: {}\n", fault);
-  if (faults.empty() && check.frames() > 0)
-    fmt::print("plausible: {} frames checked\n", check.frames());
+  info.implausible = check.faults();
+  info.plausibility_frames = check.frames();
+}
+
+RecordingInfo info_of(const InfoOptions& options) {
+  RecordingInfo info;
+  const auto source = options.open();
+  info.facts = source->describe();
+  source->on_warning([&](const std::string& message) { info.warnings.push_back(message); });
+  info.frames = source->size();
+  if (info.frames == 0) return info;
+  check_frames(options, info);
+  if (!is_simulated(options.data)) check_plausibility(options, info);
+  return info;
+}
+
+void print_text(const RecordingInfo& info) {
+  for (const std::string& fact : info.facts) fmt::print("{}\n", fact);
+  for (const std::string& warning : info.warnings) fmt::print("warning: {}\n", warning);
+  for (const auto& [index, fault] : info.frame_faults) {
+    fmt::print("frame {}: {}\n", index, fault.empty() ? "readable" : fault);
+  }
+  for (const std::string& fault : info.implausible) fmt::print("implausible: {}\n", fault);
+  if (info.implausible.empty() && info.plausibility_frames > 0) {
+    fmt::print("plausible: {} frames checked\n", info.plausibility_frames);
+  }
+}
+
+void print_json(const std::string& data, const RecordingInfo& info) {
+  nlohmann::ordered_json facts = nlohmann::ordered_json::object();
+  for (const std::string& fact : info.facts) {
+    const std::size_t colon = fact.find(": ");
+    const std::string name = fact.substr(0, colon);
+    const std::string text = colon == std::string::npos ? "" : fact.substr(colon + 2);
+    facts[name].push_back(text);  // a name may occur several times, as "topic"
+  }
+  nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+  for (const auto& [index, fault] : info.frame_faults) {
+    frames.push_back({{"index", index}, {"readable", fault.empty()}, {"fault", fault}});
+  }
+  const nlohmann::ordered_json json = {{"data", data},
+                                       {"frames", info.frames},
+                                       {"facts", facts},
+                                       {"warnings", info.warnings},
+                                       {"checked_frames", frames},
+                                       {"plausibility_frames", info.plausibility_frames},
+                                       {"implausible", info.implausible}};
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 /// Prints architecture and cost of a weights file.
@@ -89,13 +146,12 @@ void print_model(const std::string& path) {
 }
 
 void print_info(const InfoOptions& options) {
-  if (options.data.ends_with(".safetensors")) return print_model(options.data);
-  const auto source = options.open();
-  for (const std::string& line : source->describe()) fmt::print("{}\n", line);
-  source->on_warning([](const std::string& message) { fmt::print("warning: {}\n", message); });
-  if (source->size() == 0) return;
-  print_frame_checks(options, source->size());
-  if (!is_simulated(options.data)) print_plausibility(options, source->size());
+  if (options.data.ends_with(".safetensors")) {
+    if (options.json) throw DataError(options.data, "is no recording", "--json is for recordings");
+    return print_model(options.data);
+  }
+  const RecordingInfo info = info_of(options);
+  options.json ? print_json(options.data, info) : print_text(info);
 }
 
 }  // namespace
@@ -111,6 +167,7 @@ void add_info_command(CLI::App& app) {
   const auto sequence = std::make_shared<std::string>();
   add_sequence_option(*command, *sequence);
   command->add_option("--masks", options->masks, "folder of label images, named as the frames");
+  command->add_flag("--json", options->json, "print one JSON object");
   add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
   command->callback([options, sequence] {
