@@ -72,6 +72,32 @@ TEST(Convert, ReplacesFilesOnlyIfAsked) {
   expect_error(run_mms(folder.path(), {"convert", "a.tum", "-o", "a.tum"}), "exists already");
 }
 
+TEST(Convert, TurnsMapsAndTrajectoriesLevel) {
+  const TempFolder folder;
+  const auto convert = [&](const std::string& from, const std::string& to) {
+    return run_mms(folder.path(), {"convert", from, "-o", to, "--frame", "level"});
+  };
+  write_ply(folder.path() / "a.ply", {{{1, 2, 3}}, {{0, -1, 0}}, {}, {}, {}});
+  write_trajectory_tum(folder.path() / "a.tum", sample_poses());
+  expect_error(convert("a.ply", "b.ply"), "map.yaml: no such file");
+  folder.write("map.yaml", "mode: trinary\n");
+  expect_error(convert("a.ply", "b.ply"), "map.yaml: has no T_world_map.translation of 3 numbers");
+  // The camera is 1.5 m above the floor: z of the map is -y of the camera.
+  folder.write("map.yaml",
+               "mode: trinary\nT_world_map:\n  translation: [0, 1.5, 0]\n"
+               "  quaternion: [0.5, -0.5, 0.5, 0.5]\n");
+  expect_success(convert("a.ply", "b.ply"));
+  const PointCloudFile level = read_ply(folder.path() / "b.ply");
+  EXPECT_TRUE(level.points.at(0).isApprox(Eigen::Vector3f(3.0F, -1.0F, -0.5F), 1e-5F));
+  EXPECT_TRUE(level.normals.at(0).isApprox(Eigen::Vector3f::UnitZ(), 1e-5F));
+  expect_in("comment frame: map, level", read_file(folder.path() / "b.ply"));
+  expect_success(convert("a.tum", "b.tum"));
+  const Trajectory poses = read_trajectory_tum(folder.path() / "b.tum");
+  const Eigen::Vector3d t = sample_poses()[1].T_world_sensor.translation();
+  EXPECT_TRUE(poses[1].T_world_sensor.translation().isApprox(
+      Eigen::Vector3d(t.z(), -t.x(), 1.5 - t.y()), 1e-9));
+}
+
 TEST(Convert, ErrorsExplainImpossibleConversions) {
   const TempFolder folder;
   const auto run = [&](const Words& words) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/convert_files.hpp"
@@ -20,6 +21,7 @@ struct ConvertArguments {
   std::filesystem::path stamps;  ///< empty: none
   BagTopicNames topics;
   CameraOptions camera;
+  std::string frame = "sensor";  ///< or "level"
   bool compressed = false;
   bool overwrite = false;
 };
@@ -34,7 +36,8 @@ void convert(const ConvertArguments& arguments) {
   if (journal) {
     convert_journal(arguments.input, arguments.output, arguments.overwrite);
   } else {
-    convert_file(arguments.input, arguments.output, arguments.stamps, arguments.overwrite);
+    convert_file(arguments.input, arguments.output, arguments.stamps, arguments.frame == "level",
+                 arguments.overwrite);
   }
 }
 
@@ -59,6 +62,12 @@ void add_convert_command(CLI::App& app) {
                       "KITTI's times.txt, for KITTI trajectories, which have no stamps");
   command->add_flag("--compressed", arguments->compressed,
                     "write images into a bag as JPEG, and depth as PNG in millimeters");
+  command
+      ->add_option("--frame", arguments->frame,
+                   "of a trajectory or cloud of a run: that of the first sensor pose, or the level "
+                   "one of map.yaml beside it, with z up")
+      ->check(CLI::IsMember({"sensor", "level"}))
+      ->capture_default_str();
   add_overwrite_flag(*command, arguments->overwrite);
   add_topic_options(*command, arguments->topics);
   add_calibration_options(*command, arguments->camera);

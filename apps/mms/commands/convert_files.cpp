@@ -10,6 +10,7 @@
 #include "mms/core/error.hpp"
 #include "mms/io/cloud/pcd_io.hpp"
 #include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/results/occupancy_grid_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/text_table.hpp"
@@ -78,9 +79,22 @@ std::vector<Timestamp> read_stamps(const fs::path& path) {
   return stamps;
 }
 
-void convert_cloud(const fs::path& input, Format from, const fs::path& output, Format to) {
-  const PointCloudFile cloud = from == Format::kPly ? read_ply(input) : read_pcd(input);
-  to == Format::kPly ? write_ply(output, cloud) : write_pcd(output, cloud);
+/// From the world frame to the level one of the run's occupancy grid.
+Transform<Map, World> level_transform(const fs::path& input) {
+  return read_map_frame(input.parent_path() / "map.yaml").inverse();
+}
+
+void convert_cloud(const fs::path& input, Format from, const fs::path& output, Format to,
+                   bool level) {
+  PointCloudFile cloud = from == Format::kPly ? read_ply(input) : read_pcd(input);
+  std::vector<std::string> comments;
+  if (level) {
+    const Eigen::Isometry3f T_map_world = level_transform(input).isometry().cast<float>();
+    for (Eigen::Vector3f& point : cloud.points) point = T_map_world * point;
+    for (Eigen::Vector3f& normal : cloud.normals) normal = T_map_world.linear() * normal;
+    comments = {"units: m", "frame: map, level, x forward at the start, y left, z up"};
+  }
+  to == Format::kPly ? write_ply(output, cloud, comments) : write_pcd(output, cloud);
   fmt::print("{}: {} points\n", output.string(), cloud.points.size());
 }
 
@@ -95,8 +109,14 @@ Trajectory read_poses(const fs::path& input, Format from, const fs::path& stamps
 }
 
 void convert_trajectory(const fs::path& input, Format from, const fs::path& output, Format to,
-                        const fs::path& stamps) {
-  const Trajectory trajectory = read_poses(input, from, stamps);
+                        const fs::path& stamps, bool level) {
+  Trajectory trajectory = read_poses(input, from, stamps);
+  if (level) {
+    const Eigen::Isometry3d T_map_world = level_transform(input).isometry();
+    for (StampedPose& pose : trajectory) {
+      pose.T_world_sensor = Transform<World, Sensor>(T_map_world * pose.T_world_sensor.isometry());
+    }
+  }
   if (to == Format::kTum && from == Format::kKitti && stamps.empty()) {
     throw DataError(input.string(), "has no stamps, which TUM trajectories require",
                     "use --stamps FILE with one at the start of each line: times.txt, or the "
@@ -110,7 +130,7 @@ void convert_trajectory(const fs::path& input, Format from, const fs::path& outp
 
 }  // namespace
 
-void convert_file(const fs::path& input, const fs::path& given, const fs::path& stamps,
+void convert_file(const fs::path& input, const fs::path& given, const fs::path& stamps, bool level,
                   bool overwrite) {
   const Format from = format_of_input(input);
   const fs::path output = given.empty() ? other_file(input, from) : given;
@@ -122,8 +142,8 @@ void convert_file(const fs::path& input, const fs::path& given, const fs::path& 
                     is_cloud(from) ? "choose .ply or .pcd" : "choose .tum or .txt");
   }
   refuse_existing_file(output, overwrite);
-  if (is_cloud(from)) return convert_cloud(input, from, output, to);
-  convert_trajectory(input, from, output, to, stamps);
+  if (is_cloud(from)) return convert_cloud(input, from, output, to, level);
+  convert_trajectory(input, from, output, to, stamps, level);
 }
 
 }  // namespace mms

@@ -2,7 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <string>
+#include <vector>
 
+#include "mms/core/error.hpp"
+#include "mms/io/config/yaml_map.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/numbers.hpp"
 
@@ -55,6 +58,33 @@ void write_occupancy_grid(const std::filesystem::path& yaml, const OccupancyGrid
   const std::filesystem::path picture = std::filesystem::path(yaml).replace_extension(".pgm");
   write_file(picture, pgm_of(grid.cells));
   write_file(yaml, yaml_of(picture.filename().string(), grid));
+}
+
+Transform<World, Map> read_map_frame(const std::filesystem::path& yaml) {
+  constexpr Range kCoordinate{-1e6, 1e6};
+  YamlMap file = YamlMap::load(yaml);
+  YamlMap transform = file.child("T_world_map");
+  const auto numbers = [&](const char* key, std::size_t count) {
+    const auto node = transform.find(key);
+    if (!node || !node->IsSequence() || node->size() != count) {
+      throw ConfigError(
+          yaml.string(),
+          std::string("has no T_world_map.") + key + " of " + std::to_string(count) + " numbers",
+          "expected map.yaml of a run");
+    }
+    std::vector<double> values;
+    for (const YAML::Node& value : *node)
+      values.push_back(transform.number(value, key, kCoordinate));
+    return values;
+  };
+  const std::vector<double> t = numbers("translation", 3);
+  const std::vector<double> q = numbers("quaternion", 4);
+  const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+  if (!(rotation.norm() > 0.0)) throw ConfigError(yaml.string(), "T_world_map has no rotation");
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = rotation.normalized().toRotationMatrix();
+  T.translation() = Eigen::Vector3d(t[0], t[1], t[2]);
+  return Transform<World, Map>(T);
 }
 
 }  // namespace mms

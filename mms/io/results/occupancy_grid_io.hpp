@@ -15,4 +15,8 @@ namespace mms {
 /// @throws FileError if a file cannot be written.
 void write_occupancy_grid(const std::filesystem::path& yaml, const OccupancyGrid& grid);
 
+/// Reads `T_world_map` of a grid.
+/// @throws FileError if the file cannot be read; ConfigError if it has no such transform.
+Transform<World, Map> read_map_frame(const std::filesystem::path& yaml);
+
 }  // namespace mms
