@@ -35,7 +35,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmms-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
        "libeigen3-dev (>= 3.4), libtbb-dev, robin-map-dev, libopencv-core-dev, "
-       "libopencv-imgproc-dev, libopencv-imgcodecs-dev, libopencv-dnn-dev, libdnnl-dev, "
+       "libopencv-imgproc-dev, libopencv-imgcodecs-dev, libopencv-dnn-dev, "
+       "libopencv-features2d-dev, libceres-dev, libdnnl-dev, "
        "ocl-icd-opencl-dev, libembree-dev, libyaml-cpp-dev, nlohmann-json3-dev, liboctomap-dev, "
        "libfmt-dev, libboost-dev (>= 1.74)")
 if(RosbagStorage_FOUND)

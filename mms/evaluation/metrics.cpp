@@ -46,6 +46,13 @@ Json realtime_json(const RealtimeMetrics& metrics) {
           {"frames_without_masks", metrics.without_masks}};
 }
 
+Json loops_json(const LoopMetrics& metrics) {
+  Json object = {
+      {"keyframes", metrics.keyframes}, {"checked", metrics.checked}, {"closed", metrics.closed}};
+  if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
+  return object;
+}
+
 MetricValue count(const char* meaning, std::int64_t value) {
   return {"", meaning, static_cast<double>(value), "", 0};
 }
@@ -92,6 +99,19 @@ MetricSection trajectory_section(const RunMetrics& metrics) {
     add(section, metric_values(*metrics.trajectory), {"poses"});
   }
   if (metrics.drift && metrics.stood_still) add(section, metric_values(*metrics.drift), {"poses"});
+  return section;
+}
+
+/// What loops change, if there are any.
+MetricSection loops_section(const RunMetrics& metrics) {
+  MetricSection section{"Loops", "", {}};
+  if (!metrics.loops || metrics.loops->closed == 0) return section;
+  add(section, {count("loops closed", metrics.loops->closed)});
+  if (metrics.loops->trajectory) {
+    section.rating = rating_of(*metrics.loops->trajectory);
+    add(section, {{"", "ATE of the corrected poses, RMSE",
+                   100.0 * metrics.loops->trajectory->ate_rmse_m, "cm", 2}});
+  }
   return section;
 }
 
@@ -169,6 +189,7 @@ std::string to_json(const RunMetrics& metrics) {
   if (metrics.realtime) object["realtime"] = realtime_json(*metrics.realtime);
   if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
   if (metrics.drift) object["drift"] = json_object(metric_values(*metrics.drift));
+  if (metrics.loops) object["loops"] = loops_json(*metrics.loops);
   if (metrics.map) object["map"] = json_object(metric_values(*metrics.map));
   if (metrics.masks) object["masks"] = json_object(metric_values(*metrics.masks));
   if (metrics.objects) object["objects"] = json_object(metric_values(*metrics.objects));
@@ -183,9 +204,9 @@ void write_metrics(const std::filesystem::path& path, const RunMetrics& metrics)
 }
 
 std::vector<MetricSection> metric_sections(const RunMetrics& metrics) {
-  std::vector<MetricSection> sections = {trajectory_section(metrics), map_section(metrics),
-                                         objects_section(metrics), masks_section(metrics),
-                                         speed_section(metrics)};
+  std::vector<MetricSection> sections = {trajectory_section(metrics), loops_section(metrics),
+                                         map_section(metrics),        objects_section(metrics),
+                                         masks_section(metrics),      speed_section(metrics)};
   std::erase_if(sections, [](const MetricSection& section) { return section.values.empty(); });
   return sections;
 }

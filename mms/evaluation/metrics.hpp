@@ -37,6 +37,14 @@ struct RealtimeMetrics {
   std::int64_t without_masks = 0;  ///< frames without masks because the network was busy
 };
 
+/// Loop closure of a run.
+struct LoopMetrics {
+  std::int64_t keyframes = 0;                 ///< of the global map
+  std::int64_t checked = 0;                   ///< possible loops
+  std::int64_t closed = 0;                    ///< accepted loops
+  std::optional<TrajectoryError> trajectory;  ///< of the corrected poses; with ground truth
+};
+
 /// Summary of a run: the content of metrics.json.
 struct RunMetrics {
   std::int64_t frames = 0;          ///< processed
@@ -54,6 +62,7 @@ struct RunMetrics {
   std::optional<RealtimeMetrics> realtime;    ///< of runs at the sensor's rate
   std::optional<TrajectoryError> trajectory;  ///< with ground truth
   std::optional<Drift> drift;                 ///< with ground truth
+  std::optional<LoopMetrics> loops;           ///< with a global map
   std::optional<MapError> map;                ///< with a ground-truth map
   std::optional<MaskAgreement> masks;         ///< with masks to compare
   std::optional<TrackingError> objects;       ///< with ground-truth objects
@@ -64,18 +73,18 @@ struct RunMetrics {
 /// Version of the keys in metrics.json, its `version`. Version 1 had no such key.
 inline constexpr int kMetricsVersion = 2;
 
-/// The JSON object, indented, with a final newline. `realtime`, `trajectory`, `drift`, `map`,
-/// `masks`, `objects` and `live_objects` only if present; all status names always. Keys end with
-/// their unit: _s, _m, _mps, _deg, _hz, _mb, _pct; all others are counts.
+/// The JSON object, indented, with a final newline. `realtime`, `trajectory`, `drift`,
+/// `loops`, `map`, `masks`, `objects` and `live_objects` only if present; all status names always.
+/// Keys end with their unit: _s, _m, _mps, _deg, _hz, _mb, _pct; all others are counts.
 std::string to_json(const RunMetrics& metrics);
 
 /// Writes `to_json` to a file atomically.
 /// @throws FileError
 void write_metrics(const std::filesystem::path& path, const RunMetrics& metrics);
 
-/// The main metrics for the terminal and the report: trajectory, map, objects, masks, speed. Values
-/// that are undefined or do not apply are omitted; a section without values, too. A section with a
-/// comparison to ground truth has a rating (docs/evaluation.md).
+/// The main metrics for the terminal and the report: trajectory, loops, map, objects, masks, speed.
+/// Values that are undefined or do not apply are omitted; a section without values, too. A section
+/// with a comparison to ground truth has a rating (docs/evaluation.md).
 std::vector<MetricSection> metric_sections(const RunMetrics& metrics);
 
 }  // namespace mms

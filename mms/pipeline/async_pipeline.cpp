@@ -23,6 +23,10 @@ constexpr std::size_t kQueueCapacity = 3;
 /// [frames]: the same in real time. Source: a waiting frame adds latency.
 constexpr std::size_t kRealtimeCapacity = 1;
 
+/// [-]: keyframes in the queue for loop closure. Source: a graph of 1,000 nodes is solved in the
+/// time of a few keyframes.
+constexpr std::size_t kKeyframeCapacity = 8;
+
 /// [ms]: a frame that waits longer for the segmentation counts as delayed. Source: initial choice,
 /// a third of the time between two frames of a 30 Hz camera.
 constexpr std::chrono::milliseconds kMaxQueueWait{10};
@@ -107,7 +111,8 @@ class StageThreads {
         inputs_(capacity(options)),
         segmented_(capacity(options)),
         perceived_(capacity(options)),
-        localized_(capacity(options)) {}
+        localized_(capacity(options)),
+        keyframes_(kKeyframeCapacity) {}
 
   void read_all(const AsyncPipeline::Source& source, std::atomic<std::size_t>& dropped) {
     Pace pace;
@@ -147,9 +152,17 @@ class StageThreads {
   void localize_all() {
     while (std::optional<Perceived> item = perceived_.pop()) {
       FrameResult result = system_.localize(std::move(item->frame));
+      if (result.global_keyframe) hand_over(item->input.frame, result);
       if (!localized_.push({std::move(item->input), std::move(result)})) break;
     }
     localized_.close();
+    keyframes_.close();
+  }
+
+  void close_all_loops() {
+    while (std::optional<GlobalKeyframe> keyframe = keyframes_.pop()) {
+      system_.close_loops(*keyframe);
+    }
   }
 
   void map_all(const AsyncPipeline::Sink& sink) {
@@ -170,12 +183,23 @@ class StageThreads {
       segmented_.close();
       perceived_.close();
       localized_.close();
+      keyframes_.close();
     }
   }
 
   void rethrow() const { error_.rethrow(); }
 
  private:
+  /// In real time, loop closure that is late must not delay the pose.
+  void hand_over(const Frame& frame, const FrameResult& result) {
+    GlobalKeyframe keyframe = SlamSystem::global_keyframe(frame, result);
+    keyframe.after_lost |= std::exchange(dropped_after_lost_, false);
+    const bool after_lost = keyframe.after_lost;
+    const bool taken = options_.realtime ? keyframes_.try_push(std::move(keyframe))
+                                         : keyframes_.push(std::move(keyframe));
+    if (!taken) dropped_after_lost_ = after_lost;
+  }
+
   static std::size_t capacity(const AsyncOptions& options) {
     return options.realtime ? kRealtimeCapacity : kQueueCapacity;
   }
@@ -186,6 +210,8 @@ class StageThreads {
   BoundedQueue<Segmented> segmented_;
   BoundedQueue<Perceived> perceived_;
   BoundedQueue<Localized> localized_;
+  BoundedQueue<GlobalKeyframe> keyframes_;
+  bool dropped_after_lost_ = false;  // of a keyframe that was not taken
   FirstError error_;
 };
 
@@ -215,11 +241,13 @@ void AsyncPipeline::run_threaded(SlamSystem& system, const Source& source, const
   std::thread segmenter([&] { stages.guarded([&] { stages.segment_all(without_masks_); }); });
   std::thread perceiver([&] { stages.guarded([&] { stages.perceive_all(); }); });
   std::thread localizer([&] { stages.guarded([&] { stages.localize_all(); }); });
+  std::thread loop_closer([&] { stages.guarded([&] { stages.close_all_loops(); }); });
   stages.guarded([&] { stages.map_all(sink); });
   reader.join();
   segmenter.join();
   perceiver.join();
   localizer.join();
+  loop_closer.join();
   stages.rethrow();
 }
 

@@ -30,7 +30,9 @@ using StageTimes = std::array<double, kStageCount>;
 struct FrameResult {
   OdometryEstimate odometry;
   LabeledCloud cloud;
-  bool keyframe = false;
+  bool keyframe = false;               ///< of the static map
+  bool global_keyframe = false;        ///< of the global map
+  bool after_lost = false;             ///< frames since the last global keyframe were lost
   double dynamic_share = 0.0;          ///< of the valid points, in [0, 1]
   double overruled_share = 0.0;        ///< of the valid points: masked, but static for the pose
   std::vector<TrackedObject> objects;  ///< of the dynamic map, by id

@@ -24,7 +24,9 @@ Localization::Localization(const SystemConfig& config)
       motion_segmentation_(for_mode(config.motion_segmentation, config.fusion.mode), config.noise),
       hypotheses_(for_mode(config.mask_check, config.fusion.mode),
                   with_noise(config.features, config.noise), config.fusion.sizes),
-      keyframes_(config.keyframes) {}
+      keyframes_(config.keyframes),
+      global_keyframes_(config.global_map.keyframes),
+      closes_loops_(config.global_map.enabled) {}
 
 FrameResult Localization::localize(PerceivedFrame frame) {
   assert(thread_.is_owner());
@@ -43,9 +45,19 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     }
     return estimate;
   });
+  choose_global_keyframe(result);
   result.dynamic_share = dynamic_share(result.cloud);
   result.overruled_share = overruled_share(result.cloud, result.cloud.overruled);
   return result;
+}
+
+void Localization::choose_global_keyframe(FrameResult& result) {
+  if (!closes_loops_ || !result.cloud.organised()) return;
+  lost_since_global_keyframe_ |= result.odometry.status == Status::kLost;
+  result.global_keyframe = global_keyframes_.is_keyframe(result.odometry);
+  if (result.global_keyframe) {
+    result.after_lost = std::exchange(lost_since_global_keyframe_, false);
+  }
 }
 
 void Localization::exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const {

@@ -26,11 +26,15 @@ class Localization {
 
  private:
   void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
+  void choose_global_keyframe(FrameResult& result);
 
   Odometry odometry_;
   MotionSegmentation motion_segmentation_;
   PoseHypotheses hypotheses_;
   KeyframeSelector keyframes_;
+  KeyframeSelector global_keyframes_;
+  bool closes_loops_;
+  bool lost_since_global_keyframe_ = false;
   ThreadConfinement thread_;
 };
 

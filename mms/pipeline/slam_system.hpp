@@ -7,6 +7,7 @@
 #include "mms/core/frame.hpp"
 #include "mms/pipeline/frame_result.hpp"
 #include "mms/pipeline/localization.hpp"
+#include "mms/pipeline/loop_closing.hpp"
 #include "mms/pipeline/mapping.hpp"
 #include "mms/pipeline/perception.hpp"
 #include "mms/pipeline/system_config.hpp"
@@ -14,26 +15,34 @@
 
 namespace mms {
 
-/// The whole method, one frame at a time, as three stages that each own their state. Synchronous:
+/// The whole method, one frame at a time, as four stages that each own their state. Synchronous:
 /// has no thread, file or clock except the stopwatch of its steps. Parallel steps run in the
 /// caller's tbb::task_arena; the result does not depend on its number of threads.
 class SlamSystem {
  public:
   /// @param segmenter  gives the masks (III-A); not null
   SlamSystem(const SystemConfig& config, std::unique_ptr<Segmenter> segmenter)
-      : perception_(config, std::move(segmenter)), localization_(config), mapping_(config) {}
+      : perception_(config, std::move(segmenter)),
+        localization_(config),
+        loop_closing_(config),
+        mapping_(config) {}
 
   /// Localizes a frame and integrates it into the maps. Frames come in the order of their stamps.
   /// @throws DataError when the frame's images and calibration disagree in size
-  FrameResult process(const Frame& frame) { return map(localize(perceive(frame, segment(frame)))); }
+  FrameResult process(const Frame& frame) {
+    FrameResult result = localize(perceive(frame, segment(frame)));
+    if (result.global_keyframe) close_loops(global_keyframe(frame, result));
+    return map(std::move(result));
+  }
 
-  // The steps of `process`, for a pipeline in which successive frames overlap. Each of these four
+  // The steps of `process`, for a pipeline in which successive frames overlap. Each of these five
   // may have its own thread; debug builds assert that it keeps it until `release_threads`.
   TimedSegmentation segment(const Frame& frame) { return perception_.segment(frame); }
   PerceivedFrame perceive(const Frame& frame, const TimedSegmentation& masks) {
     return perception_.perceive(frame, masks);
   }
   FrameResult localize(PerceivedFrame frame) { return localization_.localize(std::move(frame)); }
+  void close_loops(const GlobalKeyframe& keyframe) { loop_closing_.close_loops(keyframe); }
   FrameResult map(FrameResult localized) { return mapping_.map(std::move(localized)); }
 
   /// Completes the static map after the last frame; see `Mapping::finalize`.
@@ -43,8 +52,16 @@ class SlamSystem {
   void release_threads() {
     perception_.release_threads();
     localization_.release_thread();
+    loop_closing_.release_thread();
     mapping_.release_thread();
   }
+
+  /// What `close_loops` takes of a localized frame.
+  static GlobalKeyframe global_keyframe(const Frame& frame, const FrameResult& localized) {
+    return {frame.color, localized.cloud, localized.odometry.T_world_sensor, localized.after_lost};
+  }
+
+  const GlobalMap& global_map() const { return loop_closing_.global_map(); }
 
   // To be read in the thread of `map`.
   const StaticMap& static_map() const { return mapping_.static_map(); }
@@ -54,6 +71,7 @@ class SlamSystem {
  private:
   Perception perception_;
   Localization localization_;
+  LoopClosing loop_closing_;
   Mapping mapping_;
 };
 

@@ -3,6 +3,7 @@
 #include "mms/core/config_visitor.hpp"
 #include "mms/fusion/config/fusion_config.hpp"
 #include "mms/geometry/sensor_noise.hpp"
+#include "mms/global_map/global_map.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/motion_segmentation/mask_check_config.hpp"
@@ -29,6 +30,7 @@ struct SystemConfig {
   StaticMapConfig static_map;
   OccupancyConfig occupancy;
   DynamicMapConfig dynamic_map;
+  GlobalMapConfig global_map;
 
   void visit(ConfigVisitor& v);
 };

@@ -42,6 +42,7 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
   if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
   if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;
+  if (!options.loops.empty()) config.global_map.enabled = options.loops == "on";
   return config;
 }
 

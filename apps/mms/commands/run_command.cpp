@@ -121,6 +121,11 @@ void add_run_command(CLI::App& app) {
       ->add_option("--fusion", options->fusion,
                    "how points are labeled dynamic (default: that of the settings, multimodal)")
       ->check(CLI::IsMember({"multimodal", "vision", "none"}));
+  command
+      ->add_option("--loops", options->loops,
+                   "close loops and write the corrected trajectory_map.tum (default: that of the "
+                   "settings, on)")
+      ->check(CLI::IsMember({"on", "off"}));
   add_frames_option(*command, options->frames, "process at most N frames");
   command->add_option("--start", options->start, "skip the first K frames")
       ->check(CLI::Range(std::size_t{0}, kMaxFrames))

@@ -72,6 +72,7 @@ void RunLog::finish(std::size_t skipped, const AsyncPipeline& pipeline, const Sl
   sum_up_times();
   sum_up_latency(pipeline);
   sum_up_accuracy();
+  sum_up_loops(system.global_map());
   metrics_.frames_skipped = static_cast<std::int64_t>(skipped + pipeline.dropped());
   metrics_.peak_memory_mb = peak_memory_mb();
   for (const LoggedFrame& frame : frames_) {
@@ -120,6 +121,20 @@ void RunLog::sum_up_accuracy() {
   metrics_.stood_still = evaluate_drift(truth_).mtde_m < kStandsStill;
 }
 
+void RunLog::sum_up_loops(const GlobalMap& map) {
+  if (map.records().empty()) return;
+  loops_ = map.loops();
+  for (const KeyframeRecord& record : map.records()) loop_stamps_.push_back(record.stamp);
+  correction_ = map.correction();
+  LoopMetrics& loops = metrics_.loops.emplace();
+  loops.keyframes = static_cast<std::int64_t>(loop_stamps_.size());
+  loops.checked = static_cast<std::int64_t>(loops_.size());
+  loops.closed = std::count_if(loops_.begin(), loops_.end(), [](const Loop& loop) {
+    return loop.outcome == LoopOutcome::kAccepted;
+  });
+  if (metrics_.trajectory) loops.trajectory = evaluate_trajectory(truth_, corrected_trajectory());
+}
+
 void RunLog::compare_objects(const ObjectHistory& truth) {
   const auto T = align_truth(truth_, trajectory());
   if (!T || truth.empty()) return;
@@ -145,6 +160,16 @@ void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vecto
 Trajectory RunLog::trajectory() const {
   Trajectory poses;
   for (const LoggedFrame& frame : frames_) poses.push_back({frame.stamp, frame.T_world_sensor});
+  return poses;
+}
+
+Trajectory RunLog::corrected_trajectory() const {
+  Trajectory poses = trajectory();
+  if (correction_.empty()) return poses;
+  for (StampedPose& pose : poses) {
+    const Transform<Global, Sensor> corrected = correction_.at(pose.stamp) * pose.T_world_sensor;
+    pose.T_world_sensor = Transform<World, Sensor>(corrected.isometry());
+  }
   return poses;
 }
 

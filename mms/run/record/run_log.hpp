@@ -8,6 +8,7 @@
 
 #include "mms/core/trajectory.hpp"
 #include "mms/evaluation/metrics.hpp"
+#include "mms/global_map/global_map.hpp"
 #include "mms/mapping/tracking/object_smoother.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/pipeline/slam_system.hpp"
@@ -69,12 +70,20 @@ class RunLog {
 
   Trajectory trajectory() const;
   Trajectory keyframes() const;
+  /// Poses of all frames in the global frame; those of `trajectory` without loops.
+  Trajectory corrected_trajectory() const;
+  /// Possible loops that were checked; empty before `finish`.
+  const std::vector<Loop>& loops() const { return loops_; }
+  /// Stamp of a keyframe of the global map.
+  Timestamp stamp_of_keyframe(std::size_t keyframe) const { return loop_stamps_[keyframe]; }
+  const PoseCorrection& correction() const { return correction_; }
 
  private:
   void keep_picture(const Processed& processed);
   void sum_up_times();
   void sum_up_latency(const AsyncPipeline& pipeline);
   void sum_up_accuracy();
+  void sum_up_loops(const GlobalMap& map);
 
   Trajectory truth_;
   std::vector<LoggedFrame> frames_;
@@ -83,6 +92,9 @@ class RunLog {
   ObjectHistory live_objects_;  ///< live output of the dynamic map
   std::vector<ReportPicture> pictures_;
   std::size_t picture_stride_ = 1;
+  std::vector<Loop> loops_;
+  std::vector<Timestamp> loop_stamps_;  ///< by keyframe of the global map
+  PoseCorrection correction_;
   bool has_image_ = false;
   bool compare_masks_ = false;
   RunMetrics metrics_;

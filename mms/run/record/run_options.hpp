@@ -32,6 +32,7 @@ struct RunOptions {
   BagTopicNames topics;          ///< of a bag
   CameraOptions camera;          ///< in place of the recording's
   std::string fusion;            ///< empty: as the config says
+  std::string loops;             ///< "on", "off"; empty: as the config says
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::size_t start = 0;
   bool realtime = false;

@@ -10,6 +10,7 @@
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/results/objects_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/mapping/static_map/semantic_map.hpp"
@@ -35,6 +36,23 @@ std::string timing_csv(const RunLog& log) {
     for (const double ms : frame.stage_ms) fmt::format_to(std::back_inserter(text), ",{:.3f}", ms);
     fmt::format_to(std::back_inserter(text), ",{:.3f},{:.3f}\n", frame.stages_ms(),
                    frame.interval_ms);
+  }
+  return text;
+}
+
+std::string loops_csv(const RunLog& log) {
+  std::string text =
+      "stamp,earlier_stamp,outcome,inliers,overlap,contradiction,sigma,tx,ty,tz,qx,qy,qz,qw\n";
+  for (const Loop& loop : log.loops()) {
+    const Eigen::Vector3d t = loop.T_candidate_query.translation();
+    const Eigen::Quaterniond q(loop.T_candidate_query.linear());
+    fmt::format_to(
+        std::back_inserter(text),
+        "{},{},{},{},{:.3f},{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n",
+        log.stamp_of_keyframe(loop.query).to_string(),
+        log.stamp_of_keyframe(loop.candidate).to_string(), to_string(loop.outcome), loop.inliers,
+        loop.overlap, loop.contradiction, loop.sigma(), t.x(), t.y(), t.z(), q.x(), q.y(), q.z(),
+        q.w());
   }
   return text;
 }
@@ -97,6 +115,10 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
   write_ply(folder / "semantic_map.ply", file_of(with_objects), ply_comments(frame));
   write_file(folder / "config.yaml", dump_config(config));
   write_metrics(folder / "metrics.json", log.metrics());
+  if (log.metrics().loops) {
+    write_trajectory_tum(folder / "trajectory_map.tum", log.corrected_trajectory());
+    write_file(folder / "loops.csv", loops_csv(log));
+  }
   write_file(folder / "timing.csv", timing_csv(log));
   RunReport report = make_report(data, map, with_objects, system.static_map().voxel_size(), log);
   report.version = MMS_VERSION;

@@ -1,0 +1,193 @@
+#include "mms/global_map/global_map.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "mms/geometry/se3.hpp"
+#include "mms/global_map/graph/odometry_noise.hpp"
+#include "mms/global_map/keyframes/keypoint_extraction.hpp"
+
+namespace mms {
+namespace {
+
+/// [-]: candidates of a keyframe by place recognition, and by position. Source: computing time.
+constexpr std::size_t kMaxRecognized = 3;
+constexpr std::size_t kMaxNearby = 2;
+
+/// Nearness of candidates by position: distance and angle between the views. Source: initial
+/// choice; views beyond share too little.
+constexpr double kNearby = 1.0;                         // [m]
+constexpr double kNearbyTurn = std::numbers::pi / 6.0;  // [rad]
+
+/// [m]: largest standard deviation of a position by the odometry for candidates by position.
+/// Source: registration converges from three of them; structures that repeat are farther apart.
+constexpr double kMaxNearbySigma = 0.15;
+
+/// [-]: squared deviation of a loop from the odometry above which it is excluded. Source: 99.9 % of
+/// the chi-square distribution with six degrees of freedom.
+constexpr double kMaxSquaredDeviation = 22.5;
+
+/// [keyframes]: two loops at most this many keyframes apart confirm each other if they agree.
+constexpr std::size_t kConfirmation = 2;
+
+/// Largest difference of the poses that two loops give. Source: twice the noise floor of loops,
+/// and the odometry between them.
+constexpr double kMaxDifference = 0.05;                // [m]
+constexpr double kMaxTurn = std::numbers::pi / 180.0;  // [rad]
+
+}  // namespace
+
+GlobalMap::GlobalMap(const GlobalMapConfig& config, const FeatureConfig& features,
+                     const RegistrationConfig& registration)
+    : config_(config),
+      extractor_(features),
+      noise_(features.noise.depth),
+      verifier_(config.loops, registration, noise_) {}
+
+std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
+  KeyframeRecord record;
+  record.stamp = keyframe.cloud.stamp;
+  record.T_world_sensor = keyframe.T_world_sensor;
+  record.after_lost = keyframe.after_lost;
+  record.keypoints = extract_keypoints(keyframe.color, keyframe.cloud, noise_);
+  record.features = extractor_.extract(keyframe.cloud);
+  record.features.intensity = {};
+  record.view = make_keyframe_view(keyframe.cloud);
+  add_node(record);
+  records_.push_back(std::move(record));
+  const std::vector<Loop> accepted = find_loop();
+  recognizer_.add(records_.back().keypoints.descriptors);
+  if (!accepted.empty()) solve();
+  return accepted;
+}
+
+void GlobalMap::add_node(const KeyframeRecord& record) {
+  if (records_.empty()) {
+    graph_ = PoseGraph(record.T_world_sensor.isometry());
+    path_.push_back(0.0);
+    return;
+  }
+  const Eigen::Isometry3d motion =
+      records_.back().T_world_sensor.isometry().inverse() * record.T_world_sensor.isometry();
+  graph_.add_node(motion, odometry_information(motion, record.after_lost));
+  path_.push_back(path_.back() + motion.translation().norm());
+}
+
+/// The first keyframe that the path since is too short for a loop to.
+std::size_t GlobalMap::first_recent() const {
+  const auto recent = std::upper_bound(path_.begin(), path_.end(), path_.back() - config_.min_path);
+  return static_cast<std::size_t>(recent - path_.begin());
+}
+
+/// Earlier keyframes that look in nearly the same direction from nearly the same position.
+std::vector<std::size_t> GlobalMap::nearby(std::size_t end) const {
+  std::vector<std::pair<double, std::size_t>> near;
+  const Eigen::Isometry3d T_sensor_global = graph_.poses().back().inverse();
+  for (std::size_t i = 0; i < end; ++i) {
+    const Eigen::Isometry3d relative = T_sensor_global * graph_.poses()[i];
+    const double distance = relative.translation().norm();
+    if (distance > kNearby) continue;
+    const double turn = se3::angle(relative);
+    if (turn < kNearbyTurn) near.emplace_back(distance + turn, i);
+  }
+  std::sort(near.begin(), near.end());
+  std::vector<std::size_t> keyframes;
+  for (const auto& [unused, keyframe] : near) {
+    if (keyframes.size() == kMaxNearby) break;
+    const Matrix6d covariance = graph_.chain_covariance(keyframe, records_.size() - 1);
+    const double variance = covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
+    if (variance < kMaxNearbySigma * kMaxNearbySigma) keyframes.push_back(keyframe);
+  }
+  return keyframes;
+}
+
+/// Checks the candidates of the last keyframe until one is accepted: first those at its position,
+/// then those that place recognition finds.
+std::vector<Loop> GlobalMap::find_loop() {
+  const std::size_t query = records_.size() - 1;
+  const std::size_t end = first_recent();
+  const auto passes = [&](Loop loop) {
+    const bool verified = loop.outcome == LoopOutcome::kAccepted;
+    if (verified && !is_likely(loop)) loop.outcome = LoopOutcome::kUnlikely;
+    loops_.push_back(std::move(loop));
+    return loops_.back().outcome == LoopOutcome::kAccepted;
+  };
+  for (const std::size_t candidate : nearby(end)) {
+    if (passes(verifier_.verify_nearby(records_, graph_.poses(), candidate, query))) {
+      return confirm();
+    }
+  }
+  const std::vector<PlaceCandidate> recognized =
+      recognizer_.find(records_.back().keypoints.descriptors, end, kMaxRecognized);
+  for (const PlaceCandidate& candidate : recognized) {
+    if (passes(verifier_.verify(records_, graph_.poses(), candidate.keyframe, query))) {
+      return confirm();
+    }
+  }
+  return {};
+}
+
+/// Whether the odometry since the candidate allows the relative pose.
+bool GlobalMap::is_likely(const Loop& loop) const {
+  const Eigen::Isometry3d expected =
+      graph_.poses()[loop.candidate].inverse() * graph_.poses()[loop.query];
+  PoseEdge edge{loop.candidate, loop.query, loop.T_candidate_query, {}};
+  const Matrix6d covariance = graph_.chain_covariance(loop.candidate, loop.query);
+  edge.information = covariance.inverse();
+  return squared_deviation(edge, expected) < kMaxSquaredDeviation;
+}
+
+/// Accepts the last loop if one of the keyframes before has a loop that agrees, and that one too.
+std::vector<Loop> GlobalMap::confirm() {
+  Loop& loop = loops_.back();
+  const auto pose_by = [&](const Loop& l) -> Eigen::Isometry3d {
+    // Pose of the new keyframe in the global frame, by the odometry since the loop.
+    return graph_.poses()[l.candidate] * l.T_candidate_query * graph_.poses()[l.query].inverse() *
+           graph_.poses()[loop.query];
+  };
+  const auto agrees = [&](std::size_t i) {
+    const Eigen::Isometry3d difference = pose_by(loops_[i]).inverse() * pose_by(loop);
+    return difference.translation().norm() < kMaxDifference && se3::angle(difference) < kMaxTurn;
+  };
+  std::erase_if(pending_,
+                [&](std::size_t i) { return loops_[i].query + kConfirmation < loop.query; });
+  std::vector<Loop> accepted;
+  const auto other = std::find_if(pending_.begin(), pending_.end(), agrees);
+  if (other == pending_.end()) {
+    loop.outcome = LoopOutcome::kUnconfirmed;
+  } else {
+    if (std::exchange(loops_[*other].outcome, LoopOutcome::kAccepted) != LoopOutcome::kAccepted) {
+      accepted.push_back(loops_[*other]);
+    }
+    accepted.push_back(loop);
+  }
+  pending_.push_back(loops_.size() - 1);
+  for (const Loop& l : accepted) {
+    graph_.add_loop({l.candidate, l.query, l.T_candidate_query, l.information});
+  }
+  return accepted;
+}
+
+void GlobalMap::solve() {
+  for (const PoseEdge& removed : graph_.solve()) {
+    for (Loop& loop : loops_) {
+      if (loop.candidate == removed.a && loop.query == removed.b) {
+        loop.outcome = LoopOutcome::kInconsistent;
+      }
+    }
+  }
+}
+
+PoseCorrection GlobalMap::correction() const {
+  PoseCorrection correction;
+  if (graph_.loops().empty()) return correction;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    const Eigen::Isometry3d& pose = graph_.poses()[i];
+    const Eigen::Isometry3d& odometry = records_[i].T_world_sensor.isometry();
+    correction.add(records_[i].stamp, Transform<Global, World>(pose * odometry.inverse()));
+  }
+  return correction;
+}
+
+}  // namespace mms

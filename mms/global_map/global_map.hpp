@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+#include "mms/core/config_visitor.hpp"
+#include "mms/geometry/sensor_noise.hpp"
+#include "mms/global_map/graph/pose_graph.hpp"
+#include "mms/global_map/keyframes/keyframe_record.hpp"
+#include "mms/global_map/loops/loop_verification.hpp"
+#include "mms/global_map/places/place_recognizer.hpp"
+#include "mms/global_map/pose_correction.hpp"
+#include "mms/localization/features/feature_extractor.hpp"
+#include "mms/localization/registration/registration.hpp"
+#include "mms/mapping/static_map/keyframe_selector.hpp"
+
+namespace mms {
+
+struct GlobalMapConfig {
+  bool enabled = true;
+  KeyframeConfig keyframes{.translation = 0.25, .rotation = 15.0, .max_interval = 3600.0};
+  double min_path = 5.0;  ///< [m]
+  LoopConfig loops{};
+
+  void visit(ConfigVisitor& v) {
+    v.boolean({"enabled", "", "find loops and correct the trajectory by a pose graph"}, enabled);
+    v.group({"keyframes", "", "choice of the nodes of the pose graph"}, keyframes);
+    v.number({"min_path", "m", "least length of the path between the ends of a loop"}, min_path,
+             {0.0, 1e5});
+    v.group({"loops", "", "checks of a loop"}, loops);
+  }
+};
+
+/// A keyframe for the global map.
+struct GlobalKeyframe {
+  Image<Rgb> color;  ///< image of the frame; may be empty
+  LabeledCloud cloud;
+  Transform<World, Sensor> T_world_sensor;  ///< by odometry
+  bool after_lost = false;  ///< whether the sensor was lost since the keyframe before
+};
+
+/// The global map (beyond the paper, which names global optimization without a method): keyframes,
+/// loops between them, and the pose graph that corrects the drift of the odometry. The odometry is
+/// not changed by it. Deterministic for the same sequence of keyframes.
+class GlobalMap {
+ public:
+  /// @param features, registration  settings of the odometry
+  GlobalMap(const GlobalMapConfig& config, const FeatureConfig& features,
+            const RegistrationConfig& registration);
+
+  /// Adds the next keyframe and checks loops to earlier ones.
+  /// @returns the loops accepted with it
+  std::vector<Loop> add(const GlobalKeyframe& keyframe);
+
+  /// Correction by all loops so far; empty without any.
+  PoseCorrection correction() const;
+
+  /// All candidates that were checked, in order.
+  const std::vector<Loop>& loops() const { return loops_; }
+  const std::deque<KeyframeRecord>& records() const { return records_; }
+  /// Corrected poses, by keyframe; empty before the first keyframe.
+  const std::vector<Eigen::Isometry3d>& poses() const { return graph_.poses(); }
+
+ private:
+  void add_node(const KeyframeRecord& record);
+  std::size_t first_recent() const;
+  std::vector<std::size_t> nearby(std::size_t end) const;
+  std::vector<Loop> find_loop();
+  bool is_likely(const Loop& loop) const;
+  std::vector<Loop> confirm();
+  void solve();
+
+  GlobalMapConfig config_;
+  FeatureExtractor extractor_;
+  DepthNoise noise_;
+  LoopVerifier verifier_;
+  PlaceRecognizer recognizer_;
+  std::deque<KeyframeRecord> records_;
+  std::vector<double> path_;  ///< length of the path up to each keyframe [m]
+  PoseGraph graph_;
+  std::vector<Loop> loops_;
+  std::vector<std::size_t> pending_;  ///< indices of recent loops that wait for confirmation
+};
+
+}  // namespace mms

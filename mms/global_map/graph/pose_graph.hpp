@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <vector>
+
+#include "mms/geometry/se3.hpp"
+
+namespace mms {
+
+/// A measured relative pose of two nodes.
+struct PoseEdge {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
+  /// Of the deviation of T_a_b by a right perturbation: translation [1/m^2], rotation [1/rad^2].
+  Matrix6d information = Matrix6d::Identity();
+};
+
+/// Poses of nodes that agree best with measured relative poses. Node 0 is fixed. Solved by Ceres in
+/// one thread, so that equal edges give equal poses.
+class PoseGraph {
+ public:
+  /// Adds the first node.
+  explicit PoseGraph(const Eigen::Isometry3d& first = Eigen::Isometry3d::Identity())
+      : poses_{first} {}
+
+  /// Adds a node after the last one, with an edge between them.
+  /// @param motion       pose of the new node in the frame of the last one
+  /// @param information  of `motion`, as that of `PoseEdge`
+  void add_node(const Eigen::Isometry3d& motion, const Matrix6d& information);
+
+  /// Adds an edge between earlier nodes, with a robust cost. To be solved for.
+  void add_loop(const PoseEdge& loop) { loops_.push_back(loop); }
+
+  /// Minimizes the squared deviations. A loop whose deviation stays above three sigma is removed,
+  /// and the graph is solved again.
+  /// @returns the loops that were removed
+  std::vector<PoseEdge> solve();
+
+  const std::vector<Eigen::Isometry3d>& poses() const { return poses_; }  ///< by node
+  const std::vector<PoseEdge>& edges() const { return edges_; }           ///< of successive nodes
+  const std::vector<PoseEdge>& loops() const { return loops_; }
+
+  /// Covariance of the pose of a node relative to an earlier one by the edges between them, of a
+  /// right perturbation of the later one.
+  Matrix6d chain_covariance(std::size_t first, std::size_t last) const;
+
+ private:
+  void minimize();
+
+  std::vector<Eigen::Isometry3d> poses_;
+  std::vector<PoseEdge> edges_;
+  std::vector<PoseEdge> loops_;
+};
+
+/// Squared Mahalanobis distance of a relative pose from an edge's, in six degrees of freedom.
+double squared_deviation(const PoseEdge& edge, const Eigen::Isometry3d& T_a_b);
+
+}  // namespace mms

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "mms/core/odometry_estimate.hpp"
+#include "mms/core/time.hpp"
+#include "mms/core/transform.hpp"
+#include "mms/global_map/keyframes/keyframe_view.hpp"
+#include "mms/global_map/places/binary_descriptor.hpp"
+#include "mms/localization/features/feature_cloud.hpp"
+
+namespace mms {
+
+/// Keypoints of the static part of an image. The vectors are parallel.
+struct ImageKeypoints {
+  std::vector<BinaryDescriptor> descriptors;
+  std::vector<Eigen::Vector3f> points;  ///< in the sensor frame [m]
+  std::vector<Eigen::Vector2f> pixels;  ///< in the image, as shares of its width and height
+
+  std::size_t size() const { return points.size(); }
+};
+
+/// What the global map keeps of a keyframe. Only static points are in it.
+struct KeyframeRecord {
+  Timestamp stamp;                          ///< of the frame
+  Transform<World, Sensor> T_world_sensor;  ///< by odometry
+  bool after_lost = false;                  ///< whether the sensor was lost since the record before
+  ImageKeypoints keypoints;                 ///< for place recognition
+  FeatureCloud features;                    ///< edges and planes, for registration
+  KeyframeView view;                        ///< small depth image
+};
+
+}  // namespace mms

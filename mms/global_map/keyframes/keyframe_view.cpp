@@ -1,0 +1,108 @@
+#include "mms/global_map/keyframes/keyframe_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mms/geometry/camera.hpp"
+#include "mms/mapping/free_space/free_space.hpp"
+
+namespace mms {
+namespace {
+
+/// [px]: least width of a view. Source: at 80 px a pixel covers 4 cm at 3 m, less than what a
+/// contradiction of poses displaces.
+constexpr int kViewWidth = 80;
+
+/// [m]: distance before a surface, above noise, that contradicts it. Source: three times the margin
+/// of carving, since a view has a sixteenth of the pixels.
+constexpr double kMargin = 0.1;
+
+/// [mm]: largest depth of a view. Source: the type's range.
+constexpr float kMaxDepth = 65535.0F;
+
+/// A point's pixel whose neighbors have nearly the same depth: FreeSpace takes the nearest of nine
+/// pixels, so that steep surfaces and boundaries seem to contradict.
+constexpr float kMaxSlope = 0.1F;
+
+bool is_smooth(const Image<std::uint16_t>& depth, int x, int y) {
+  const auto center = static_cast<float>(depth(x, y));
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      if (!depth.contains(x + dx, y + dy)) return false;
+      const auto z = static_cast<float>(depth(x + dx, y + dy));
+      if (z == 0.0F || std::abs(z - center) > kMaxSlope * center) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+KeyframeView make_keyframe_view(const LabeledCloud& cloud) {
+  KeyframeView view;
+  const int stride = std::max(1, cloud.width / kViewWidth);
+  view.camera = downscaled(cloud.camera, stride);
+  view.depth_mm = Image<std::uint16_t>(view.camera.width, view.camera.height);
+  view.is_static = Image<std::uint8_t>(view.camera.width, view.camera.height);
+  for (int y = 0; y < view.camera.height; ++y) {
+    for (int x = 0; x < view.camera.width; ++x) {
+      const int column = x * stride + stride / 2;
+      const int row = y * stride + stride / 2;
+      const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(cloud.width) +
+                     static_cast<std::size_t>(column);
+      const float z = 1000.0F * cloud.points[i].z();
+      if (cloud.labels[i] == PointLabel::kInvalid || !(z > 0.0F && z < kMaxDepth)) continue;
+      view.depth_mm(x, y) = static_cast<std::uint16_t>(z);
+      const bool masked = !cloud.dynamic_pixels.empty() && cloud.dynamic_pixels[i] != 0;
+      view.is_static(x, y) = cloud.labels[i] == PointLabel::kStatic && !masked ? 1 : 0;
+    }
+  }
+  return view;
+}
+
+LabeledCloud KeyframeView::cloud() const {
+  LabeledCloud cloud;
+  cloud.camera = camera;
+  cloud.width = depth_mm.width();
+  cloud.height = depth_mm.height();
+  const std::vector<Eigen::Vector3f> rays = CameraModel(camera).ray_table();
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < depth_mm.size(); ++i) {
+    const bool valid = depth_mm[i] != 0;
+    const float z = 0.001F * static_cast<float>(depth_mm[i]);
+    cloud.points.push_back(valid ? Eigen::Vector3f(z * rays[i]) : Eigen::Vector3f::Constant(kNan));
+    cloud.labels.push_back(!valid              ? PointLabel::kInvalid
+                           : is_static[i] != 0 ? PointLabel::kStatic
+                                               : PointLabel::kDynamic);
+  }
+  return cloud;
+}
+
+ViewAgreement compare_views(const KeyframeView& a, const KeyframeView& b,
+                            const Eigen::Isometry3d& T_a_b, const DepthNoise& noise) {
+  const FreeSpace space(a.cloud(), kMargin, noise);
+  const Eigen::Isometry3f T = T_a_b.cast<float>();
+  const LabeledCloud points = b.cloud();
+  int all = 0;
+  int on_surface = 0;
+  int in_free_space = 0;
+  for (int y = 0; y < points.height; ++y) {
+    for (int x = 0; x < points.width; ++x) {
+      if (b.is_static(x, y) == 0 || !is_smooth(b.depth_mm, x, y)) continue;
+      ++all;
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(points.width) +
+                     static_cast<std::size_t>(x);
+      const SpaceState state = space.state_at(T * points.points[i]);
+      on_surface += state == SpaceState::kSurface;
+      in_free_space += state == SpaceState::kFree;
+    }
+  }
+  ViewAgreement agreement;
+  if (all > 0) agreement.overlap = static_cast<double>(on_surface) / all;
+  const int seen = on_surface + in_free_space;
+  if (seen > 0) agreement.contradiction = static_cast<double>(in_free_space) / seen;
+  return agreement;
+}
+
+}  // namespace mms

@@ -1,0 +1,21 @@
+#include "mms/pipeline/loop_closing.hpp"
+
+#include <cassert>
+
+namespace mms {
+
+LoopClosing::LoopClosing(const SystemConfig& config)
+    : global_map_(config.global_map, with_noise(config.features, config.noise),
+                  config.odometry.registration) {}
+
+void LoopClosing::close_loops(const GlobalKeyframe& keyframe) {
+  assert(thread_.is_owner());
+  global_map_.add(keyframe);
+}
+
+const GlobalMap& LoopClosing::global_map() const {
+  assert(thread_.is_owner());
+  return global_map_;
+}
+
+}  // namespace mms

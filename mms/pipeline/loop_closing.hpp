@@ -1,0 +1,28 @@
+#pragma once
+
+#include "mms/core/thread_confinement.hpp"
+#include "mms/global_map/global_map.hpp"
+#include "mms/pipeline/system_config.hpp"
+
+namespace mms {
+
+/// The stage beside the maps that corrects the drift of the odometry. Owns the global map. No other
+/// stage depends on it.
+class LoopClosing {
+ public:
+  explicit LoopClosing(const SystemConfig& config);
+
+  /// Adds a keyframe to the global map. One thread at a time, keyframes in order; the global map
+  /// may be read in that thread.
+  void close_loops(const GlobalKeyframe& keyframe);
+
+  const GlobalMap& global_map() const;
+
+  void release_thread() { thread_.release(); }  ///< lets another thread call
+
+ private:
+  GlobalMap global_map_;
+  ThreadConfinement thread_;
+};
+
+}  // namespace mms

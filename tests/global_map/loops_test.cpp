@@ -1,0 +1,145 @@
+// Relative poses of keypoints, and agreement of the depth of two views.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "mms/core/random_stream.hpp"
+#include "mms/geometry/camera.hpp"
+#include "mms/geometry/se3.hpp"
+#include "mms/global_map/keyframes/keyframe_view.hpp"
+#include "mms/global_map/loops/keypoint_matching.hpp"
+#include "mms/global_map/loops/point_alignment.hpp"
+
+namespace mms {
+namespace {
+
+Eigen::Isometry3d some_pose() {
+  Vector6d tangent;
+  tangent << 0.4, -0.2, 0.7, 0.1, 0.5, -0.2;
+  return se3::exp(tangent);
+}
+
+/// Pairs of which a share agrees with `some_pose`, with noise of 1 cm.
+PointPairs sample_pairs(int count, double share, std::uint64_t seed) {
+  RandomStream random(seed);
+  PointPairs pairs;
+  const auto point = [&](float size) {
+    return Eigen::Vector3f(random.between(-size, size), random.between(-size, size),
+                           random.between(-size, size))
+        .cast<double>()
+        .eval();
+  };
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d b = point(3.0F);
+    const bool agrees = i < share * count;
+    pairs.a.push_back(agrees ? Eigen::Vector3d(some_pose() * b + point(0.01F)) : point(3.0F));
+    pairs.b.push_back(b);
+    pairs.sigma.push_back(0.01);
+  }
+  return pairs;
+}
+
+TEST(PointAlignment, FindsThePoseAmongWrongPairs) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
+    const auto alignment = align_points(sample_pairs(100, 0.3, seed), seed);
+    ASSERT_TRUE(alignment);
+    EXPECT_GE(alignment->inliers.size(), 28U);
+    const Eigen::Isometry3d error = some_pose().inverse() * alignment->T_a_b;
+    EXPECT_LT(error.translation().norm(), 0.01);
+    EXPECT_LT(se3::angle(error), 0.01);
+  }
+}
+
+TEST(PointAlignment, EqualArgumentsGiveEqualPoses) {
+  const PointPairs pairs = sample_pairs(60, 0.5, 8);
+  EXPECT_EQ(align_points(pairs, 1)->T_a_b.matrix(), align_points(pairs, 1)->T_a_b.matrix());
+}
+
+TEST(PointAlignment, RandomPairsHaveFewInliers) {
+  const auto alignment = align_points(sample_pairs(100, 0.0, 3), 3);
+  EXPECT_TRUE(!alignment || alignment->inliers.size() < 10U);
+}
+
+TEST(PointAlignment, TooFewPairsGiveNone) {
+  EXPECT_FALSE(align_points({}, 1));
+  EXPECT_FALSE(align_points(sample_pairs(3, 1.0, 1), 1));
+}
+
+TEST(KeypointMatching, FindsEachOthersNearestAlone) {
+  RandomStream random(4);
+  std::vector<BinaryDescriptor> a(50);
+  for (BinaryDescriptor& descriptor : a) {
+    for (std::uint64_t& word : descriptor.words) word = random.bits();
+  }
+  std::vector<BinaryDescriptor> b(a.rbegin(), a.rend());
+  for (BinaryDescriptor& descriptor : b) descriptor.words[1] ^= 0xFFU;
+  b.push_back(b.front());  // ambiguous: a.back() has two equally near ones
+  const std::vector<KeypointMatch> matches = match_keypoints(a, b);
+  ASSERT_EQ(matches.size(), 49U);
+  for (const KeypointMatch& match : matches) EXPECT_EQ(match.b, 49U - match.a);
+  EXPECT_TRUE(match_keypoints(a, {}).empty());
+}
+
+constexpr CameraIntrinsics kCamera{300.0, 300.0, 159.5, 119.5, 320, 240, {}};
+
+/// A wall at a distance, with a box of 1 m in front of it unless it is left out.
+LabeledCloud room(const Eigen::Isometry3d& T_world_camera, bool with_box) {
+  LabeledCloud cloud;
+  cloud.camera = kCamera;
+  cloud.width = kCamera.width;
+  cloud.height = kCamera.height;
+  const Eigen::Isometry3d T = T_world_camera;
+  const std::vector<Eigen::Vector3f> rays = CameraModel(kCamera).ray_table();
+  for (const Eigen::Vector3f& ray : rays) {
+    const Eigen::Vector3d direction = T.linear() * ray.cast<double>();
+    double depth = (4.0 - T.translation().z()) / direction.z();
+    const double to_box = (2.0 - T.translation().z()) / direction.z();
+    const Eigen::Vector3d at = T.translation() + to_box * direction;
+    if (with_box && std::abs(at.x()) < 0.5 && std::abs(at.y()) < 0.5) depth = to_box;
+    cloud.points.push_back(ray * static_cast<float>(depth));
+    cloud.labels.push_back(PointLabel::kStatic);
+  }
+  return cloud;
+}
+
+Eigen::Isometry3d moved(double x, double z) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() = Eigen::Vector3d(x, 0.0, z);
+  return T;
+}
+
+TEST(KeyframeView, ViewsOfOneSceneAgree) {
+  const KeyframeView a = make_keyframe_view(room(moved(0.0, 0.0), true));
+  const KeyframeView b = make_keyframe_view(room(moved(0.3, 0.2), true));
+  EXPECT_EQ(a.depth_mm.width(), 80);
+  const ViewAgreement agreement = compare_views(a, b, moved(0.3, 0.2), DepthNoise{});
+  EXPECT_GT(agreement.overlap, 0.8);
+  EXPECT_LT(agreement.contradiction, 0.01);
+}
+
+TEST(KeyframeView, AMissingBoxContradicts) {
+  const KeyframeView with = make_keyframe_view(room(moved(0.0, 0.0), true));
+  const KeyframeView without = make_keyframe_view(room(moved(0.3, 0.2), false));
+  EXPECT_GT(compare_views(without, with, moved(0.3, 0.2).inverse(), DepthNoise{}).contradiction,
+            0.1);
+  EXPECT_LT(compare_views(with, without, moved(0.3, 0.2), DepthNoise{}).overlap, 0.8);
+}
+
+TEST(KeyframeView, AWrongPoseContradicts) {
+  const KeyframeView a = make_keyframe_view(room(moved(0.0, 0.0), true));
+  EXPECT_GT(compare_views(a, a, moved(0.0, -0.4), DepthNoise{}).contradiction, 0.5);
+}
+
+TEST(KeyframeView, DynamicPointsAreNotCompared) {
+  LabeledCloud cloud = room(moved(0.0, 0.0), true);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.points[i].z() < 3.0F) cloud.labels[i] = PointLabel::kDynamic;
+  }
+  const KeyframeView with = make_keyframe_view(cloud);
+  const KeyframeView without = make_keyframe_view(room(moved(0.0, 0.0), false));
+  EXPECT_LT(compare_views(without, with, moved(0.0, 0.0), DepthNoise{}).contradiction, 0.01);
+}
+
+}  // namespace
+}  // namespace mms

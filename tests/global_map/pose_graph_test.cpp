@@ -1,0 +1,181 @@
+// Optimization of a pose graph, and the correction over time that follows from it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "mms/core/random_stream.hpp"
+#include "mms/geometry/se3.hpp"
+#include "mms/global_map/graph/odometry_noise.hpp"
+#include "mms/global_map/graph/pose_graph.hpp"
+#include "mms/global_map/pose_correction.hpp"
+
+namespace mms {
+namespace {
+
+using Isometry = Eigen::Isometry3d;
+
+Matrix6d information(double translation_sigma, double rotation_sigma) {
+  Vector6d diagonal;
+  diagonal.head<3>().setConstant(1.0 / (translation_sigma * translation_sigma));
+  diagonal.tail<3>().setConstant(1.0 / (rotation_sigma * rotation_sigma));
+  return diagonal.asDiagonal();
+}
+
+/// A circle of 40 steps; the last node is where the first one is.
+std::vector<Isometry> circle() {
+  std::vector<Isometry> poses = {Isometry::Identity()};
+  Vector6d step = Vector6d::Zero();
+  step(0) = 0.5;
+  step(5) = 2.0 * std::numbers::pi / 40.0;
+  for (int i = 0; i < 40; ++i) poses.push_back(poses.back() * se3::exp(step));
+  return poses;
+}
+
+Vector6d drift(RandomStream& random) {
+  Vector6d noise;
+  for (int i = 0; i < 6; ++i) noise(i) = random.between(-0.01F, 0.01F);
+  noise(5) += 0.01;  // systematic, about the vertical axis
+  return noise;
+}
+
+PoseGraph drifted_circle() {
+  const std::vector<Isometry> truth = circle();
+  RandomStream random(1);
+  PoseGraph graph;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    graph.add_node(truth[i - 1].inverse() * truth[i] * se3::exp(drift(random)),
+                   information(0.01, 0.015));
+  }
+  return graph;
+}
+
+double largest_error(const PoseGraph& graph) {
+  const std::vector<Isometry> truth = circle();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double error = (graph.poses()[i].translation() - truth[i].translation()).norm();
+    largest = std::max(largest, error);
+  }
+  return largest;
+}
+
+TEST(PoseGraph, ALoopDistributesTheDriftOfACircle) {
+  PoseGraph graph = drifted_circle();
+  const double before = largest_error(graph);
+  ASSERT_GT(before, 0.3);
+  graph.add_loop({0, 40, Isometry::Identity(), information(0.01, 0.005)});
+  EXPECT_TRUE(graph.solve().empty());
+  EXPECT_LT(largest_error(graph), 0.25 * before);
+  EXPECT_LT(graph.poses().back().translation().norm(), 0.05);
+  EXPECT_EQ(graph.poses().front().matrix(), Isometry::Identity().matrix());
+}
+
+TEST(PoseGraph, EqualEdgesGiveEqualPoses) {
+  const auto solved = [] {
+    PoseGraph graph = drifted_circle();
+    graph.add_loop({0, 40, Isometry::Identity(), information(0.01, 0.005)});
+    graph.solve();
+    return graph.poses().back().matrix().eval();
+  };
+  EXPECT_EQ(solved(), solved());
+}
+
+TEST(PoseGraph, RemovesALoopThatContradictsTheOthers) {
+  PoseGraph graph = drifted_circle();
+  const std::vector<Isometry> truth = circle();
+  for (std::size_t i = 0; i < 3; ++i) {
+    graph.add_loop({i, 38 + i, truth[i].inverse() * truth[38 + i], information(0.01, 0.005)});
+  }
+  Isometry wrong = truth[5].inverse() * truth[30];
+  wrong.translation().x() += 3.0;
+  graph.add_loop({5, 30, wrong, information(0.01, 0.005)});
+  const std::vector<PoseEdge> removed = graph.solve();
+  ASSERT_EQ(removed.size(), 1U);
+  EXPECT_EQ(removed[0].a, 5U);
+  EXPECT_EQ(graph.loops().size(), 3U);
+  EXPECT_LT(largest_error(graph), 0.2);
+}
+
+TEST(PoseGraph, DirectionsWithoutInformationStayFree) {
+  PoseGraph graph;
+  Isometry step = Isometry::Identity();
+  step.translation().x() = 1.0;
+  graph.add_node(step, information(0.1, 0.01));
+  Isometry measured = step;
+  measured.translation() += Eigen::Vector3d(0.05, 0.05, 0.05);
+  Matrix6d only_x = Matrix6d::Zero();
+  only_x(0, 0) = 1e8;
+  graph.add_loop({0, 1, measured, only_x});
+  graph.solve();
+  EXPECT_NEAR(graph.poses()[1].translation().x(), 1.05, 1e-4);
+  EXPECT_NEAR(graph.poses()[1].translation().y(), 0.0, 1e-6);
+}
+
+TEST(PoseGraph, ChainCovarianceIsThatOfManySampledChains) {
+  Isometry step = Isometry::Identity();
+  step.linear() = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  step.translation().x() = 0.5;
+  PoseGraph graph;
+  Isometry end = Isometry::Identity();
+  for (int i = 0; i < 10; ++i) {
+    graph.add_node(step, information(0.01, 0.02));
+    end = end * step;
+  }
+  const Matrix6d covariance = graph.chain_covariance(0, 10);
+  RandomStream random(2);
+  Matrix6d sampled = Matrix6d::Zero();
+  constexpr int kSamples = 20000;
+  for (int s = 0; s < kSamples; ++s) {
+    Isometry pose = Isometry::Identity();
+    for (int i = 0; i < 10; ++i) {
+      Vector6d noise;
+      for (int k = 0; k < 6; ++k) {
+        float sum = -6.0F;  // of twelve uniform numbers: nearly normal, variance 1
+        for (int n = 0; n < 12; ++n) sum += random.uniform();
+        noise(k) = sum * (k < 3 ? 0.01F : 0.02F);
+      }
+      pose = pose * step * se3::exp(noise);
+    }
+    const Vector6d error = se3::log(end.inverse() * pose);
+    sampled += error * error.transpose() / kSamples;
+  }
+  for (int k = 0; k < 6; ++k) {
+    EXPECT_NEAR(std::sqrt(covariance(k, k)), std::sqrt(sampled(k, k)),
+                0.05 * std::sqrt(sampled(k, k)));
+  }
+}
+
+TEST(OdometryNoise, GrowsWithTheMotionAndWithoutLocalization) {
+  Isometry step = Isometry::Identity();
+  step.translation().x() = 0.25;
+  Isometry longer = step;
+  longer.translation().x() = 2.5;
+  const double at_step = odometry_information(step, false)(0, 0);
+  EXPECT_GT(at_step, odometry_information(longer, false)(0, 0));
+  EXPECT_GT(odometry_information(longer, false)(0, 0), odometry_information(step, true)(0, 0));
+  EXPECT_GT(odometry_information(Isometry::Identity(), false).diagonal().minCoeff(), 0.0);
+}
+
+Transform<Global, World> shifted(double x) {
+  Isometry pose = Isometry::Identity();
+  pose.translation().x() = x;
+  return Transform<Global, World>(pose);
+}
+
+TEST(PoseCorrection, IsInterpolatedBetweenKeyframes) {
+  PoseCorrection correction;
+  EXPECT_TRUE(correction.empty());
+  EXPECT_EQ(correction.at(Timestamp(5)).translation().x(), 0.0);
+  correction.add(Timestamp(100), shifted(0.0));
+  correction.add(Timestamp(200), shifted(1.0));
+  EXPECT_EQ(correction.at(Timestamp(50)).translation().x(), 0.0);
+  EXPECT_EQ(correction.at(Timestamp(100)).translation().x(), 0.0);
+  EXPECT_NEAR(correction.at(Timestamp(125)).translation().x(), 0.25, 1e-12);
+  EXPECT_NEAR(correction.at(Timestamp(200)).translation().x(), 1.0, 1e-12);
+  EXPECT_EQ(correction.at(Timestamp(900)).translation().x(), 1.0);
+}
+
+}  // namespace
+}  // namespace mms
