@@ -47,8 +47,10 @@ Json realtime_json(const RealtimeMetrics& metrics) {
 }
 
 Json loops_json(const LoopMetrics& metrics) {
-  Json object = {
-      {"keyframes", metrics.keyframes}, {"checked", metrics.checked}, {"closed", metrics.closed}};
+  Json object = {{"keyframes", metrics.keyframes},
+                 {"checked", metrics.checked},
+                 {"closed", metrics.closed},
+                 {"relocalized", metrics.relocalized}};
   if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
   return object;
 }
@@ -105,12 +107,16 @@ MetricSection trajectory_section(const RunMetrics& metrics) {
 /// What loops change, if there are any.
 MetricSection loops_section(const RunMetrics& metrics) {
   MetricSection section{"Loops", "", {}};
-  if (!metrics.loops || metrics.loops->closed == 0) return section;
+  if (!metrics.loops) return section;
+  if (metrics.loops->relocalized > 0) {
+    add(section, {count("relocalized after lost frames", metrics.loops->relocalized)});
+  }
+  if (metrics.loops->closed == 0) return section;
   add(section, {count("loops closed", metrics.loops->closed)});
   if (metrics.loops->trajectory) {
     section.rating = rating_of(*metrics.loops->trajectory);
-    add(section, {{"", "ATE of the corrected poses, RMSE",
-                   100.0 * metrics.loops->trajectory->ate_rmse_m, "cm", 2}});
+    add(section,
+        {{"", "ATE rmse of the corrected poses", metrics.loops->trajectory->ate_rmse_m, "m", 4}});
   }
   return section;
 }

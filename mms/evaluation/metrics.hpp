@@ -42,6 +42,7 @@ struct LoopMetrics {
   std::int64_t keyframes = 0;                 ///< of the global map
   std::int64_t checked = 0;                   ///< possible loops
   std::int64_t closed = 0;                    ///< accepted loops
+  std::int64_t relocalized = 0;               ///< lost frames whose place was recognized
   std::optional<TrajectoryError> trajectory;  ///< of the corrected poses; with ground truth
 };
 

@@ -1,6 +1,7 @@
 #include "mms/global_map/global_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -14,6 +15,20 @@ namespace {
 /// [-]: candidates of a keyframe by place recognition, and by position. Source: computing time.
 constexpr std::size_t kMaxRecognized = 3;
 constexpr std::size_t kMaxNearby = 2;
+
+/// [-]: candidates of a lost frame. Source: computing time; a lost sensor has no better use of it.
+constexpr std::size_t kMaxRelocalized = 5;
+
+/// [-]: inliers of a lost frame, as a multiple of those of a loop. Source: no odometry confirms the
+/// place; in a warehouse, similar places had 1.5 and the right ones more than three.
+constexpr int kInlierFactor = 2;
+
+/// Largest motion between two lost frames: a part for the error of both poses, and one for the
+/// time between. Source: initial choice; a person who walks and turns with a camera.
+constexpr double kMaxStep = 0.1;                                 // [m]
+constexpr double kMaxSpeed = 2.0;                                // [m/s]
+constexpr double kMaxStepTurn = 5.0 * std::numbers::pi / 180.0;  // [rad]
+constexpr double kMaxTurnRate = std::numbers::pi;                // [rad/s]
 
 /// Nearness of candidates by position: distance and angle between the views. Source: initial
 /// choice; views beyond share too little.
@@ -36,6 +51,15 @@ constexpr std::size_t kConfirmation = 2;
 constexpr double kMaxDifference = 0.05;                // [m]
 constexpr double kMaxTurn = std::numbers::pi / 180.0;  // [rad]
 
+/// Whether a sensor can move from one pose to the other.
+bool agree(const StampedPose& before, const StampedPose& now) {
+  const double seconds = std::abs(to_seconds(now.stamp - before.stamp));
+  const Eigen::Isometry3d motion =
+      (before.T_world_sensor.inverse() * now.T_world_sensor).isometry();
+  return motion.translation().norm() < kMaxStep + kMaxSpeed * seconds &&
+         se3::angle(motion) < kMaxStepTurn + kMaxTurnRate * seconds;
+}
+
 }  // namespace
 
 GlobalMap::GlobalMap(const GlobalMapConfig& config, const FeatureConfig& features,
@@ -45,7 +69,7 @@ GlobalMap::GlobalMap(const GlobalMapConfig& config, const FeatureConfig& feature
       noise_(features.noise.depth),
       verifier_(config.loops, registration, noise_) {}
 
-std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
+KeyframeRecord GlobalMap::record_of(const GlobalKeyframe& keyframe) const {
   KeyframeRecord record;
   record.stamp = keyframe.cloud.stamp;
   record.T_world_sensor = keyframe.T_world_sensor;
@@ -54,10 +78,16 @@ std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
   record.features = extractor_.extract(keyframe.cloud);
   record.features.intensity = {};
   record.view = make_keyframe_view(keyframe.cloud);
+  return record;
+}
+
+std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
+  KeyframeRecord record = record_of(keyframe);
   add_node(record);
+  const std::vector<Loop> accepted = find_loop(record);
+  recognizer_.add(record.keypoints.descriptors);
   records_.push_back(std::move(record));
-  const std::vector<Loop> accepted = find_loop();
-  recognizer_.add(records_.back().keypoints.descriptors);
+  recognized_.reset();
   if (!accepted.empty()) solve();
   return accepted;
 }
@@ -71,7 +101,9 @@ void GlobalMap::add_node(const KeyframeRecord& record) {
   const Eigen::Isometry3d motion =
       records_.back().T_world_sensor.isometry().inverse() * record.T_world_sensor.isometry();
   graph_.add_node(motion, odometry_information(motion, record.after_lost));
-  path_.push_back(path_.back() + motion.translation().norm());
+  // What was seen before the sensor was lost is not recent.
+  const double length = motion.translation().norm() + (record.after_lost ? config_.min_path : 0.0);
+  path_.push_back(path_.back() + length);
 }
 
 /// The first keyframe that the path since is too short for a loop to.
@@ -95,17 +127,17 @@ std::vector<std::size_t> GlobalMap::nearby(std::size_t end) const {
   std::vector<std::size_t> keyframes;
   for (const auto& [unused, keyframe] : near) {
     if (keyframes.size() == kMaxNearby) break;
-    const Matrix6d covariance = graph_.chain_covariance(keyframe, records_.size() - 1);
+    const Matrix6d covariance = graph_.chain_covariance(keyframe, records_.size());
     const double variance = covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
     if (variance < kMaxNearbySigma * kMaxNearbySigma) keyframes.push_back(keyframe);
   }
   return keyframes;
 }
 
-/// Checks the candidates of the last keyframe until one is accepted: first those at its position,
+/// Checks the candidates of the next keyframe until one is accepted: first those at its position,
 /// then those that place recognition finds.
-std::vector<Loop> GlobalMap::find_loop() {
-  const std::size_t query = records_.size() - 1;
+std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record) {
+  const std::vector<Eigen::Isometry3d>& poses = graph_.poses();
   const std::size_t end = first_recent();
   const auto passes = [&](Loop loop) {
     const bool verified = loop.outcome == LoopOutcome::kAccepted;
@@ -114,14 +146,15 @@ std::vector<Loop> GlobalMap::find_loop() {
     return loops_.back().outcome == LoopOutcome::kAccepted;
   };
   for (const std::size_t candidate : nearby(end)) {
-    if (passes(verifier_.verify_nearby(records_, graph_.poses(), candidate, query))) {
+    const Eigen::Isometry3d expected = poses[candidate].inverse() * poses.back();
+    if (passes(verifier_.verify_nearby(records_, poses, candidate, record, expected))) {
       return confirm();
     }
   }
   const std::vector<PlaceCandidate> recognized =
-      recognizer_.find(records_.back().keypoints.descriptors, end, kMaxRecognized);
+      recognizer_.find(record.keypoints.descriptors, end, kMaxRecognized);
   for (const PlaceCandidate& candidate : recognized) {
-    if (passes(verifier_.verify(records_, graph_.poses(), candidate.keyframe, query))) {
+    if (passes(verifier_.verify(records_, poses, candidate.keyframe, record))) {
       return confirm();
     }
   }
@@ -167,6 +200,32 @@ std::vector<Loop> GlobalMap::confirm() {
     graph_.add_loop({l.candidate, l.query, l.T_candidate_query, l.information});
   }
   return accepted;
+}
+
+std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame) {
+  const std::optional<StampedPose> before = std::exchange(recognized_, std::nullopt);
+  const KeyframeRecord record = record_of(frame);
+  std::vector<Eigen::Isometry3d> poses;  // by odometry: the place's local map is in its frame
+  for (const KeyframeRecord& r : records_) poses.push_back(r.T_world_sensor.isometry());
+  const std::vector<PlaceCandidate> candidates =
+      recognizer_.find(record.keypoints.descriptors, records_.size(), kMaxRelocalized);
+  for (const PlaceCandidate& candidate : candidates) {
+    const Loop loop = verifier_.verify(records_, poses, candidate.keyframe, record);
+    if (loop.outcome != LoopOutcome::kAccepted ||
+        loop.inliers < kInlierFactor * config_.loops.min_inliers) {
+      continue;
+    }
+    recognized_ = {record.stamp,
+                   Transform<World, Sensor>(poses[loop.candidate] * loop.T_candidate_query)};
+    if (!before || !agree(*before, *recognized_)) return std::nullopt;
+    Relocalization result{recognized_->T_world_sensor, {}};
+    const auto [first, end] = neighbors(loop.candidate, records_.size());
+    for (std::size_t i = first; i < end; ++i) {
+      result.surroundings.push_back({records_[i].features, poses[i]});
+    }
+    return result;
+  }
+  return std::nullopt;
 }
 
 void GlobalMap::solve() {

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "mms/core/config_visitor.hpp"
+#include "mms/core/trajectory.hpp"
 #include "mms/geometry/sensor_noise.hpp"
 #include "mms/global_map/graph/pose_graph.hpp"
 #include "mms/global_map/keyframes/keyframe_record.hpp"
@@ -12,6 +14,7 @@
 #include "mms/global_map/places/place_recognizer.hpp"
 #include "mms/global_map/pose_correction.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
+#include "mms/localization/odometry.hpp"
 #include "mms/localization/registration/registration.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
 
@@ -40,6 +43,12 @@ struct GlobalKeyframe {
   bool after_lost = false;  ///< whether the sensor was lost since the keyframe before
 };
 
+/// Pose of a lost frame at a place of the global map.
+struct Relocalization {
+  Transform<World, Sensor> T_world_sensor;   ///< in the frame of the odometry
+  std::vector<PlacedFeatures> surroundings;  ///< features of the keyframes at that place
+};
+
 /// The global map (beyond the paper, which names global optimization without a method): keyframes,
 /// loops between them, and the pose graph that corrects the drift of the odometry. The odometry is
 /// not changed by it. Deterministic for the same sequence of keyframes.
@@ -53,6 +62,11 @@ class GlobalMap {
   /// @returns the loops accepted with it
   std::vector<Loop> add(const GlobalKeyframe& keyframe);
 
+  /// Recognizes the place of a frame whose pose is lost. Two frames in a row must agree.
+  /// @param frame  its pose is not used
+  /// @returns nothing if the place is not recognized for sure
+  std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
+
   /// Correction by all loops so far; empty without any.
   PoseCorrection correction() const;
 
@@ -63,10 +77,11 @@ class GlobalMap {
   const std::vector<Eigen::Isometry3d>& poses() const { return graph_.poses(); }
 
  private:
+  KeyframeRecord record_of(const GlobalKeyframe& keyframe) const;
   void add_node(const KeyframeRecord& record);
   std::size_t first_recent() const;
   std::vector<std::size_t> nearby(std::size_t end) const;
-  std::vector<Loop> find_loop();
+  std::vector<Loop> find_loop(const KeyframeRecord& record);
   bool is_likely(const Loop& loop) const;
   std::vector<Loop> confirm();
   void solve();
@@ -80,7 +95,8 @@ class GlobalMap {
   std::vector<double> path_;  ///< length of the path up to each keyframe [m]
   PoseGraph graph_;
   std::vector<Loop> loops_;
-  std::vector<std::size_t> pending_;  ///< indices of recent loops that wait for confirmation
+  std::vector<std::size_t> pending_;       ///< indices of recent loops that wait for confirmation
+  std::optional<StampedPose> recognized_;  ///< of the last lost frame, not yet confirmed
 };
 
 }  // namespace mms

@@ -180,6 +180,23 @@ OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud seco
   return track(align_at_pose_time(std::move(second)));
 }
 
+OdometryEstimate Odometry::relocate(Timestamp stamp, const Transform<World, Sensor>& T_world_sensor,
+                                    const std::vector<PlacedFeatures>& surroundings) {
+  motion_.rest(stamp, T_world_sensor.isometry());
+  if (maps_) {
+    for (const PlacedFeatures& placed : surroundings) {
+      maps_->insert(placed.features, placed.T_world_sensor,
+                    config_.registration.geometric.association);
+    }
+  }
+  lost_ = false;
+  OdometryEstimate estimate;
+  estimate.stamp = stamp;
+  estimate.T_world_sensor = T_world_sensor;
+  estimate.status = Status::kRecovered;
+  return estimate;
+}
+
 std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {
   if (!maps_ || velocity().tail<3>().norm() >= kMaxExpectedTurnRate) return std::nullopt;
   const PosePrediction prediction = motion_.predict(stamp);

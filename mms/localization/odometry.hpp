@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "mms/core/config_visitor.hpp"
 #include "mms/core/odometry_estimate.hpp"
@@ -24,6 +25,12 @@ struct OdometryConfig {
   void visit(ConfigVisitor& v);
 };
 
+/// Features of an earlier frame at their place.
+struct PlacedFeatures {
+  FeatureCloud features;
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
+};
+
 /// Localization (III-C): keeps the local maps and estimates the pose of every frame against them.
 class Odometry {
  public:
@@ -43,6 +50,12 @@ class Odometry {
   /// Takes an alignment of the next frame: moves the sensor and updates the local maps.
   /// Never throws for bad frames: see Status.
   OdometryEstimate accept(const Alignment& alignment);
+
+  /// Continues at a place where the sensor was recognized after it was lost.
+  /// @param surroundings  added to the local maps, which may not reach there
+  /// @returns the estimate of that frame, with status kRecovered
+  OdometryEstimate relocate(Timestamp stamp, const Transform<World, Sensor>& T_world_sensor,
+                            const std::vector<PlacedFeatures>& surroundings);
 
   OdometryEstimate estimate(FeatureCloud features) { return accept(align(std::move(features))); }
 

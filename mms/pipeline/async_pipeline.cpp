@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <exception>
+#include <future>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -54,6 +55,12 @@ struct Perceived {
 struct Localized {
   Input input;
   FrameResult result;
+};
+
+/// A keyframe for the global map, or a lost frame whose place is asked for.
+struct LoopTask {
+  GlobalKeyframe keyframe;
+  std::optional<std::promise<std::optional<Relocalization>>> answer;  // of a lost frame
 };
 
 /// Whether the segmentation of the frame before delayed this one.
@@ -152,6 +159,7 @@ class StageThreads {
   void localize_all() {
     while (std::optional<Perceived> item = perceived_.pop()) {
       FrameResult result = system_.localize(std::move(item->frame));
+      if (result.wants_relocalization) result = relocate(item->input.frame, std::move(result));
       if (result.global_keyframe) hand_over(item->input.frame, result);
       if (!localized_.push({std::move(item->input), std::move(result)})) break;
     }
@@ -160,8 +168,12 @@ class StageThreads {
   }
 
   void close_all_loops() {
-    while (std::optional<GlobalKeyframe> keyframe = keyframes_.pop()) {
-      system_.close_loops(*keyframe);
+    while (std::optional<LoopTask> task = keyframes_.pop()) {
+      if (task->answer) {
+        task->answer->set_value(system_.relocalize(task->keyframe));
+      } else {
+        system_.close_loops(task->keyframe);
+      }
     }
   }
 
@@ -190,13 +202,23 @@ class StageThreads {
   void rethrow() const { error_.rethrow(); }
 
  private:
+  /// Waits until the keyframes before are in the global map, so that the answer depends on the
+  /// frames alone.
+  FrameResult relocate(const Frame& frame, FrameResult lost) {
+    LoopTask task{SlamSystem::global_keyframe(frame, lost), {}};
+    auto answer = task.answer.emplace().get_future();
+    keyframes_.push(std::move(task));
+    const std::optional<Relocalization> place = answer.get();
+    return place ? system_.relocate(std::move(lost), *place) : std::move(lost);
+  }
+
   /// In real time, loop closure that is late must not delay the pose.
   void hand_over(const Frame& frame, const FrameResult& result) {
     GlobalKeyframe keyframe = SlamSystem::global_keyframe(frame, result);
     keyframe.after_lost |= std::exchange(dropped_after_lost_, false);
     const bool after_lost = keyframe.after_lost;
-    const bool taken = options_.realtime ? keyframes_.try_push(std::move(keyframe))
-                                         : keyframes_.push(std::move(keyframe));
+    const bool taken = options_.realtime ? keyframes_.try_push({std::move(keyframe), {}})
+                                         : keyframes_.push({std::move(keyframe), {}});
     if (!taken) dropped_after_lost_ = after_lost;
   }
 
@@ -210,7 +232,7 @@ class StageThreads {
   BoundedQueue<Segmented> segmented_;
   BoundedQueue<Perceived> perceived_;
   BoundedQueue<Localized> localized_;
-  BoundedQueue<GlobalKeyframe> keyframes_;
+  BoundedQueue<LoopTask> keyframes_;
   bool dropped_after_lost_ = false;  // of a keyframe that was not taken
   FirstError error_;
 };

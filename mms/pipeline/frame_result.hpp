@@ -33,6 +33,8 @@ struct FrameResult {
   bool keyframe = false;               ///< of the static map
   bool global_keyframe = false;        ///< of the global map
   bool after_lost = false;             ///< frames since the last global keyframe were lost
+  bool wants_relocalization = false;   ///< lost before, and its place is not recognized yet
+  bool relocalized = false;            ///< the pose is that of a recognized place
   double dynamic_share = 0.0;          ///< of the valid points, in [0, 1]
   double overruled_share = 0.0;        ///< of the valid points: masked, but static for the pose
   std::vector<TrackedObject> objects;  ///< of the dynamic map, by id

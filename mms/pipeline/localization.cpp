@@ -3,12 +3,32 @@
 #include <cassert>
 #include <utility>
 
+#include "mms/geometry/se3.hpp"
 #include "mms/localization/features/feature_exclusion.hpp"
 #include "mms/localization/motion/motion_compensation.hpp"
 #include "mms/pipeline/stage_timer.hpp"
 
 namespace mms {
 namespace {
+
+/// [-]: lost frames in a row after which the place is searched for in the global map. Source: the
+/// odometry recovers from fewer by itself.
+constexpr int kMinLostFrames = 3;
+
+/// [-]: frames after such a loss in which the pose of the odometry may still be replaced by that of
+/// a recognized place. Source: two must agree, and some are blurred or show nothing but people.
+constexpr int kCheckedFrames = 6;
+
+/// [m], [rad]: differences of the pose of a recognized place from that of the odometry up to which
+/// they agree. Source: errors of poses from keypoints, far below the distance of similar places.
+constexpr double kMaxDistance = 0.2;
+constexpr double kMaxTurn = 0.1;
+
+bool agree(const OdometryEstimate& odometry, const Relocalization& place) {
+  const Eigen::Isometry3d difference =
+      (odometry.T_world_sensor.inverse() * place.T_world_sensor).isometry();
+  return difference.translation().norm() < kMaxDistance && se3::angle(difference) < kMaxTurn;
+}
 
 /// The modes without the method's geometry are baselines: they get none of the steps beyond it.
 template <class Config>
@@ -38,22 +58,56 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     exclude_moving_points(result.cloud, frame.features);
     OdometryEstimate estimate = odometry_.accept(hypotheses_.align(
         odometry_, result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
-    result.keyframe = keyframes_.is_keyframe(estimate);        // III-C.4
-    if (result.keyframe) {
-      motion_segmentation_.remember(result.cloud, estimate.T_world_sensor);
-      hypotheses_.remember(result.cloud, estimate.T_world_sensor);
-    }
     return estimate;
   });
-  choose_global_keyframe(result);
+  result.wants_relocalization = wants_relocalization(result);
+  if (result.wants_relocalization) {
+    result.odometry.status = Status::kLost;
+  } else {
+    choose_keyframes(result);
+  }
   result.dynamic_share = dynamic_share(result.cloud);
   result.overruled_share = overruled_share(result.cloud, result.cloud.overruled);
   return result;
 }
 
-void Localization::choose_global_keyframe(FrameResult& result) {
+FrameResult Localization::relocate(FrameResult lost, const Relocalization& place) {
+  assert(thread_.is_owner());
+  if (lost_frames_ == 0 && agree(lost.odometry, place)) {
+    lost.odometry.status = Status::kRecovered;
+  } else {
+    lost.odometry =
+        odometry_.relocate(lost.odometry.stamp, place.T_world_sensor, place.surroundings);
+    lost.relocalized = true;
+  }
+  lost_frames_ = frames_to_check_ = 0;
+  choose_keyframes(lost);
+  return lost;
+}
+
+/// Similar places can mislead the odometry after a loss: until the place is recognized, or for some
+/// frames, the sensor counts as lost.
+bool Localization::wants_relocalization(const FrameResult& result) {
+  if (!closes_loops_ || !result.cloud.organised()) return false;
+  if (result.odometry.status == Status::kLost) {
+    lost_since_global_keyframe_ = true;
+    ++lost_frames_;
+    frames_to_check_ = lost_frames_ >= kMinLostFrames ? kCheckedFrames : 0;
+    return frames_to_check_ > 0;
+  }
+  lost_frames_ = 0;
+  return frames_to_check_ > 0 && --frames_to_check_ > 0;
+}
+
+/// Chooses the keyframes of III-C.4, and those of the global map.
+void Localization::choose_keyframes(FrameResult& result) {
+  const OdometryEstimate& odometry = result.odometry;
+  result.keyframe = keyframes_.is_keyframe(odometry);
+  if (result.keyframe) {
+    motion_segmentation_.remember(result.cloud, odometry.T_world_sensor);
+    hypotheses_.remember(result.cloud, odometry.T_world_sensor);
+  }
   if (!closes_loops_ || !result.cloud.organised()) return;
-  lost_since_global_keyframe_ |= result.odometry.status == Status::kLost;
   result.global_keyframe = global_keyframes_.is_keyframe(result.odometry);
   if (result.global_keyframe) {
     result.after_lost = std::exchange(lost_since_global_keyframe_, false);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mms/core/thread_confinement.hpp"
+#include "mms/global_map/global_map.hpp"
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
@@ -22,11 +23,16 @@ class Localization {
   /// @returns the result without objects
   FrameResult localize(PerceivedFrame frame);
 
+  /// Continues at the recognized place of a frame, if the odometry does not agree with it.
+  /// @param lost  result of `localize` for that frame
+  FrameResult relocate(FrameResult lost, const Relocalization& place);
+
   void release_thread() { thread_.release(); }  ///< lets another thread call
 
  private:
   void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
-  void choose_global_keyframe(FrameResult& result);
+  bool wants_relocalization(const FrameResult& result);
+  void choose_keyframes(FrameResult& result);
 
   Odometry odometry_;
   MotionSegmentation motion_segmentation_;
@@ -35,6 +41,8 @@ class Localization {
   KeyframeSelector global_keyframes_;
   bool closes_loops_;
   bool lost_since_global_keyframe_ = false;
+  int lost_frames_ = 0;      // in a row
+  int frames_to_check_ = 0;  // after a loss
   ThreadConfinement thread_;
 };
 

@@ -13,6 +13,11 @@ void LoopClosing::close_loops(const GlobalKeyframe& keyframe) {
   global_map_.add(keyframe);
 }
 
+std::optional<Relocalization> LoopClosing::relocalize(const GlobalKeyframe& frame) {
+  assert(thread_.is_owner());
+  return global_map_.relocalize(frame);
+}
+
 const GlobalMap& LoopClosing::global_map() const {
   assert(thread_.is_owner());
   return global_map_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "mms/core/thread_confinement.hpp"
 #include "mms/global_map/global_map.hpp"
 #include "mms/pipeline/system_config.hpp"
@@ -15,6 +17,9 @@ class LoopClosing {
   /// Adds a keyframe to the global map. One thread at a time, keyframes in order; the global map
   /// may be read in that thread.
   void close_loops(const GlobalKeyframe& keyframe);
+
+  /// Recognizes the place of a lost frame, see `GlobalMap`. In the same thread.
+  std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
 
   const GlobalMap& global_map() const;
 

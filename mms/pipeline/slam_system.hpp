@@ -31,18 +31,29 @@ class SlamSystem {
   /// @throws DataError when the frame's images and calibration disagree in size
   FrameResult process(const Frame& frame) {
     FrameResult result = localize(perceive(frame, segment(frame)));
+    if (result.wants_relocalization) {
+      const auto place = relocalize(global_keyframe(frame, result));
+      if (place) result = relocate(std::move(result), *place);
+    }
     if (result.global_keyframe) close_loops(global_keyframe(frame, result));
     return map(std::move(result));
   }
 
-  // The steps of `process`, for a pipeline in which successive frames overlap. Each of these five
-  // may have its own thread; debug builds assert that it keeps it until `release_threads`.
+  // The steps of `process`, for a pipeline in which successive frames overlap. `segment`,
+  // `perceive`, `localize` with `relocate`, `close_loops` with `relocalize`, and `map` may each
+  // have their own thread; debug builds assert that they keep it until `release_threads`.
   TimedSegmentation segment(const Frame& frame) { return perception_.segment(frame); }
   PerceivedFrame perceive(const Frame& frame, const TimedSegmentation& masks) {
     return perception_.perceive(frame, masks);
   }
   FrameResult localize(PerceivedFrame frame) { return localization_.localize(std::move(frame)); }
+  FrameResult relocate(FrameResult lost, const Relocalization& place) {
+    return localization_.relocate(std::move(lost), place);
+  }
   void close_loops(const GlobalKeyframe& keyframe) { loop_closing_.close_loops(keyframe); }
+  std::optional<Relocalization> relocalize(const GlobalKeyframe& frame) {
+    return loop_closing_.relocalize(frame);
+  }
   FrameResult map(FrameResult localized) { return mapping_.map(std::move(localized)); }
 
   /// Completes the static map after the last frame; see `Mapping::finalize`.

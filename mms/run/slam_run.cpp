@@ -13,6 +13,7 @@
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/run/record/run_record.hpp"
+#include "mms/run/results/result_files.hpp"
 #include "mms/run/results/run_outputs.hpp"
 #include "mms/run/run_heading.hpp"
 #include "mms/run/segmenter/segmenter_choice.hpp"
@@ -183,6 +184,9 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   if (view_ && map) shown = std::make_shared<const MapChanges>(*map);
   journal_->add(processed, std::move(map));
   log_->add(processed);
+  if (processed.result.relocalized) {
+    warn(fmt::format("frame {}: relocalized", processed.frame.name), observer);
+  }
   check_lost();
   observer.on_frame(*log_);
   if (view_) view_->show(std::move(processed), std::move(shown));
@@ -206,7 +210,10 @@ void SlamRun::compare_with_truth(RunObserver& observer) {
   };
   attempt("the map is", [&] {
     const std::optional<TruthCloud> truth = source_->map_truth();
-    if (truth) log_->compare_map(*truth, system_.static_map().cloud().points);
+    if (truth) {
+      const MapCloud map = result_map(system_.static_map(), MapFrame::kCamera, log_->correction());
+      log_->compare_map(*truth, map.points);
+    }
   });
   attempt("the objects are", [&] { log_->compare_objects(source_->objects_truth()); });
 }

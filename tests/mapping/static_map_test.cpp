@@ -56,6 +56,25 @@ TEST(StaticMap, CountsKeyframesAsObservations) {
   EXPECT_EQ(map.views(), 3U);
 }
 
+TEST(StaticMap, CorrectionMovesAndMergesTheSurfaceOfASecondVisit) {
+  StaticMap map({.carving = {.enabled = false}});
+  const auto visit = [&](double drift, std::int64_t stamp) {
+    // The wall is measured at the drifted pose as if there were no drift.
+    LabeledCloud cloud = plane_cloud({0, 0, -1}, -2.0, pose({0, 0, 0}));
+    cloud.stamp = Timestamp(stamp);
+    for (int i = 0; i < 3; ++i) map.integrate(cloud, pose({0, 0, drift}));
+  };
+  visit(0.0, 10);
+  const std::size_t once = map.cloud().size();
+  visit(0.05, 20);
+  ASSERT_GT(map.cloud().size(), once * 3 / 2);
+  const MapCloud corrected = map.cloud([](Timestamp stamp) {
+    return pose({0, 0, stamp == Timestamp(20) ? -0.05 : 0.0}).isometry();
+  });
+  EXPECT_LT(corrected.size(), once * 11 / 10);
+  for (const Eigen::Vector3f& point : corrected.points) EXPECT_NEAR(point.z(), 2.0F, 1e-3F);
+}
+
 TEST(StaticMap, HidesSingleObservationsInReobservedBlocks) {
   StaticMap map({.carving = {.enabled = false}});
   const LabeledCloud wall = plane_cloud(kForward, 2.01, pose({0, 0, 0}));

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mms/geometry/se3.hpp"
 #include "mms/global_map/global_map.hpp"
+#include "mms/pipeline/async_pipeline.hpp"
 #include "mms/pipeline/perception.hpp"
 #include "mms/segmentation/segmenters/mask_segmenter.hpp"
 #include "mms/simulation/simulated_scene.hpp"
@@ -181,6 +183,106 @@ TEST(LoopClosing, WithoutImagesDepthAloneCloses) {
   offset.translation().x() = 0.05;
   for (int i = kSteps - 1; i >= 0; --i) visit.add(without_image(i), offset);
   EXPECT_GE(accepted(visit.map), kSteps / 2);
+}
+
+GlobalKeyframe at_unknown_pose(int i, double seconds) {
+  GlobalKeyframe frame = views()[static_cast<std::size_t>(i)];
+  frame.T_world_sensor = {};
+  frame.cloud.stamp = Timestamp::from_seconds(seconds);
+  return frame;
+}
+
+TEST(Relocalization, TwoFramesOfAKnownPlaceGiveThePose) {
+  Visit visit;
+  for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());
+  EXPECT_FALSE(visit.map.relocalize(at_unknown_pose(7, 100.0)));
+  const auto place = visit.map.relocalize(at_unknown_pose(7, 100.1));
+  ASSERT_TRUE(place);
+  const Eigen::Isometry3d truth = views()[7].T_world_sensor.isometry();
+  EXPECT_LT((place->T_world_sensor.translation() - truth.translation()).norm(), 0.03);
+  EXPECT_FALSE(place->surroundings.empty());
+}
+
+TEST(Relocalization, PlacesThatNoSensorMovesBetweenGiveNoPose) {
+  Visit visit;
+  for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());
+  EXPECT_FALSE(visit.map.relocalize(at_unknown_pose(2, 100.0)));
+  EXPECT_FALSE(visit.map.relocalize(at_unknown_pose(17, 100.1)));
+}
+
+TEST(Relocalization, AnUnknownPlaceThatIsSimilarGivesNoPose) {
+  Visit visit;
+  for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());
+  double seconds = 100.0;
+  for (GlobalKeyframe view : views_of(2)) {
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      view.cloud.stamp = Timestamp::from_seconds(seconds += 0.05);
+      EXPECT_FALSE(visit.map.relocalize(view));
+    }
+  }
+}
+
+/// The sensor drives on, is covered, and is back at an earlier place when the light is on again.
+std::vector<FrameResult> carried_back(int threads) {
+  SimulatedScene scene([] {
+    SceneConfig config = aisle(1);
+    config.hz = 10.0;
+    return config;
+  }());
+  SystemConfig config;
+  config.fusion.stride = 1;
+  SlamSystem system(config, std::make_unique<MaskSegmenter>());
+  std::vector<Frame> frames;
+  const auto add = [&](int i, bool dark) {
+    Frame frame = scene.render(i).frame;
+    if (dark) {
+      std::fill(frame.depth.pixels().begin(), frame.depth.pixels().end(), 0.0F);
+      std::fill(frame.color.pixels().begin(), frame.color.pixels().end(), Rgb{});
+    }
+    frame.index = static_cast<std::int64_t>(frames.size());
+    frame.stamp = Timestamp(frame.index * 100'000'000);
+    frames.push_back(std::move(frame));
+  };
+  for (int i = 0; i < 50; ++i) add(i, false);
+  for (int i = 50; i < 55; ++i) add(i, true);
+  for (int i = 20; i < 26; ++i) add(i, false);
+  std::vector<FrameResult> results;
+  std::size_t next = 0;
+  AsyncPipeline({.threads = threads})
+      .run(
+          system,
+          [&]() -> std::optional<Frame> {
+            return next < frames.size() ? std::optional(frames[next++]) : std::nullopt;
+          },
+          [&](Processed&& processed) { results.push_back(std::move(processed.result)); });
+  return results;
+}
+
+TEST(Relocalization, SensorThatWasCarriedInTheDarkContinuesWhereItIs) {
+  const std::vector<FrameResult> results = carried_back(1);
+  ASSERT_EQ(results.size(), 61U);
+  for (std::size_t i = 50; i < 55; ++i) EXPECT_EQ(results[i].odometry.status, Status::kLost);
+  std::size_t relocalized = 0;
+  for (std::size_t i = 55; i < results.size(); ++i) {
+    const FrameResult& result = results[i];
+    relocalized += result.relocalized;
+    if (result.odometry.status == Status::kLost) continue;
+    const Eigen::Vector3d before = results[i - 35].odometry.T_world_sensor.translation();
+    EXPECT_LT((result.odometry.T_world_sensor.translation() - before).norm(), 0.05) << i;
+  }
+  EXPECT_EQ(relocalized, 1U);
+  EXPECT_EQ(results.back().odometry.status, Status::kTracking);
+}
+
+TEST(Relocalization, IsTheSameForAnyNumberOfThreads) {
+  const std::vector<FrameResult> one = carried_back(1);
+  const std::vector<FrameResult> two = carried_back(2);
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].odometry.T_world_sensor.isometry().matrix(),
+              two[i].odometry.T_world_sensor.isometry().matrix());
+    EXPECT_EQ(one[i].relocalized, two[i].relocalized);
+  }
 }
 
 }  // namespace

@@ -43,6 +43,19 @@ cv::Mat gray_of(const Image<Rgb>& color) {
   return gray;
 }
 
+/// Non-zero where a keypoint can have a point, of the image's size: without it, most keypoints of a
+/// long aisle are beyond the range of the depth.
+cv::Mat mask_of(const LabeledCloud& cloud, const cv::Mat& gray) {
+  cv::Mat grid(cloud.height, cloud.width, CV_8U);
+  for (std::size_t i = 0; i < cloud.labels.size(); ++i) {
+    const bool masked = !cloud.dynamic_pixels.empty() && cloud.dynamic_pixels[i] != 0;
+    grid.data[i] = cloud.labels[i] == PointLabel::kStatic && !masked ? 255 : 0;
+  }
+  cv::Mat mask;
+  cv::resize(grid, mask, gray.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  return mask;
+}
+
 /// The grid of a cloud below an image.
 class CloudGrid {
  public:
@@ -102,7 +115,7 @@ ImageKeypoints extract_keypoints(const Image<Rgb>& color, const LabeledCloud& cl
   const cv::Mat gray = gray_of(color);
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(kDetected, 1.2F, 8, kBoundary);
   std::vector<cv::KeyPoint> detected;
-  orb->detect(gray, detected);
+  orb->detect(gray, detected, mask_of(cloud, gray));
   std::stable_sort(detected.begin(), detected.end(),
                    [](const auto& a, const auto& b) { return a.response > b.response; });
   const CloudGrid grid(cloud, color, noise);

@@ -15,10 +15,10 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// [-]: columns and rows of the cells of an image that inliers must spread over, and how many of
-/// the cells. Source: initial choice; one object fills up to three cells.
-constexpr float kColumns = 4.0F;
-constexpr float kRows = 3.0F;
-constexpr std::size_t kMinCells = 4;
+/// the cells. Source: initial choice; a sign or a pallet fills about four cells.
+constexpr float kColumns = 8.0F;
+constexpr float kRows = 6.0F;
+constexpr std::size_t kMinCells = 6;
 
 /// [m]: error of a keypoint's position beside the depth noise, as a share of its distance.
 /// Source: two pixels at a focal length of 500 px.
@@ -27,10 +27,6 @@ constexpr double kKeypointError = 0.004;
 /// [m]: least error of a keypoint's position. Source: views from other directions select other
 /// points of one corner.
 constexpr double kMinKeypointError = 0.01;
-
-/// [keyframes]: keyframes on each side of the candidate whose features belong to its local map.
-/// Source: about 1 m, so that the map exceeds the view.
-constexpr std::size_t kNeighbors = 3;
 
 /// [-]: bound on the voxels of the candidate's local map. Source: far more than seven views fill.
 constexpr std::size_t kMaxVoxels = 100000;
@@ -80,6 +76,12 @@ Matrix6d with_floor(const Matrix6d& information) {
 
 }  // namespace
 
+std::pair<std::size_t, std::size_t> neighbors(std::size_t keyframe, std::size_t count) {
+  // About 1 m on each side, so that the local map exceeds the view.
+  constexpr std::size_t kNeighbors = 3;
+  return {keyframe - std::min(keyframe, kNeighbors), std::min(keyframe + kNeighbors + 1, count)};
+}
+
 double Loop::sigma() const {
   const Eigen::Matrix3d translation = information.topLeftCorner<3, 3>();
   const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(translation).eigenvalues()(0);
@@ -92,12 +94,12 @@ LoopVerifier::LoopVerifier(const LoopConfig& config, const RegistrationConfig& r
 
 Loop LoopVerifier::verify(const std::deque<KeyframeRecord>& records,
                           const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
-                          std::size_t query) const {
+                          const KeyframeRecord& query) const {
   Loop loop;
   loop.candidate = candidate;
-  loop.query = query;
-  if (align_keypoints(records[candidate].keypoints, records[query].keypoints, loop) &&
-      is_same_place(records, poses, loop)) {
+  loop.query = records.size();
+  if (align_keypoints(records[candidate].keypoints, query.keypoints, loop) &&
+      is_same_place(records, poses, query, loop)) {
     loop.outcome = LoopOutcome::kAccepted;
   }
   return loop;
@@ -105,19 +107,21 @@ Loop LoopVerifier::verify(const std::deque<KeyframeRecord>& records,
 
 Loop LoopVerifier::verify_nearby(const std::deque<KeyframeRecord>& records,
                                  const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
-                                 std::size_t query) const {
+                                 const KeyframeRecord& query,
+                                 const Eigen::Isometry3d& T_candidate_query) const {
   Loop loop;
   loop.candidate = candidate;
-  loop.query = query;
-  loop.T_candidate_query = poses[candidate].inverse() * poses[query];
-  if (is_same_place(records, poses, loop)) loop.outcome = LoopOutcome::kAccepted;
+  loop.query = records.size();
+  loop.T_candidate_query = T_candidate_query;
+  if (is_same_place(records, poses, query, loop)) loop.outcome = LoopOutcome::kAccepted;
   return loop;
 }
 
 bool LoopVerifier::is_same_place(const std::deque<KeyframeRecord>& records,
-                                 const std::vector<Eigen::Isometry3d>& poses, Loop& loop) const {
-  return register_features(records, poses, loop) &&
-         compare(records[loop.candidate].view, records[loop.query].view, loop);
+                                 const std::vector<Eigen::Isometry3d>& poses,
+                                 const KeyframeRecord& query, Loop& loop) const {
+  return register_features(records, poses, query, loop) &&
+         compare(records[loop.candidate].view, query.view, loop);
 }
 
 /// Relative pose by pairs of keypoints.
@@ -155,13 +159,12 @@ bool LoopVerifier::align_keypoints(const ImageKeypoints& a, const ImageKeypoints
 /// Refines the pose as the odometry does, against the features around the candidate.
 bool LoopVerifier::register_features(const std::deque<KeyframeRecord>& records,
                                      const std::vector<Eigen::Isometry3d>& poses,
-                                     Loop& loop) const {
+                                     const KeyframeRecord& query, Loop& loop) const {
   loop.outcome = LoopOutcome::kNotRegistered;
-  const FeatureCloud& features = records[loop.query].features;
+  const FeatureCloud& features = query.features;
   LocalMaps maps(automatic_voxel_size(median_range(features)), kMaxVoxels);
-  const std::size_t first = loop.candidate - std::min(loop.candidate, kNeighbors);
-  const std::size_t end = std::min(loop.candidate + kNeighbors + 1, loop.query);
   const Eigen::Isometry3d T_candidate_world = poses[loop.candidate].inverse();
+  const auto [first, end] = neighbors(loop.candidate, records.size());
   for (std::size_t i = first; i < end; ++i) {
     maps.insert(records[i].features, T_candidate_world * poses[i],
                 registration_.geometric.association);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mms/core/config_visitor.hpp"
@@ -69,6 +70,10 @@ struct Loop {
   double sigma() const;
 };
 
+/// First and end of the keyframes around one, whose features are the local map of its place.
+/// @param count  of all keyframes
+std::pair<std::size_t, std::size_t> neighbors(std::size_t keyframe, std::size_t count);
+
 /// Checks whether two keyframes show the same place, by their static points alone.
 class LoopVerifier {
  public:
@@ -76,23 +81,26 @@ class LoopVerifier {
                const DepthNoise& noise);
 
   /// A candidate of place recognition: the relative pose comes from pairs of keypoints.
-  /// @param records  of all keyframes
-  /// @param poses    of all keyframes, in one frame; only neighboring ones must be consistent
+  /// @param records  of all earlier keyframes
+  /// @param poses    of these, in one frame; only neighboring ones must be consistent
+  /// @param query    becomes the next keyframe, or is a frame whose pose is lost
   Loop verify(const std::deque<KeyframeRecord>& records,
               const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
-              std::size_t query) const;
+              const KeyframeRecord& query) const;
 
-  /// A candidate nearby: the relative pose is that of `poses`, but for some centimeters.
+  /// A candidate nearby: the relative pose is known but for some centimeters.
   Loop verify_nearby(const std::deque<KeyframeRecord>& records,
                      const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
-                     std::size_t query) const;
+                     const KeyframeRecord& query, const Eigen::Isometry3d& T_candidate_query) const;
 
  private:
   bool align_keypoints(const ImageKeypoints& a, const ImageKeypoints& b, Loop& loop) const;
   bool register_features(const std::deque<KeyframeRecord>& records,
-                         const std::vector<Eigen::Isometry3d>& poses, Loop& loop) const;
+                         const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
+                         Loop& loop) const;
   bool is_same_place(const std::deque<KeyframeRecord>& records,
-                     const std::vector<Eigen::Isometry3d>& poses, Loop& loop) const;
+                     const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
+                     Loop& loop) const;
   bool compare(const KeyframeView& a, const KeyframeView& b, Loop& loop) const;
 
   LoopConfig config_;

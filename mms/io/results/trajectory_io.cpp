@@ -127,4 +127,9 @@ void write_trajectory_kitti(const std::filesystem::path& path, const Trajectory&
   write_file(path, text);
 }
 
+std::filesystem::path map_trajectory_file(const std::filesystem::path& folder) {
+  const std::filesystem::path corrected = folder / "trajectory_map.tum";
+  return std::filesystem::exists(corrected) ? corrected : folder / "trajectory.tum";
+}
+
 }  // namespace mms

@@ -40,4 +40,8 @@ void write_trajectory_tum(const std::filesystem::path& path, const Trajectory& t
 /// @throws FileError if it cannot be written.
 void write_trajectory_kitti(const std::filesystem::path& path, const Trajectory& trajectory);
 
+/// File of the trajectory in the frame of the maps of a result folder: trajectory_map.tum,
+/// corrected by loop closure, or trajectory.tum where there is none.
+std::filesystem::path map_trajectory_file(const std::filesystem::path& folder);
+
 }  // namespace mms

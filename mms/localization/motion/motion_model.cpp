@@ -44,6 +44,12 @@ void MotionModel::place(Timestamp stamp, const Eigen::Isometry3d& pose) {
   pose_ = measured_ = pose;
 }
 
+void MotionModel::rest(Timestamp stamp, const Eigen::Isometry3d& pose) {
+  place(stamp, pose);
+  velocity_.setZero();
+  interval_.reset();
+}
+
 void MotionModel::measure(Timestamp stamp, const Eigen::Isometry3d& pose) {
   const double seconds = since_measured(stamp);
   if (seconds > 0.0) {

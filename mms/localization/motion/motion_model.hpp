@@ -29,6 +29,9 @@ class MotionModel {
   /// Sets the pose at `stamp`; the velocity stays.
   void place(Timestamp stamp, const Eigen::Isometry3d& pose);
 
+  /// Sets the pose of a sensor of unknown velocity.
+  void rest(Timestamp stamp, const Eigen::Isometry3d& pose);
+
   /// Adds a measured pose: the velocity is that since the last one.
   void measure(Timestamp stamp, const Eigen::Isometry3d& pose);
 

@@ -5,14 +5,24 @@
 #include <cstdint>
 #include <vector>
 
+#include "mms/core/time.hpp"
+
 namespace mms {
 
 /// Sensor positions of a map's frames, numbered from 1. Those that no voxel refers to are pruned,
 /// so that memory follows the size of the map and not the length of the run.
 class FrameViewpoints {
  public:
+  struct Entry {
+    std::uint32_t frame = 0;    ///< its number
+    Eigen::Vector3f viewpoint;  ///< in the world frame [m]
+    Timestamp stamp;            ///< of the frame
+  };
+
   /// @param viewpoint  in the world frame [m]
-  void add(const Eigen::Vector3f& viewpoint) { entries_.push_back({++last_, viewpoint}); }
+  void add(const Eigen::Vector3f& viewpoint, Timestamp stamp = {}) {
+    entries_.push_back({++last_, viewpoint, stamp});
+  }
 
   /// Number of the frame added last; 0 before the first.
   std::uint32_t last() const { return last_; }
@@ -28,13 +38,9 @@ class FrameViewpoints {
   void prune(const std::vector<bool>& is_needed);
 
   std::size_t size() const { return entries_.size(); }
+  const std::vector<Entry>& entries() const { return entries_; }  ///< by frame number
 
  private:
-  struct Entry {
-    std::uint32_t frame = 0;
-    Eigen::Vector3f viewpoint;
-  };
-
   /// [-]: entries before the first pruning. Source: 64 KiB of memory.
   static constexpr std::size_t kFirstLimit = 4096;
 

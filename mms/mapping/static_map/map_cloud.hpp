@@ -17,4 +17,9 @@ struct MapCloud {
   std::size_t size() const { return points.size(); }
 };
 
+/// The map with one point a voxel: means weighted by the observations, in the order of the first
+/// point of each voxel.
+/// @param voxel_size  side of a voxel [m]
+MapCloud merged(const MapCloud& map, double voxel_size);
+
 }  // namespace mms

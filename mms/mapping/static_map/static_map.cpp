@@ -48,7 +48,7 @@ std::size_t StaticMap::add(const LabeledCloud& cloud,
                            const Transform<World, Sensor>& T_world_sensor) {
   if (!T_world_sensor.is_finite()) return 0;
   const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
-  viewpoints_.add(T.translation());
+  viewpoints_.add(T.translation(), cloud.stamp);
   const std::vector<SurfacePoint> points = surface_points(cloud, config_.surface);
   insert(points, T);
   return points.size();
@@ -201,6 +201,22 @@ MapCloud StaticMap::cloud_with_normals() const {
   });
   fill_sparse_normals(cloud, sparse);
   return cloud;
+}
+
+MapCloud StaticMap::cloud(const StampCorrection& correction) const {
+  tsl::robin_map<std::uint32_t, Eigen::Isometry3f> corrections;  // by frame number
+  for (const FrameViewpoints::Entry& entry : viewpoints_.entries()) {
+    corrections.emplace(entry.frame, correction(entry.stamp).cast<float>());
+  }
+  MapCloud corrected = cloud();
+  std::size_t i = 0;
+  for_each_shown([&](const VoxelBlock&, const Voxel& voxel) {
+    const Eigen::Isometry3f& T = corrections.at(voxel.last_frame);
+    corrected.points[i] = T * corrected.points[i];
+    corrected.normals[i] = T.linear() * corrected.normals[i];
+    ++i;
+  });
+  return merged(corrected, voxel_size());
 }
 
 }  // namespace mms

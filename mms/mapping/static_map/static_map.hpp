@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "mms/core/config_visitor.hpp"
@@ -33,6 +34,9 @@ struct StaticMapConfig {
     v.group({"carving", "", "removal of voxels in observed free space"}, carving);
   }
 };
+
+/// Transform from the world frame to a corrected one, of what was measured at a stamp.
+using StampCorrection = std::function<Eigen::Isometry3d(Timestamp)>;
 
 /// Changes of the static map by one keyframe.
 struct MapUpdate {
@@ -75,6 +79,10 @@ class StaticMap {
   /// The same with a normal for every point, as needed for a LiDAR's (`fill_sparse_normals`). It
   /// takes about a second for 500,000 points.
   MapCloud cloud_with_normals() const;
+
+  /// The same with every voxel moved by the correction of the last frame that measured it. Surfaces
+  /// of several visits that then coincide are merged. Not for a map made by `apply`.
+  MapCloud cloud(const StampCorrection& correction) const;
 
   /// Changes by the last view: `apply` of all views' changes, in order, makes a map that shows the
   /// same voxels; their means and counts are those of when the count last doubled.

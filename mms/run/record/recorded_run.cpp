@@ -64,7 +64,7 @@ SystemConfig read_settings(const fs::path& file) {
 
 RunFiles read_finished(const fs::path& folder) {
   RunFiles files;
-  files.trajectory = read_trajectory_tum(folder / "trajectory.tum");
+  files.trajectory = read_trajectory_tum(map_trajectory_file(folder));
   const auto there = [&](const char* name) { return fs::exists(folder / name); };
   if (there("static_map.ply")) files.map = read_map(folder / "static_map.ply");
   if (there("objects.json")) files.objects = read_objects(folder / "objects.json");

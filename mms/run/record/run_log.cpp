@@ -42,8 +42,9 @@ void RunLog::add(const Processed& processed) {
   last_ = now;
   frames_.push_back({processed.frame.name, processed.frame.stamp, processed.frame.index,
                      result.odometry.T_world_sensor, result.odometry.status, result.keyframe,
-                     result.dynamic_share, result.overruled_share, result.cloud.implausible_masks,
-                     processed.read_ms, interval.count(), result.stage_ms, processed.latency_ms});
+                     result.relocalized, result.dynamic_share, result.overruled_share,
+                     result.cloud.implausible_masks, processed.read_ms, interval.count(),
+                     result.stage_ms, processed.latency_ms});
   smoother_.add(processed.frame.stamp, result.objects);
   ObjectFrame& seen = live_objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
   for (const TrackedObject& object : result.objects) seen.objects.push_back(object.box);
@@ -84,6 +85,10 @@ void RunLog::finish(std::size_t skipped, const AsyncPipeline& pipeline, const Sl
   }
   metrics_.tracks = system.dynamic_map().confirmed();
   objects_ = smoother_.history();
+  if (correction_.empty()) return;
+  for (ObjectFrame& frame : objects_) {
+    frame = transformed({frame}, correction_.at(frame.stamp).isometry()).front();
+  }
 }
 
 void RunLog::sum_up_times() {
@@ -132,21 +137,25 @@ void RunLog::sum_up_loops(const GlobalMap& map) {
   loops.closed = std::count_if(loops_.begin(), loops_.end(), [](const Loop& loop) {
     return loop.outcome == LoopOutcome::kAccepted;
   });
+  loops.relocalized = std::count_if(frames_.begin(), frames_.end(),
+                                    [](const LoggedFrame& frame) { return frame.relocalized; });
   if (metrics_.trajectory) loops.trajectory = evaluate_trajectory(truth_, corrected_trajectory());
 }
 
 void RunLog::compare_objects(const ObjectHistory& truth) {
-  const auto T = align_truth(truth_, trajectory());
-  if (!T || truth.empty()) return;
-  const auto compare = [&](const ObjectHistory& objects) {
+  if (truth.empty()) return;
+  const auto compare = [&](const ObjectHistory& objects,
+                           const Trajectory& poses) -> std::optional<TrackingError> {
+    const auto T = align_truth(truth_, poses);
+    if (!T) return std::nullopt;
     return evaluate_tracking(truth, transformed(objects, T->inverse()), truth_);
   };
-  metrics_.objects = compare(objects_);
-  metrics_.live_objects = compare(live_objects_);
+  metrics_.objects = compare(objects_, corrected_trajectory());
+  metrics_.live_objects = compare(live_objects_, trajectory());
 }
 
 void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map) {
-  const auto T = align_truth(truth_, trajectory());
+  const auto T = align_truth(truth_, corrected_trajectory());
   if (!T) return;
   const Eigen::Isometry3f T_map_truth = T->cast<float>();
   std::vector<Eigen::Vector3f> fixed;
@@ -171,6 +180,11 @@ Trajectory RunLog::corrected_trajectory() const {
     pose.T_world_sensor = Transform<World, Sensor>(corrected.isometry());
   }
   return poses;
+}
+
+StampCorrection RunLog::correction() const {
+  if (correction_.empty()) return {};
+  return [this](Timestamp stamp) { return correction_.at(stamp).isometry(); };
 }
 
 Trajectory RunLog::keyframes() const {

@@ -25,6 +25,7 @@ struct LoggedFrame {
   Transform<World, Sensor> T_world_sensor;
   Status status = Status::kInitialized;
   bool keyframe = false;
+  bool relocalized = false;
   double dynamic_share = 0.0;
   double overruled_share = 0.0;
   int implausible_masks = 0;
@@ -53,13 +54,13 @@ class RunLog {
   void compare_objects(const ObjectHistory& truth);
 
   /// Compares the static map with the ground truth, transformed to the map's frame by aligning the
-  /// poses of all frames with ground truth. Does nothing without such frames.
+  /// corrected poses of all frames with ground truth. Does nothing without such frames.
   /// @param truth  in the world frame of the ground-truth poses
   /// @throws DataError if the ground truth has no valid points.
   void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
 
   const std::vector<LoggedFrame>& frames() const { return frames_; }
-  /// Smoothed objects (ObjectSmoother); empty before `finish`.
+  /// Smoothed objects (ObjectSmoother) in the global frame; empty before `finish`.
   const ObjectHistory& objects() const { return objects_; }
   /// The tracked objects of the last frame; call after `add`.
   const std::vector<ObjectBox>& objects_now() const { return live_objects_.back().objects; }
@@ -76,7 +77,8 @@ class RunLog {
   const std::vector<Loop>& loops() const { return loops_; }
   /// Stamp of a keyframe of the global map.
   Timestamp stamp_of_keyframe(std::size_t keyframe) const { return loop_stamps_[keyframe]; }
-  const PoseCorrection& correction() const { return correction_; }
+  /// Correction of the static map to the global frame; empty without loops.
+  StampCorrection correction() const;
 
  private:
   void keep_picture(const Processed& processed);

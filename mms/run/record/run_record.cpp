@@ -133,7 +133,7 @@ void write_run_record(const fs::path& folder, const RunRecord& record, const Run
                      {"camera", json_of(record.camera)}};
   write_file(folder / "run.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   write_file(folder / "frames.csv", frames_csv(log));
-  const Trajectory truth = aligned_truth(log.truth(), log.trajectory());
+  const Trajectory truth = aligned_truth(log.truth(), log.corrected_trajectory());
   if (!truth.empty()) write_trajectory_tum(folder / "truth.tum", truth);
 }
 

@@ -6,7 +6,8 @@
 
 namespace mms {
 
-MapCloud result_map(const StaticMap& map, MapFrame frame) {
+MapCloud result_map(const StaticMap& map, MapFrame frame, const StampCorrection& correction) {
+  if (correction) return map.cloud(correction);
   return frame == MapFrame::kLidar ? map.cloud_with_normals() : map.cloud();
 }
 

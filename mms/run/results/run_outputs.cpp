@@ -58,15 +58,15 @@ std::string loops_csv(const RunLog& log) {
 }
 
 std::vector<ReportFrame> report_frames(const RunLog& log) {
+  const Trajectory poses = log.corrected_trajectory();
   std::vector<ReportFrame> frames;
   for (const LoggedFrame& frame : log.frames()) {
     std::vector<double> times = {frame.read_ms};
     times.insert(times.end(), frame.stage_ms.begin(), frame.stage_ms.end());
-    frames.push_back({frame.stamp, frame.T_world_sensor, std::nullopt, frame.status,
+    frames.push_back({frame.stamp, poses[frames.size()].T_world_sensor, std::nullopt, frame.status,
                       frame.dynamic_share, std::move(times)});
   }
-  const auto matches =
-      match_by_stamp(log.truth(), log.trajectory(), TrajectoryErrorOptions{}.max_difference);
+  const auto matches = match_by_stamp(log.truth(), poses, TrajectoryErrorOptions{}.max_difference);
   for (const PoseMatch& match : matches) {
     frames[match.estimate].truth_position =
         log.truth()[match.reference].T_world_sensor.translation();
@@ -107,7 +107,7 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
                    const SystemConfig& config, const SlamSystem& system, const RunLog& log,
                    const std::vector<std::string>& warnings) {
   const MapFrame frame = log.has_image() ? MapFrame::kCamera : MapFrame::kLidar;
-  const MapCloud map = result_map(system.static_map(), frame);
+  const MapCloud map = result_map(system.static_map(), frame, log.correction());
   write_result_files(folder, log.trajectory(), log.keyframes(), map, frame);
   write_robot_maps(folder, system.occupancy_map(), system.static_map().cloud(), log.has_image());
   write_file(folder / "objects.json", objects_json(log.objects()));

@@ -1,0 +1,51 @@
+#include "mms/mapping/static_map/map_cloud.hpp"
+
+#include <tsl/robin_map.h>
+
+#include "mms/geometry/voxels/voxel_key.hpp"
+
+namespace mms {
+namespace {
+
+/// Sums over the points of a voxel, weighted by their observations.
+struct PointSum {
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  int observations = 0;
+};
+
+}  // namespace
+
+MapCloud merged(const MapCloud& map, double voxel_size) {
+  const auto inverse_size = static_cast<float>(1.0 / voxel_size);
+  tsl::robin_map<VoxelKey, std::size_t, VoxelKeyHash> index;
+  std::vector<PointSum> sums;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const auto [place, is_new] =
+        index.try_emplace(voxel_key(map.points[i], inverse_size), sums.size());
+    if (is_new) sums.emplace_back();
+    PointSum& sum = sums[place->second];
+    const auto weight = static_cast<float>(map.observations[i]);
+    const Rgb& color = map.colors[i];
+    sum.point += weight * map.points[i];
+    sum.color += weight * Eigen::Vector3f(color.r, color.g, color.b);
+    sum.normal += weight * map.normals[i];
+    sum.observations += map.observations[i];
+  }
+  MapCloud result;
+  for (const PointSum& sum : sums) {
+    const auto weight = static_cast<float>(sum.observations);
+    const float length = sum.normal.norm();
+    const Eigen::Vector3f color = sum.color / weight;
+    const auto channel = [](float value) { return static_cast<std::uint8_t>(value + 0.5F); };
+    result.points.push_back(sum.point / weight);
+    result.colors.push_back({channel(color.x()), channel(color.y()), channel(color.z())});
+    result.normals.push_back(length > 0.0F ? Eigen::Vector3f(sum.normal / length)
+                                           : Eigen::Vector3f::Zero());
+    result.observations.push_back(sum.observations);
+  }
+  return result;
+}
+
+}  // namespace mms
