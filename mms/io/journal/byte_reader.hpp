@@ -50,7 +50,13 @@ class ByteReader {
   /// @throws DataError if the remaining bytes cannot hold as many, so that the count is safe to
   /// allocate.
   std::uint32_t take_count(std::size_t bytes_each) {
-    const auto count = take<std::uint32_t>();
+    return checked_count(take<std::uint32_t>(), bytes_each);
+  }
+
+  /// `count`, if the remaining bytes can hold as many items of at least `bytes_each` bytes.
+  /// @throws DataError otherwise.
+  template <class Count>
+  Count checked_count(Count count, std::size_t bytes_each) const {
     const std::size_t most = bytes_.size() / bytes_each;
     if (count <= most) return count;
     throw DataError(where_, "promises " + std::to_string(count) + " entries, but has space for " +

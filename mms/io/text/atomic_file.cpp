@@ -45,6 +45,12 @@ AtomicFile::~AtomicFile() {
   fs::remove(temporary_, ignored);
 }
 
+void AtomicFile::write(std::string_view bytes) {
+  errno = 0;
+  stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream_) fail(errno);
+}
+
 void AtomicFile::commit() {
   errno = 0;
   stream_.close();
@@ -63,7 +69,7 @@ void AtomicFile::fail(int error_number) const {
 
 void write_file(const fs::path& path, std::string_view bytes) {
   AtomicFile file(path);
-  file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.write(bytes);
   file.commit();
 }
 

@@ -22,6 +22,9 @@ class AtomicFile {
   /// Where the bytes go, before `commit`.
   std::ostream& stream() { return stream_; }
 
+  /// Writes bytes. @throws FileError if it fails, so that a full disk is noticed early.
+  void write(std::string_view bytes);
+
   /// @throws FileError if a write failed.
   void commit();
 
