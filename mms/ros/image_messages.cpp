@@ -9,6 +9,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/io/image/image_io.hpp"
+#include "mms/ros/rvl.hpp"
 
 namespace mms {
 namespace {
@@ -171,13 +172,16 @@ Image<float> depth_of(const msg::Image& message, const std::string& where) {
 Image<float> depth_of(const msg::CompressedImage& message, const std::string& where) {
   if (starts_as_png(message.data)) return millimetres(decode_depth16(message.data, where));
   const std::span bytes(message.data);
-  if (bytes.size() < sizeof(DepthHeader) || !starts_as_png(bytes.subspan(sizeof(DepthHeader)))) {
-    throw DataError(where, "has the format '" + message.format + "' and contains no PNG",
-                    "compressed depth is supported as PNG, not as RVL");
-  }
+  if (bytes.size() < sizeof(DepthHeader)) throw DataError(where, "ends too early");
   DepthHeader header{};
   std::memcpy(&header, bytes.data(), sizeof header);
-  const Image<std::uint16_t> raw = decode_depth16(bytes.subspan(sizeof header), where);
+  const std::span image = bytes.subspan(sizeof header);
+  const bool rvl = message.format.find("rvl") != std::string::npos;
+  if (!rvl && !starts_as_png(image)) {
+    throw DataError(where, "has the format '" + message.format + "' and contains no PNG",
+                    "compressed depth is supported as PNG and RVL");
+  }
+  const Image<std::uint16_t> raw = rvl ? decode_rvl(image, where) : decode_depth16(image, where);
   return message.format.starts_with("32FC1") ? dequantised(raw, header) : millimetres(raw);
 }
 

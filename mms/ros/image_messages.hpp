@@ -21,8 +21,8 @@ Image<Rgb> color_of(const msg::CompressedImage& message, const std::string& wher
 /// @throws DataError at `where` as color_of.
 Image<float> depth_of(const msg::Image& message, const std::string& where);
 
-/// Depth of a PNG of compressed_depth_image_transport, after its header of 12 bytes, or of a plain
-/// 16-bit PNG in millimeters.
+/// Depth of a PNG or RVL image of compressed_depth_image_transport, after its header of 12 bytes,
+/// or of a plain 16-bit PNG in millimeters.
 /// @throws DataError at `where` if it cannot be decoded.
 Image<float> depth_of(const msg::CompressedImage& message, const std::string& where);
 

@@ -119,6 +119,93 @@ TEST(ImageMessages, ReadsInverseCompressedDepthOf32Bits) {
   EXPECT_FLOAT_EQ(depth(1, 0), kA / (static_cast<float>(raw(1, 0)) - kB));
 }
 
+/// Encoder of the paper's listing, for the decoder's test.
+class RvlEncoder {
+ public:
+  std::vector<std::uint8_t> encode(const Image<std::uint16_t>& image) {
+    put(static_cast<std::uint32_t>(image.width()));
+    put(static_cast<std::uint32_t>(image.height()));
+    const auto& pixels = image.pixels();
+    std::int32_t previous = 0;
+    for (std::size_t i = 0; i < pixels.size();) {
+      std::size_t zeros = i;
+      while (zeros < pixels.size() && pixels[zeros] == 0) ++zeros;
+      std::size_t end = zeros;
+      while (end < pixels.size() && pixels[end] != 0) ++end;
+      number(static_cast<std::uint32_t>(zeros - i));
+      number(static_cast<std::uint32_t>(end - zeros));
+      for (i = zeros; i < end; ++i) {
+        const std::int32_t delta = pixels[i] - previous;
+        number(static_cast<std::uint32_t>(delta >= 0 ? 2 * delta : -2 * delta - 1));
+        previous = pixels[i];
+      }
+    }
+    while (groups_ != 0) group(0);
+    return bytes_;
+  }
+
+ private:
+  void put(std::uint32_t word) {
+    const auto* raw = reinterpret_cast<const std::uint8_t*>(&word);
+    bytes_.insert(bytes_.end(), raw, raw + sizeof word);
+  }
+  void group(std::uint32_t bits) {
+    word_ = word_ << 4U | bits;
+    if (++groups_ < 8) return;
+    put(word_);
+    groups_ = 0;
+  }
+  void number(std::uint32_t value) {
+    do {
+      const std::uint32_t low = value & 7U;
+      value >>= 3U;
+      group(value != 0 ? low | 8U : low);
+    } while (value != 0);
+  }
+
+  std::vector<std::uint8_t> bytes_;
+  std::uint32_t word_ = 0;
+  int groups_ = 0;
+};
+
+msg::CompressedImage rvl_message(const Image<std::uint16_t>& raw) {
+  msg::CompressedImage message{{}, "16UC1; compressedDepth rvl", std::vector<std::uint8_t>(12)};
+  const auto rvl = RvlEncoder().encode(raw);
+  message.data.insert(message.data.end(), rvl.begin(), rvl.end());
+  return message;
+}
+
+TEST(ImageMessages, ReadsRvlCompressedDepth) {
+  Image<std::uint16_t> raw(37, 11);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    raw[i] = static_cast<std::uint16_t>(i % 7 < 3 ? 0 : (i * 7919) % 65536);
+  }
+  const Image<float> depth = depth_of(rvl_message(raw), "test");
+  ASSERT_EQ(depth.width(), 37);
+  for (std::size_t i = 0; i < raw.size(); ++i) ASSERT_EQ(depth[i], float(raw[i]) / 1000.0F);
+}
+
+TEST(ImageMessages, RejectsDamagedRvl) {
+  const msg::CompressedImage whole = rvl_message(Image<std::uint16_t>(16, 4, 1500));
+  for (std::size_t size = 0; size < whole.data.size(); ++size) {
+    msg::CompressedImage cut = whole;
+    cut.data.resize(size);
+    EXPECT_THROW(depth_of(cut, "test"), DataError) << size;
+  }
+  msg::CompressedImage huge = whole;
+  for (std::size_t at = 12; at < 20; ++at) huge.data[at] = 0xFF;
+  expect_in("4294967295x4294967295 pixels, allowed",
+            message_of<DataError>([&] { depth_of(huge, "test"); }));
+  for (std::size_t at = 20; at < whole.data.size(); ++at) {
+    msg::CompressedImage damaged = whole;
+    damaged.data[at] = 0xFF;
+    try {
+      depth_of(damaged, "test");
+    } catch (const DataError&) {  // or another image
+    }
+  }
+}
+
 TEST(ImageMessages, ErrorsExplainProblem) {
   const auto error = [](msg::Image message, bool depth = false) {
     return message_of<DataError>([&] {
@@ -148,9 +235,9 @@ TEST(ImageMessages, ErrorsExplainProblem) {
   msg::Image huge = valid;
   huge.width = huge.height = 0xFFFFFFFF;
   expect_in("allowed: 1x1 to 16384x16384", error(huge));
-  expect_in("not as RVL", message_of<DataError>([] {
-              depth_of(msg::CompressedImage{{}, "16UC1; compressedDepth rvl", {1, 2, 3}}, "test");
-            }));
+  const msg::CompressedImage jpeg{{}, "16UC1; jpeg", std::vector<std::uint8_t>(20)};
+  expect_in("compressed depth is supported as PNG and RVL",
+            message_of<DataError>([&] { depth_of(jpeg, "test"); }));
 }
 
 TEST(ImageMessages, RoundTrip) {
