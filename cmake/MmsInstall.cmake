@@ -18,7 +18,7 @@ configure_package_config_file(cmake/mms-config.cmake.in ${PROJECT_BINARY_DIR}/mm
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/mms-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/mms-config.cmake ${PROJECT_BINARY_DIR}/mms-config-version.cmake
-              cmake/FindOpenCVModules.cmake cmake/FindRosbagStorage.cmake
+              cmake/FindOpenCVModules.cmake cmake/FindRecordingLibraries.cmake
               cmake/FindLibav.cmake cmake/FindLibpcap.cmake
         DESTINATION ${package_dir} COMPONENT development)
 

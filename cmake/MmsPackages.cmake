@@ -38,10 +38,7 @@ string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
        "libopencv-imgproc-dev, libopencv-imgcodecs-dev, libopencv-dnn-dev, "
        "libopencv-features2d-dev, libceres-dev, libdnnl-dev, "
        "ocl-icd-opencl-dev, libembree-dev, libyaml-cpp-dev, nlohmann-json3-dev, liboctomap-dev, "
-       "libfmt-dev, libboost-dev (>= 1.74)")
-if(RosbagStorage_FOUND)
-  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", librosbag-storage-dev")
-endif()
+       "libsqlite3-dev, libzstd-dev, liblz4-dev, libbz2-dev, libfmt-dev, libboost-dev (>= 1.74)")
 if(Libav_FOUND)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
          ", libavformat-dev, libavcodec-dev, libswscale-dev")

@@ -20,7 +20,7 @@
 #include "mms/dataset/video/video_rgbd.hpp"
 #include "mms/io/capture/packet_capture.hpp"
 #include "mms/io/text/files.hpp"
-#include "mms/ros/bag_reader.hpp"
+#include "mms/ros/bag/bag_files.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -44,7 +44,8 @@ constexpr FolderLayout kLayouts[] = {{is_scannetpp_layout, open_scannetpp},
                                      {is_tartan_air_layout, open_tartan_air},
                                      {is_folder_rgbd_layout, open_folder_rgbd},
                                      {is_video_rgbd_layout, open_video_rgbd},
-                                     {is_lidar_scans_layout, open_lidar_scans}};
+                                     {is_lidar_scans_layout, open_lidar_scans},
+                                     {is_bag_folder, open_bag}};
 
 const FolderLayout* layout_of(const Names& names) {
   const auto* found =
@@ -91,10 +92,6 @@ struct OtherFile {
   const char* hint;
 };
 constexpr OtherFile kOtherFiles[] = {
-    {".mcap", "is a ROS 2 recording (MCAP)",
-     "convert it to a ROS 1 bag, for example by rosbags-convert"},
-    {".db3", "is a ROS 2 recording (rosbag2)",
-     "convert it to a ROS 1 bag, for example by rosbags-convert"},
     {".sens", "is a scan of ScanNet",
      "export color, depth, poses and intrinsics with its SensReader"},
     {".mkv", "is a video or a recording of Azure Kinect",
@@ -121,19 +118,11 @@ constexpr const char* kVideoHint =
     if (name.ends_with(other.ending)) throw DataError(file.string(), other.what, other.hint);
   }
   throw DataError(file.string(),
-                  "is a file; a recording is a folder, a ROS bag (.bag) or a capture of "
-                  "LiDAR packets (.pcap)");
-}
-
-/// A folder of rosbag2 has such files beside its metadata.yaml.
-void fail_if_rosbag2(const fs::path& folder, const Names& names) {
-  for (const std::string& name : names) {
-    if (name.ends_with(".mcap") || name.ends_with(".db3")) fail_file(folder / name);
-  }
+                  "is a file; a recording is a folder, a ROS bag (.bag, .mcap, .db3) or a capture "
+                  "of LiDAR packets (.pcap)");
 }
 
 [[noreturn]] void fail_unknown(const fs::path& folder, const Names& names) {
-  fail_if_rosbag2(folder, names);
   for (const std::string& name : names) {
     if (is_video_name(name)) {
       throw DataError(folder.string(), found_text(names) + ", and no depth images", kVideoHint);
@@ -152,28 +141,32 @@ void fail_if_rosbag2(const fs::path& folder, const Names& names) {
                                     "(7-Scenes), or scans of a LiDAR; docs/formats.md has all");
 }
 
+void reject_topics(const fs::path& path, const SourceOptions& options) {
+  if (options.topics.empty()) return;
+  throw DataError(path.string(), "is not a bag and has no topics", "omit --topic-*");
+}
+
 }  // namespace
 
 std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOptions& options) {
-  const bool bag = is_bag_name(path) && !fs::is_directory(path);
-  if (!bag && !options.topics.empty()) {
-    throw DataError(path.string(), "is not a bag and has no topics", "omit --topic-*");
-  }
   if (is_simulated(path.string())) {
     if (!options.camera.empty()) {
       throw DataError(path.string(), "is a simulation and has its own camera",
                       "omit --calibration, --intrinsics and --depth-scale");
     }
+    reject_topics(path, options);
     return open_simulated(path.string(), options);
   }
   std::error_code error;
   if (!fs::exists(path, error)) throw DataError(path.string(), "no such recording");
-  if (bag) return open_bag(path, options);
-  if (is_capture_name(path) && !fs::is_directory(path)) return open_capture(path, options);
-  if (!fs::is_directory(path, error)) fail_file(path);
+  const bool folder = fs::is_directory(path, error);
+  if (!folder && is_bag_name(path)) return open_bag(path, options);
+  if (!folder && is_capture_name(path)) return open_capture(path, options);
+  if (!folder) fail_file(path);
   const Names names = list_folder(path);
   const FolderLayout* layout = layout_of(names);
   if (layout == nullptr) fail_unknown(path, names);
+  if (layout->open != open_bag) reject_topics(path, options);
   return layout->open(path, options);
 }
 

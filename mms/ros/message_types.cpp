@@ -2,6 +2,7 @@
 
 #include <map>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace mms::msg {
@@ -134,18 +135,45 @@ const Entries& entries() {
   return kEntries;
 }
 
+std::string part_of(const std::string& name, const std::string& fields) {
+  return std::string(80, '=') + "\nMSG: " + name + "\n" + fields;
+}
+
 std::string definition_of(const Entry& entry) {
   std::string text = entry.fields;
   for (const std::string& part : entry.parts) {
-    text += std::string(80, '=') + "\nMSG: " + part + "\n" + entries().find(part)->second.fields;
+    text += part_of(part, entries().find(part)->second.fields);
   }
   return text;
+}
+
+/// Lines of ROS 1 and what they are in ROS 2.
+constexpr std::pair<std::string_view, std::string_view> kRos2Lines[] = {
+    {"uint32 seq\n", ""},
+    {"time stamp\n", "builtin_interfaces/Time stamp\n"},
+    {"Header header\n", "std_msgs/Header header\n"},
+    {"float64[] D\nfloat64[9] K\nfloat64[9] R\nfloat64[12] P\n",
+     "float64[] d\nfloat64[9] k\nfloat64[9] r\nfloat64[12] p\n"}};
+
+std::string ros2_definition_of(std::string_view name, std::string text) {
+  if (name.starts_with("visualization_msgs/")) return "";  // has more fields in ROS 2
+  for (const auto& [ros1, ros2] : kRos2Lines) {
+    for (std::size_t at = text.find(ros1); at != std::string::npos; at = text.find(ros1, at)) {
+      const bool line = at == 0 || text[at - 1] == '\n';
+      if (line) text.replace(at, ros1.size(), ros2);
+      at += line ? ros2.size() : ros1.size();
+    }
+  }
+  if (text.find("builtin_interfaces/Time") == std::string::npos) return text;
+  return text + part_of("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n");
 }
 
 std::map<std::string, MessageType, std::less<>> make_types() {
   std::map<std::string, MessageType, std::less<>> types;
   for (const auto& [name, entry] : entries()) {
-    types.emplace(name, MessageType{name, entry.md5, definition_of(entry)});
+    const std::string definition = definition_of(entry);
+    types.emplace(name,
+                  MessageType{name, entry.md5, definition, ros2_definition_of(name, definition)});
   }
   return types;
 }

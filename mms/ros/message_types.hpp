@@ -9,9 +9,10 @@ namespace mms::msg {
 
 /// Identity of a ROS message type.
 struct MessageType {
-  std::string name;        ///< "sensor_msgs/Image"
-  std::string md5;         ///< of its definition, as computed by ROS
-  std::string definition;  ///< its fields and those of nested types
+  std::string name;             ///< "sensor_msgs/Image"
+  std::string md5;              ///< of its definition, as computed by ROS
+  std::string definition;       ///< its fields and those of nested types
+  std::string ros2_definition;  ///< the same for ROS 2; empty for types with other fields there
 };
 
 /// ROS name of a message's type.

@@ -9,18 +9,19 @@
 
 namespace mms::msg {
 
-// ROS 1 sensor messages as plain structs (serialization: wire.hpp). Fields have the names, order
-// and meaning of ROS.
+// Sensor messages of ROS 1 and ROS 2 as plain structs (serialization: wire.hpp). Fields have the
+// names, order and meaning of ROS 1; those of ROS 2 differ in case only.
 
 /// std_msgs/Header
 struct Header {
-  std::uint32_t seq = 0;
+  std::uint32_t seq = 0;  ///< of ROS 1 alone
   Timestamp stamp;
   std::string frame_id;
 
   template <class Self, class Archive>
   static void fields(Self& self, Archive& archive) {
-    archive(self.seq, self.stamp, self.frame_id);
+    if (archive.is_ros1()) archive(self.seq);
+    archive(self.stamp, self.frame_id);
   }
 };
 

@@ -203,7 +203,7 @@ IncludeRules make_rules() {
       {"io",
        {"text", "config", "cloud", "image", "video", "capture", "weights", "journal", "results",
         "opencv", "stb"}},
-      {"ros", {"", "rosbag"}},
+      {"ros", {"", "storage", "bag"}},
       {"simulation",
        {"models", "people", "vehicles", "sensors", "config", "building", "world", "truth", ""}},
       {"dataset",

@@ -5,7 +5,7 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/dataset/recorder/frame_recorder.hpp"
-#include "mms/ros/bag_writer.hpp"
+#include "mms/ros/bag/bag_files.hpp"
 #include "mms/ros/camera_messages.hpp"
 #include "mms/ros/cloud_messages.hpp"
 #include "mms/ros/image_messages.hpp"
@@ -24,12 +24,9 @@ Timestamp at(int milliseconds) {
   return Timestamp(5'000'000'000) + kMillisecond * milliseconds;
 }
 
-class BagSources : public ::testing::Test {
+class BagSources : public ::testing::TestWithParam<std::string> {
  protected:
-  void SetUp() override {
-    if (!MMS_WITH_ROSBAG) GTEST_SKIP() << "librosbag-storage-dev is not installed";
-    bag_ = std::make_unique<BagWriter>(path_);
-  }
+  void SetUp() override { bag_ = create_bag(path_); }
 
   msg::Header header(int milliseconds, const char* frame_id = "camera") const {
     return {0, at(milliseconds), frame_id};
@@ -60,11 +57,11 @@ class BagSources : public ::testing::Test {
   }
 
   TempFolder folder_;
-  std::filesystem::path path_ = folder_.path() / "a.bag";
+  std::filesystem::path path_ = folder_.path() / GetParam();
   std::unique_ptr<BagWriter> bag_;
 };
 
-TEST_F(BagSources, MatchesImagesByHeaderStamps) {
+TEST_P(BagSources, MatchesImagesByHeaderStamps) {
   camera_info();
   for (const int t : {0, 100, 200, 300}) color(t, static_cast<std::uint8_t>(t / 10));
   for (const int t : {12, 95, 190, 340}) depth(t, 1.0F + static_cast<float>(t) / 1000.0F);
@@ -81,7 +78,7 @@ TEST_F(BagSources, MatchesImagesByHeaderStamps) {
   EXPECT_TRUE(any_has(played.source->describe(), "depth topic: /depth/image"));
 }
 
-TEST_F(BagSources, SkipsByIndex) {
+TEST_P(BagSources, SkipsByIndex) {
   camera_info();
   for (int i = 0; i < 10; ++i) color(100 * i, static_cast<std::uint8_t>(i));
   for (int i = 0; i < 10; ++i) depth(100 * i);
@@ -91,7 +88,7 @@ TEST_F(BagSources, SkipsByIndex) {
   EXPECT_EQ(source->next()->color(0, 0).r, 7);
 }
 
-TEST_F(BagSources, UsesRecordTimeWithoutHeaderStamps) {
+TEST_P(BagSources, UsesRecordTimeWithoutHeaderStamps) {
   camera_info();
   msg::Header none;
   bag_->write("/rgb/image", at(100), image_message(none, Image<Rgb>(kWidth, kHeight)));
@@ -100,7 +97,7 @@ TEST_F(BagSources, UsesRecordTimeWithoutHeaderStamps) {
   EXPECT_EQ(play().names(), "5.100000000");
 }
 
-TEST_F(BagSources, SkipsAndReportsDamagedFrames) {
+TEST_P(BagSources, SkipsAndReportsDamagedFrames) {
   camera_info();
   for (const int t : {0, 100, 200}) depth(t);
   color(0);
@@ -112,13 +109,13 @@ TEST_F(BagSources, SkipsAndReportsDamagedFrames) {
   const Playback played = play();
   EXPECT_EQ(played.frames.size(), 1U);
   ASSERT_EQ(played.warnings.size(), 2U);
-  expect_in(
-      "frame 5.100000000 skipped: a.bag: /rgb/image message 1: is 4x3 pixels, its camera_info",
-      played.warnings[0]);
+  expect_in("frame 5.100000000 skipped: " + GetParam() +
+                ": /rgb/image message 1: is 4x3 pixels, its camera_info",
+            played.warnings[0]);
   expect_in("/rgb/image message 2: has 5 bytes", played.warnings[1]);
 }
 
-TEST_F(BagSources, ReadsCompressedImages) {
+TEST_P(BagSources, ReadsCompressedImages) {
   camera_info();
   const Image<std::uint16_t> raw(kWidth, kHeight, 1250);
   write("/rgb/image/compressed",
@@ -131,7 +128,7 @@ TEST_F(BagSources, ReadsCompressedImages) {
   EXPECT_EQ(played.frames[0].depth(3, 3), 1.25F);
 }
 
-TEST_F(BagSources, ReadsMasksAndGroundTruth) {
+TEST_P(BagSources, ReadsMasksAndGroundTruth) {
   camera_info();
   color(0);
   depth(0);
@@ -148,7 +145,7 @@ TEST_F(BagSources, ReadsMasksAndGroundTruth) {
   EXPECT_FALSE(play({.load_masks = false}).source->has_masks());
 }
 
-TEST_F(BagSources, ReadsGroundTruthFromTransforms) {
+TEST_P(BagSources, ReadsGroundTruthFromTransforms) {
   camera_info();
   color(0);
   depth(0);
@@ -166,7 +163,7 @@ TEST_F(BagSources, ReadsGroundTruthFromTransforms) {
   EXPECT_NEAR(played.source->ground_truth()[1].T_world_sensor.translation().x(), 11.5, 1e-12);
 }
 
-TEST_F(BagSources, RegistersDepthWithFrameOfItsOwn) {
+TEST_P(BagSources, RegistersDepthWithFrameOfItsOwn) {
   camera_info();
   color(0);
   write("/depth/image",
@@ -187,7 +184,7 @@ TEST_F(BagSources, RegistersDepthWithFrameOfItsOwn) {
   }
 }
 
-TEST_F(BagSources, RefusesDepthOfAnotherSizeWithoutTransform) {
+TEST_P(BagSources, RefusesDepthOfAnotherSizeWithoutTransform) {
   camera_info();
   color(0);
   write("/depth/image",
@@ -198,7 +195,7 @@ TEST_F(BagSources, RefusesDepthOfAnotherSizeWithoutTransform) {
   EXPECT_TRUE(any_has(played.warnings, "it must be registered to the color image"));
 }
 
-TEST_F(BagSources, ReadsCloudsWithCamera) {
+TEST_P(BagSources, ReadsCloudsWithCamera) {
   camera_info();
   LidarScan scan;
   scan.points = {{1, 2, 3}, {4, 5, 6}};
@@ -222,7 +219,7 @@ TEST_F(BagSources, ReadsCloudsWithCamera) {
   expect_in("/points message 2: has no points", played.warnings[0]);
 }
 
-TEST_F(BagSources, CalibrationFileReplacesCameraInfo) {
+TEST_P(BagSources, CalibrationFileReplacesCameraInfo) {
   color(0);
   depth(0);
   finish();
@@ -234,21 +231,21 @@ TEST_F(BagSources, CalibrationFileReplacesCameraInfo) {
   EXPECT_EQ(play().frames.size(), 1U);
 }
 
-TEST_F(BagSources, ErrorListsMissingDataAndTopics) {
+TEST_P(BagSources, ErrorListsMissingDataAndTopics) {
   color(0);
   finish();
   expect_in("has neither color images with depth nor point clouds; it has /rgb/image", error());
-  bag_ = std::make_unique<BagWriter>(path_);
+  bag_ = create_bag(path_);
   finish();
-  expect_in("a.bag: is empty: it has no topics", error());
-  bag_ = std::make_unique<BagWriter>(path_);
+  expect_in(GetParam() + ": is empty: it has no topics", error());
+  bag_ = create_bag(path_);
   camera_info();
   color(0);
   depth(500);
   finish();
   expect_in("no two match within 0.02 s (they begin at 5.000000000 and 5.5", error());
   expect_in("has no mask for any frame", [&] {
-    bag_ = std::make_unique<BagWriter>(path_);
+    bag_ = create_bag(path_);
     camera_info();
     color(0);
     depth(0);
@@ -257,7 +254,7 @@ TEST_F(BagSources, ErrorListsMissingDataAndTopics) {
   }());
 }
 
-TEST_F(BagSources, RejectsTopicsForFolders) {
+TEST_P(BagSources, RejectsTopicsForFolders) {
   finish();
   write_tum(folder_, 1);
   expect_in("is not a bag and has no topics", message_of<DataError>([&] {
@@ -290,10 +287,10 @@ void record(const std::filesystem::path& from, FrameRecorder& recorder) {
   recorder.finish(source->ground_truth());
 }
 
-TEST_F(BagSources, ConvertsToBagAndBackWithoutLoss) {
+TEST_P(BagSources, ConvertsToBagAndBackWithoutLoss) {
   for (const std::string sensor : {"d435", "l515", "kinect", "lidar16"}) {
     const std::string scene = "sim:crowd?frames=3&width=64&sensor=" + sensor;
-    const auto bag = folder_.path() / (sensor + ".bag");
+    const auto bag = folder_.path() / (sensor + GetParam());
     const auto back = folder_.path() / sensor;
     record(scene, *record_bag(bag, false));
     expect_same_frames(scene, bag);
@@ -301,6 +298,9 @@ TEST_F(BagSources, ConvertsToBagAndBackWithoutLoss) {
     expect_same_frames(scene, back);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Formats, BagSources, ::testing::Values("a.bag", "a.mcap"),
+                         [](const auto& format) { return format.param.substr(2); });
 
 }  // namespace
 }  // namespace mms

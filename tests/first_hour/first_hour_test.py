@@ -79,18 +79,18 @@ def the_folder_above_the_recording(folder):
     (folder / "data").rename(folder / "above/data")
 
 
-@case(1, "is a file; a recording is a folder, a ROS bag", args=["run", "notes.txt"])
+@case(1, "is a file; a recording is a folder, a ROS bag (.bag, .mcap, .db3)", args=["run", "notes.txt"])
 def a_text_file(folder):
     (folder / "notes.txt").write_text("hello")
 
 
-@case(1, "ROS 2 recording (MCAP)", "convert", args=["run", "x.mcap"])
-def an_mcap_file(folder):
+@case(1, "x.mcap: is empty", "was not closed", args=["run", "x.mcap"])
+def an_mcap_file_without_content(folder):
     (folder / "x.mcap").write_bytes(b"\x89MCAP0\r\n")
 
 
-@case(1, "ROS 2 recording (rosbag2)", args=["run", "bag2"])
-def a_rosbag2_folder(folder):
+@case(1, "bag2_0.db3: is damaged or not a recording of rosbag2", args=["run", "bag2"])
+def a_rosbag2_folder_with_a_damaged_file(folder):
     (folder / "bag2").mkdir()
     (folder / "bag2/metadata.yaml").write_text("rosbag2_bagfile_information:\n")
     (folder / "bag2/bag2_0.db3").write_bytes(b"SQLite format 3\0")

@@ -12,9 +12,9 @@ namespace {
 using namespace mms::testing;  // NOLINT: helpers of the tests
 
 template <class Message>
-std::string bytes_of(const Message& message) {
-  std::string bytes(encoded_size(message), '\0');
-  encode(message, reinterpret_cast<std::uint8_t*>(bytes.data()));
+std::string bytes_of(const Message& message, WireFormat format = WireFormat::kRos1) {
+  std::string bytes(encoded_size(message, format), '\0');
+  encode(message, reinterpret_cast<std::uint8_t*>(bytes.data()), format);
   return bytes;
 }
 
@@ -40,6 +40,99 @@ TEST(Wire, ImagesUseRosLayout) {
   EXPECT_EQ(back.header.stamp, Timestamp(3'000'000'005));
   EXPECT_EQ(back.encoding, "mono8");
   EXPECT_EQ(back.data, image.data);
+}
+
+/// Two transforms in CDR, laid out by hand after DDS-XTypes 7.4.1.
+struct CdrTransforms {
+  explicit CdrTransforms(bool big_endian) : big_endian_(big_endian) {
+    bytes = big_endian ? std::string("\0\0\0\0", 4) : std::string("\0\1\0\0", 4);
+    number(std::uint32_t{2});
+    for (const std::string frame : {"ab", "abcde"}) {
+      align(4);
+      number(std::uint32_t{3});
+      number(std::uint32_t{5});
+      text(frame);
+      align(4);
+      text("c");
+      align(8);
+      for (const double value : {1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0}) number(value);
+    }
+  }
+  void align(std::size_t size) {
+    while ((bytes.size() - 4) % size != 0) bytes += '\0';
+  }
+  template <class T>
+  void number(T value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    if (big_endian_) std::reverse(std::begin(raw), std::end(raw));
+    bytes.append(raw, sizeof value);
+  }
+  void text(const std::string& text) {
+    number(static_cast<std::uint32_t>(text.size() + 1));
+    bytes += text + '\0';
+  }
+  std::string bytes;
+  bool big_endian_;
+};
+
+TEST(Cdr, ReadsBothByteOrders) {
+  for (const bool big_endian : {false, true}) {
+    const std::string bytes = CdrTransforms(big_endian).bytes;
+    const auto read = decode<Transforms>(bytes, "test", WireFormat::kCdr);
+    ASSERT_EQ(read.transforms.size(), 2U);
+    EXPECT_EQ(read.transforms[1].header.stamp, Timestamp(3'000'000'005));
+    EXPECT_EQ(read.transforms[1].header.frame_id, "abcde");
+    EXPECT_EQ(read.transforms[0].child_frame_id, "c");
+    EXPECT_EQ(read.transforms[1].transform.position[2], 3.0);
+    if (!big_endian) {
+      EXPECT_EQ(bytes_of(read, WireFormat::kCdr), bytes);
+    }
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      EXPECT_THROW(decode<Transforms>(bytes.substr(0, size), "test", WireFormat::kCdr), DataError);
+    }
+  }
+}
+
+TEST(Cdr, MessagesRoundTrip) {
+  CameraInfo camera;
+  camera.header.frame_id = "camera";
+  camera.distortion_model = "plumb_bob";
+  camera.D = {0.1, 0.2};
+  camera.P[11] = 7.0;
+  camera.do_rectify = true;
+  for (const bool lens : {true, false}) {
+    if (!lens) camera.D.clear();
+    const auto back =
+        decode<CameraInfo>(bytes_of(camera, WireFormat::kCdr), "test", WireFormat::kCdr);
+    EXPECT_EQ(back.D, camera.D);
+    EXPECT_EQ(back.P, camera.P);
+    EXPECT_TRUE(back.do_rectify);
+  }
+  PointCloud2 cloud;
+  cloud.point_fields = {{"x", 0, 7, 1}, {"intensity", 4, 7, 1}};
+  cloud.data = {1, 2, 3};
+  cloud.is_dense = true;
+  const auto back =
+      decode<PointCloud2>(bytes_of(cloud, WireFormat::kCdr), "test", WireFormat::kCdr);
+  EXPECT_EQ(back.point_fields[1].name, "intensity");
+  EXPECT_EQ(back.point_fields[1].offset, 4U);
+  EXPECT_EQ(back.data, cloud.data);
+  EXPECT_TRUE(back.is_dense);
+}
+
+TEST(Cdr, RejectsOtherRepresentations) {
+  std::string bytes = bytes_of(Image{}, WireFormat::kCdr);
+  bytes[1] = 3;
+  expect_in("test: has the CDR representation 3, expected 0 or 1",
+            message_of<DataError>([&] { decode<Image>(bytes, "test", WireFormat::kCdr); }));
+}
+
+TEST(Cdr, RejectsCountsBeyondData) {
+  std::string bytes = bytes_of(Transforms{}, WireFormat::kCdr);
+  bytes[7] = '\x7F';
+  expect_in("promises",
+            message_of<DataError>([&] { decode<Transforms>(bytes, "test", WireFormat::kCdr); }));
 }
 
 TEST(Wire, ListsRoundTrip) {
@@ -82,6 +175,15 @@ TEST(MessageTypes, DefinitionsIncludePartTypes) {
   EXPECT_EQ(type.name, "sensor_msgs/PointCloud2");
   EXPECT_EQ(type.md5, "1158d486dd51d683ce2f1be655c3c181");
   expect_in("MSG: sensor_msgs/PointField\nuint8 INT8=1", type.definition);
+}
+
+TEST(MessageTypes, DefinitionsOfRos2HaveItsNames) {
+  const std::string& camera = message_type(kName<CameraInfo>).ros2_definition;
+  EXPECT_TRUE(camera.starts_with("std_msgs/Header header\n"));
+  expect_in("float64[9] k\n", camera);
+  expect_in("MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n", camera);
+  expect_in("MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n", camera);
+  EXPECT_EQ(message_type("visualization_msgs/Marker").ros2_definition, "");
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ void add_convert_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "convert",
       "Convert trajectories (.tum, _kitti.txt), clouds (.ply, .pcd) and recordings (folders, "
-      ".bag, .pcap), or recover trajectory and map from the journal of a killed run");
+      ".bag, .mcap, .pcap), or recover trajectory and map from the journal of a killed run");
   command
       ->add_option("IN", arguments->input,
                    "file, recording, sim:SCENE, or the result folder of a killed run")

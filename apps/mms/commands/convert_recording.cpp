@@ -10,26 +10,28 @@
 #include "mms/dataset/recorder/frame_recorder.hpp"
 #include "mms/dataset/simulated/simulated_source.hpp"
 #include "mms/io/capture/packet_capture.hpp"
-#include "mms/ros/bag_reader.hpp"
+#include "mms/io/journal/journal.hpp"
+#include "mms/io/text/files.hpp"
+#include "mms/ros/bag/bag_files.hpp"
 
 namespace mms {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// x.bag becomes the folder x, a folder x the bag x.bag.
+/// x.bag, x.mcap or x.db3 becomes the folder x.
 fs::path other_recording(const RecordingConversion& conversion) {
   if (!conversion.output.empty()) return conversion.output;
-  if (is_bag_name(conversion.input) || is_capture_name(conversion.input)) {
-    return fs::path(conversion.input).replace_extension();
-  }
-  throw DataError(conversion.input, "has no default output name", "use -o x.bag");
+  if (is_bag_name(conversion.input)) return bag_stem(conversion.input);
+  if (is_capture_name(conversion.input)) return fs::path(conversion.input).replace_extension();
+  throw DataError(conversion.input, "has no default output name", "use -o x.bag or x.mcap");
 }
 
-/// "x.partial.bag", "x.partial" of a folder.
+/// "x.partial.bag", "x.partial.mcap", "x.partial" of a folder.
 fs::path partial_name(const fs::path& output) {
   fs::path partial = output;
-  if (is_bag_name(output)) return partial.replace_extension(".partial.bag");
+  const std::string ending = output.extension().string();
+  if (is_bag_name(output)) return partial.replace_extension(".partial" + ending);
   return partial += ".partial";
 }
 
@@ -40,7 +42,10 @@ std::unique_ptr<FrameRecorder> open_recorder(const fs::path& output, bool compre
 }  // namespace
 
 bool is_recording_conversion(const std::string& input, const fs::path& output) {
-  return is_bag_name(input) || is_bag_name(output) || is_capture_name(input) || is_simulated(input);
+  if (is_bag_name(input) || is_bag_name(output)) return true;
+  if (is_capture_name(input) || is_simulated(input)) return true;
+  if (!fs::is_directory(input) || fs::exists(fs::path(input) / kJournalName)) return false;
+  return is_bag_folder(list_folder(input));
 }
 
 void convert_recording(const RecordingConversion& conversion) {

@@ -11,14 +11,15 @@ namespace mms {
 /// Conversion of a recording.
 struct RecordingConversion {
   std::string input;             ///< as of mms run
-  std::filesystem::path output;  ///< x.bag, or else a folder
+  std::filesystem::path output;  ///< x.bag, x.mcap, or else a folder
   BagTopicNames topics;          ///< of an input bag
   CameraOptions camera;          ///< in place of the recording's
   bool compressed = false;       ///< for an output bag
   bool overwrite = false;        ///< replaces an output bag
 };
 
-/// Whether a recording is to be converted: from a bag, a capture or a simulation, or to a bag.
+/// Whether a recording is to be converted: from a bag, a folder of rosbag2, a capture or a
+/// simulation, or to a bag.
 bool is_recording_conversion(const std::string& input, const std::filesystem::path& output);
 
 /// Writes the recording frame by frame, with masks and ground truth. The output of a conversion

@@ -162,7 +162,7 @@ void add_info_command(CLI::App& app) {
       app.add_subcommand("info", "Show the content of a recording or a weights file");
   command
       ->add_option("DATA", options->data,
-                   "folder of the recording, x.bag, sim:SCENE, or weights.safetensors")
+                   "recording (folder, .bag, .mcap or .db3), sim:SCENE, or weights.safetensors")
       ->required();
   const auto sequence = std::make_shared<std::string>();
   add_sequence_option(*command, *sequence);

@@ -95,7 +95,7 @@ void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Localize a recording and map its surroundings");
   command
       ->add_option("DATA", options->data,
-                   "recording (folder or .bag), or a simulation: "
+                   "recording (folder, .bag, .mcap or .db3), or a simulation: "
                    "sim:warehouse_loop[?seed=N&frames=N]")
       ->capture_default_str();
   const auto sequence = std::make_shared<std::string>();

@@ -3,15 +3,17 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_topics.hpp"
 #include "mms/io/config/calibration_io.hpp"
+#include "mms/ros/bag/bag_files.hpp"
 #include "mms/ros/camera_messages.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
 namespace {
 
-/// x.calibration.yaml of x.bag.
-fs::path calibration_file(fs::path bag) {
-  return bag.replace_extension(".calibration.yaml");
+/// x.calibration.yaml of x.bag, or calibration.yaml of a folder.
+fs::path calibration_file(const fs::path& bag) {
+  if (fs::is_directory(bag)) return bag / "calibration.yaml";
+  return bag_stem(bag).string() + ".calibration.yaml";
 }
 
 void read_camera(BagRecording& recording, const std::string& topic, Calibration& calibration,
@@ -24,7 +26,7 @@ void read_camera(BagRecording& recording, const std::string& topic, Calibration&
                         calibration_file(where).filename().string());
   }
   const bool rectified = recording.color.topic.find("rect") != std::string::npos;
-  calibration.camera = intrinsics_of(recording.bag->read<msg::CameraInfo>(topic, 0), rectified,
+  calibration.camera = intrinsics_of(recording.bag->first<msg::CameraInfo>(topic), rectified,
                                      recording.bag->where(topic, 0));
   recording.facts.push_back("calibration: " + topic);
 }
@@ -37,7 +39,7 @@ void read_extrinsics(BagRecording& recording, const TransformTree& transforms,
   const std::string frames = recording.cloud.frame_id + " to " + recording.color.frame_id;
   if (T) {
     calibration.T_camera_lidar = Transform<Camera, Lidar>(*T);
-    recording.facts.push_back("extrinsics: " + frames + " from the bag's transforms");
+    recording.facts.push_back("extrinsics: " + frames + " from the recording's transforms");
   } else {
     recording.warnings.push_back("no transform from " + frames +
                                  ", assuming identical camera and LiDAR frames");

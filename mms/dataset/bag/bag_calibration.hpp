@@ -7,9 +7,9 @@
 
 namespace mms {
 
-/// Calibration of a bag: the given file, else NAME.calibration.yaml next to NAME.bag, else the
-/// camera of a camera_info topic and T_camera_lidar of the bag's transforms. Adds the origin to the
-/// recording's facts.
+/// Calibration of a bag: the given file, else NAME.calibration.yaml next to NAME.bag or
+/// calibration.yaml in a folder, else the camera of a camera_info topic and T_camera_lidar of the
+/// bag's transforms. Adds the origin to the recording's facts.
 /// @param camera_info  topic; empty for none
 /// @param given        calibration file; empty for none
 /// @throws DataError if there are images without a camera; ConfigError for an invalid file.

@@ -41,9 +41,14 @@ BagStream read_stream(const BagReader& bag, const std::string& topic) {
       stream.compressed = candidate.type == "sensor_msgs/CompressedImage";
   }
   for (std::size_t i = 0; i < bag.count(topic); ++i) {
-    const msg::Header header = bag.read<Stamped>(topic, i).header;
-    stream.stamps.push_back(stamp_of(header, bag.received(topic, i)));
-    if (i == 0) stream.frame_id = header.frame_id;
+    const Timestamp received = bag.received(topic, i);
+    try {
+      const msg::Header header = bag.read<Stamped>(topic, i).header;
+      stream.stamps.push_back(stamp_of(header, received));
+      if (stream.frame_id.empty()) stream.frame_id = header.frame_id;
+    } catch (const DataError&) {  // its frame is skipped with a warning
+      stream.stamps.push_back(received);
+    }
   }
   return stream;
 }
@@ -149,10 +154,11 @@ void add_choice_facts(BagRecording& recording, const BagTopicNames& topics) {
 BagTopicNames topics_of(const BagReader& bag, const BagTopicNames& given,
                         const std::string& where) {
   const auto encoding_of = [&](const BagTopic& topic) {
-    return bag.read<msg::Image>(topic.name, 0).encoding;
+    return bag.first<msg::Image>(topic.name).encoding;
   };
-  if (bag.topics().empty()) throw DataError(where, "is empty: it has no topics");
-  return choose_topics(bag.topics(), given, encoding_of, where);
+  const std::string damage = bag.damage().empty() ? "" : " (" + bag.damage().front() + ")";
+  if (bag.topics().empty()) throw DataError(where, "is empty: it has no topics" + damage);
+  return choose_topics(bag.topics(), given, encoding_of, where + damage);
 }
 
 }  // namespace
@@ -163,7 +169,8 @@ BagRecording read_bag_recording(const fs::path& path, const SourceOptions& optio
   recording.bag = std::make_unique<BagReader>(path);
   const BagReader& bag = *recording.bag;
   const BagTopicNames topics = topics_of(bag, options.topics, path.string());
-  recording.facts.emplace_back("layout: ROS 1 bag");
+  recording.warnings = bag.damage();
+  recording.facts.push_back("layout: " + bag.layout());
   recording.facts.emplace_back(topics.cloud.empty() ? "sensor: depth camera" : "sensor: LiDAR");
   add_topic_facts(recording);
   add_choice_facts(recording, topics);
@@ -171,7 +178,7 @@ BagRecording read_bag_recording(const fs::path& path, const SourceOptions& optio
   recording.depth = read_stream(bag, topics.depth);
   recording.cloud = read_stream(bag, topics.cloud);
   topics.cloud.empty() ? make_rgbd_frames(recording, path.string()) : make_cloud_frames(recording);
-  const TransformTree transforms = read_transforms(bag);
+  const TransformTree transforms = read_transforms(bag, recording.warnings);
   const auto calibration = std::make_shared<const Calibration>(
       bag_calibration(recording, topics.camera_info, transforms, path, options.camera.file));
   recording.calibration = registered_calibration(calibration);
@@ -179,7 +186,8 @@ BagRecording read_bag_recording(const fs::path& path, const SourceOptions& optio
   find_masks(recording, topics.mask, options);
   if (!topics.truth.empty()) {
     const BagStream& sensor = topics.cloud.empty() ? recording.color : recording.cloud;
-    recording.ground_truth = read_truth(bag, topics.truth, transforms, sensor.frame_id);
+    recording.ground_truth =
+        read_truth(bag, topics.truth, transforms, sensor.frame_id, recording.warnings);
   }
   return recording;
 }

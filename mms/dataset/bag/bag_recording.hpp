@@ -10,7 +10,7 @@
 #include "mms/core/trajectory.hpp"
 #include "mms/dataset/source/source_options.hpp"
 #include "mms/geometry/depth_registration.hpp"
-#include "mms/ros/bag_reader.hpp"
+#include "mms/ros/bag/bag_reader.hpp"
 
 namespace mms {
 

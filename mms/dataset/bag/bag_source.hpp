@@ -8,10 +8,10 @@
 
 namespace mms {
 
-/// Opens a ROS 1 bag: color images with registered depth, or LiDAR clouds with or without color
-/// images. Frames are associated as for a TUM recording: one to one within 0.02 s (with clouds 0.05
-/// s) by header stamps. The camera comes from camera_info, or from NAME.calibration.yaml next to
-/// NAME.bag. T_camera_lidar comes from /tf_static.
+/// Opens a recording of ROS (BagReader): color images with registered depth, or LiDAR clouds with
+/// or without color images. Frames are associated as for a TUM recording: one to one within 0.02 s
+/// (with clouds 0.05 s) by header stamps. The camera comes from camera_info, or from
+/// NAME.calibration.yaml next to NAME.bag. T_camera_lidar comes from /tf_static.
 /// @throws FileError, DataError, ConfigError with the fault and the available topics.
 std::unique_ptr<FrameSource> open_bag(const std::filesystem::path& path,
                                       const SourceOptions& options);

@@ -25,14 +25,27 @@ void add(Trajectory& poses, Timestamp stamp, const Eigen::Isometry3d& pose) {
   }
 }
 
+/// Visits all messages of a topic that can be read.
+template <class Message, class Visit>
+void for_messages(const BagReader& bag, const std::string& topic,
+                  std::vector<std::string>& warnings, const Visit& visit) {
+  for (std::size_t i = 0; i < bag.count(topic); ++i) {
+    try {
+      visit(bag.read<Message>(topic, i));
+    } catch (const DataError& error) {
+      warnings.emplace_back(error.what());
+    }
+  }
+}
+
 /// @param pose_of  returns the msg::Pose of a message
 template <class Message, class PoseOf>
-Trajectory read_poses(const BagReader& bag, const std::string& topic, const PoseOf& pose_of) {
+Trajectory read_poses(const BagReader& bag, const std::string& topic,
+                      std::vector<std::string>& warnings, const PoseOf& pose_of) {
   Trajectory poses;
-  for (std::size_t i = 0; i < bag.count(topic); ++i) {
-    const auto message = bag.read<Message>(topic, i);
+  for_messages<Message>(bag, topic, warnings, [&](const Message& message) {
     add(poses, message.header.stamp, isometry_of(pose_of(message)));
-  }
+  });
   return poses;
 }
 
@@ -49,28 +62,29 @@ Trajectory poses_in_tree(const TransformTree& transforms, const std::string& sen
 
 }  // namespace
 
-TransformTree read_transforms(const BagReader& bag) {
+TransformTree read_transforms(const BagReader& bag, std::vector<std::string>& warnings) {
   TransformTree tree;
   for (const BagTopic& topic : bag.topics()) {
     if (!is_transforms(topic.type)) continue;
-    for (std::size_t i = 0; i < topic.count; ++i) {
-      tree.add(bag.read<msg::Transforms>(topic.name, i));
-    }
+    for_messages<msg::Transforms>(bag, topic.name, warnings,
+                                  [&](const msg::Transforms& message) { tree.add(message); });
   }
   return tree;
 }
 
 Trajectory read_truth(const BagReader& bag, const std::string& topic,
-                      const TransformTree& transforms, const std::string& sensor_frame) {
+                      const TransformTree& transforms, const std::string& sensor_frame,
+                      std::vector<std::string>& warnings) {
   const std::string type = type_of(bag, topic);
   if (is_transforms(type)) return poses_in_tree(transforms, sensor_frame, topic);
   if (type == "nav_msgs/Odometry") {
-    return read_poses<msg::Odometry>(bag, topic, [](const auto& m) { return m.pose; });
+    return read_poses<msg::Odometry>(bag, topic, warnings, [](const auto& m) { return m.pose; });
   }
   if (type == "geometry_msgs/TransformStamped") {
-    return read_poses<msg::TransformStamped>(bag, topic, [](const auto& m) { return m.transform; });
+    return read_poses<msg::TransformStamped>(bag, topic, warnings,
+                                             [](const auto& m) { return m.transform; });
   }
-  return read_poses<msg::PoseStamped>(bag, topic, [](const auto& m) { return m.pose; });
+  return read_poses<msg::PoseStamped>(bag, topic, warnings, [](const auto& m) { return m.pose; });
 }
 
 }  // namespace mms

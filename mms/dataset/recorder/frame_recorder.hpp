@@ -23,10 +23,11 @@ class FrameRecorder {
   virtual void finish(const Trajectory& truth) = 0;
 };
 
-/// A ROS 1 bag. Depth cameras: /camera/color/image_raw (rgb8), /camera/color/camera_info,
-/// /camera/aligned_depth_to_color/image_raw (16UC1 if the depth is in millimeters, else 32FC1 in
-/// meters). LiDARs: /points; with a camera also the color topics and /tf_static. Masks are label
-/// images in /camera/mask/image_raw, poses are in /ground_truth (PoseStamped).
+/// A ROS 1 bag (x.bag) or MCAP file of ROS 2 (x.mcap). Depth cameras: /camera/color/image_raw
+/// (rgb8), /camera/color/camera_info, /camera/aligned_depth_to_color/image_raw (16UC1 if the depth
+/// is in millimeters, else 32FC1 in meters). LiDARs: /points; with a camera also the color topics
+/// and /tf_static. Masks are label images in /camera/mask/image_raw, poses are in /ground_truth
+/// (PoseStamped).
 /// @param compressed  images as JPEG, and depth in millimeters as PNG
 /// @throws FileError if the file cannot be created.
 std::unique_ptr<FrameRecorder> record_bag(const std::filesystem::path& path, bool compressed);

@@ -6,10 +6,10 @@
 
 namespace mms {
 
-/// A topic of a bag.
+/// A topic of a recording.
 struct BagTopic {
   std::string name;       ///< "/camera/color/image_raw"
-  std::string type;       ///< "sensor_msgs/Image"
+  std::string type;       ///< "sensor_msgs/Image", in ROS 2 too; "Log (json)" if it cannot be read
   std::size_t count = 0;  ///< of messages
 };
 
