@@ -122,6 +122,34 @@ TEST(BagTopics, GivenTopicsHavePriority) {
   EXPECT_EQ(topics.choose({.cloud = "/points"}).depth, "");
 }
 
+TEST(BagTopics, AsksForOneOfTwoCameras) {
+  Topics topics;
+  for (const std::string camera : {"/front", "/rear"}) {
+    topics.image(camera + "/aligned_depth_to_color/image_raw", "16UC1")
+        .image(camera + "/color/image_raw", "rgb8")
+        .camera_info(camera + "/color/camera_info");
+  }
+  expect_in("has several depth cameras, of /front/color/image_raw and /rear/color/image_raw",
+            topics.error());
+  expect_in("(choose one with --topic-color /front/color/image_raw)", topics.error());
+  const BagTopicNames rear = topics.choose({.color = "/rear/color/image_raw"});
+  EXPECT_EQ(rear.depth, "/rear/aligned_depth_to_color/image_raw");
+  EXPECT_EQ(rear.camera_info, "/rear/color/camera_info");
+  const std::string depth = "/rear/aligned_depth_to_color/image_raw";
+  EXPECT_EQ(topics.choose({.depth = depth}).color, "/rear/color/image_raw");
+}
+
+TEST(BagTopics, ChoosesAmongImagesOfOneCamera) {
+  const BagTopicNames chosen = Topics()  // of an Azure Kinect
+                                   .image("/depth/image_raw", "16UC1")
+                                   .image("/depth_to_rgb/image_raw", "16UC1")
+                                   .image("/rgb/image_raw", "bgra8")
+                                   .image("/rgb_to_depth/image_raw", "bgra8")
+                                   .choose();
+  EXPECT_EQ(chosen.color, "/rgb/image_raw");
+  EXPECT_EQ(chosen.depth, "/depth_to_rgb/image_raw");
+}
+
 TEST(BagTopics, ErrorsListTopics) {
   const Topics topics = Topics().image("/rgb", "rgb8").add("/scan", "sensor_msgs/LaserScan");
   const std::string missing = topics.error();

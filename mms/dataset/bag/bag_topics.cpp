@@ -29,9 +29,15 @@ bool is_type(const BagTopic& topic, Words types) {
 }
 
 /// Length of the common prefix.
-std::size_t common(const std::string& a, const std::string& b) {
+int common(const std::string& a, const std::string& b) {
   const auto ends = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-  return static_cast<std::size_t>(ends.first - a.begin());
+  return static_cast<int>(ends.first - a.begin());
+}
+
+/// The name without its last part and the parts of compressed or rectified images.
+std::string camera_of(std::string topic) {
+  if (topic.ends_with("/compressed")) topic.resize(topic.rfind('/'));
+  return topic.substr(0, topic.rfind('/') + 1);
 }
 
 /// Selection of one topic: the given one, or the best match.
@@ -52,6 +58,20 @@ class Choice {
       chosen = &topic;
     }
     return chosen == nullptr ? "" : chosen->name;
+  }
+
+  /// A topic of the rank of `chosen` that belongs to another camera; empty for none.
+  template <class Rank>
+  std::string rival(const std::string& chosen, const Rank& rank) const {
+    int highest = 0;
+    for (const BagTopic& topic : topics_) {
+      if (topic.name == chosen) highest = rank(topic);
+    }
+    for (const BagTopic& topic : topics_) {
+      const bool other = camera_of(topic.name) != camera_of(chosen);
+      if (other && topic.count > 0 && rank(topic) == highest) return topic.name;
+    }
+    return "";
   }
 
   /// @throws DataError if the topic is missing or has none of the types.
@@ -118,11 +138,17 @@ int color_rank(const BagTopic& topic, const EncodingOf& encoding_of) {
   return rank;
 }
 
+/// Of topics with equal rank, the one whose name begins most like `other` counts more.
+int beside(int rank, const std::string& name, const std::string& other) {
+  constexpr int kLongest = 1000;  // [characters] that count
+  return rank == 0 ? 0 : rank * kLongest + std::min(common(name, other), kLongest - 1);
+}
+
 std::string find_camera_info(const Choice& choice, const std::string& color) {
   return choice.best([&](const BagTopic& topic) {
     if (topic.type != "sensor_msgs/CameraInfo") return 0;
-    const bool beside = topic.name == camera_info_beside(color);
-    return beside ? 100'000 : 1 + static_cast<int>(common(topic.name, color));
+    const bool own = topic.name == camera_of(color) + "camera_info";
+    return own ? 100'000 : 1 + common(topic.name, color);
   });
 }
 
@@ -152,15 +178,26 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
                         const auto& find) {
     return name.empty() ? find() : choice.given(name, option, types);
   };
+  const auto rank_color = [&](const BagTopic& topic) { return color_rank(topic, encoding_of); };
+  const auto rank_depth = [&](const BagTopic& topic) { return depth_rank(topic, encoding_of); };
   BagTopicNames chosen;
   chosen.color = pick(given.color, "--topic-color", {kImage, kCompressed}, [&] {
-    return choice.best([&](const BagTopic& topic) { return color_rank(topic, encoding_of); });
+    return choice.best(
+        [&](const BagTopic& topic) { return beside(rank_color(topic), topic.name, given.depth); });
   });
   const bool wants_cloud = !given.cloud.empty();
   chosen.depth = pick(given.depth, "--topic-depth", {kImage, kCompressed}, [&] {
     if (wants_cloud || chosen.color.empty()) return std::string();
-    return choice.best([&](const BagTopic& topic) { return depth_rank(topic, encoding_of); });
+    return choice.best(
+        [&](const BagTopic& topic) { return beside(rank_depth(topic), topic.name, chosen.color); });
   });
+  if (given.color.empty() && given.depth.empty() && !chosen.depth.empty()) {
+    const std::string second = choice.rival(chosen.color, rank_color);
+    if (!second.empty() && !choice.rival(chosen.depth, rank_depth).empty()) {
+      choice.fail("has several depth cameras, of " + chosen.color + " and " + second,
+                  "choose one with --topic-color " + chosen.color);
+    }
+  }
   chosen.cloud = pick(given.cloud, "--topic-cloud", {"sensor_msgs/PointCloud2"}, [&] {
     if (!chosen.depth.empty()) return std::string();
     return choice.best([](const BagTopic& topic) {
