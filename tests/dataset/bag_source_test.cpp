@@ -97,6 +97,19 @@ TEST_P(BagSources, UsesRecordTimeWithoutHeaderStamps) {
   EXPECT_EQ(play().names(), "5.100000000");
 }
 
+TEST_P(BagSources, NoticesOtherClocks) {
+  camera_info();
+  LidarScan scan;
+  scan.points = {{1, 2, 3}};
+  bag_->write("/points", at(3000), cloud_message(header(0, "lidar"), scan));
+  bag_->write("/rgb/image", at(5), image_message(header(0), Image<Rgb>(kWidth, kHeight)));
+  finish();
+  const Playback played = play();
+  EXPECT_TRUE(any_has(played.source->describe(),
+                      "clock: /points was recorded 3.000000000 s after its stamps"));
+  EXPECT_TRUE(any_has(played.warnings, "the stamps of /rgb/image and /points have different"));
+}
+
 TEST_P(BagSources, SkipsAndReportsDamagedFrames) {
   camera_info();
   for (const int t : {0, 100, 200}) depth(t);

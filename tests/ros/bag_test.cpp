@@ -5,7 +5,7 @@
 #include "mms/ros/bag/bag_files.hpp"
 #include "mms/ros/bag/bag_reader.hpp"
 #include "tests/io/temp_folder.hpp"
-#include "tests/ros/recordings.hpp"
+#include "tests/ros/sample_bags.hpp"
 
 namespace mms {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_calibration.hpp"
@@ -33,24 +34,58 @@ Timestamp stamp_of(const msg::Header& header, Timestamp received) {
   return header.stamp == Timestamp() && received > kFirst ? received : header.stamp;
 }
 
-BagStream read_stream(const BagReader& bag, const std::string& topic) {
-  BagStream stream;
-  stream.topic = topic;
-  for (const BagTopic& candidate : bag.topics()) {
-    if (candidate.name == topic)
-      stream.compressed = candidate.type == "sensor_msgs/CompressedImage";
-  }
-  for (std::size_t i = 0; i < bag.count(topic); ++i) {
-    const Timestamp received = bag.received(topic, i);
-    try {
-      const msg::Header header = bag.read<Stamped>(topic, i).header;
-      stream.stamps.push_back(stamp_of(header, received));
-      if (stream.frame_id.empty()) stream.frame_id = header.frame_id;
-    } catch (const DataError&) {  // its frame is skipped with a warning
-      stream.stamps.push_back(received);
+/// Reads the stamps of a topic, message by message.
+class StreamReader {
+ public:
+  StreamReader(const BagReader& bag, BagStream& stream, const std::string& topic)
+      : bag_(&bag), stream_(&stream) {
+    stream.topic = topic;
+    for (const BagTopic& candidate : bag.topics()) {
+      if (candidate.name == topic)
+        stream.compressed = candidate.type == "sensor_msgs/CompressedImage";
     }
   }
-  return stream;
+
+  bool done() const { return stream_->stamps.size() == bag_->count(stream_->topic); }
+  /// Time of recording of the next message.
+  Timestamp received() const { return bag_->received(stream_->topic, stream_->stamps.size()); }
+
+  void step() {
+    const Timestamp time = received();
+    try {
+      const auto header = bag_->read<Stamped>(stream_->topic, stream_->stamps.size()).header;
+      stream_->stamps.push_back(stamp_of(header, time));
+      delays_.push_back(time - stream_->stamps.back());
+      if (stream_->frame_id.empty()) stream_->frame_id = header.frame_id;
+    } catch (const DataError&) {  // its frame is skipped with a warning
+      stream_->stamps.push_back(time);
+    }
+  }
+
+  void finish() {
+    if (delays_.empty()) return;
+    const auto middle = delays_.begin() + std::ptrdiff_t(delays_.size() / 2);
+    std::nth_element(delays_.begin(), middle, delays_.end());
+    stream_->delay = *middle;
+  }
+
+ private:
+  const BagReader* bag_;
+  BagStream* stream_;
+  std::vector<Duration> delays_;
+};
+
+/// Reads the stamps of all streams in the order of recording, so that each chunk is read once.
+void read_streams(std::vector<StreamReader> readers) {
+  const auto earlier = [](const StreamReader& a, const StreamReader& b) {
+    return !a.done() && (b.done() || a.received() < b.received());
+  };
+  while (true) {
+    const auto next = std::min_element(readers.begin(), readers.end(), earlier);
+    if (next->done()) break;
+    next->step();
+  }
+  for (StreamReader& reader : readers) reader.finish();
 }
 
 std::string counts_of(const BagStream& stream, const std::string& what) {
@@ -118,18 +153,18 @@ void find_mask_files(BagRecording& recording, const fs::path& folder) {
                             std::to_string(recording.frames.size()) + " in " + folder.string());
 }
 
-void find_masks(BagRecording& recording, const std::string& topic, const SourceOptions& options) {
+void find_masks(BagRecording& recording, const SourceOptions& options) {
   if (options.load_masks && !options.masks.empty()) {
     return find_mask_files(recording, options.masks);
   }
-  if (!options.load_masks || topic.empty()) {
+  if (recording.mask.empty()) {
     recording.facts.emplace_back("masks: none");
     return;
   }
-  recording.mask = read_stream(*recording.bag, topic);
   const std::size_t found = match(recording.frames, recording.mask, Duration(0), &BagFrame::mask);
   recording.facts.push_back("masks: " + std::to_string(found) + " of " +
-                            std::to_string(recording.frames.size()) + " in " + topic);
+                            std::to_string(recording.frames.size()) + " in " +
+                            recording.mask.topic);
 }
 
 void add_topic_facts(BagRecording& recording) {
@@ -149,6 +184,27 @@ void add_choice_facts(BagRecording& recording, const BagTopicNames& topics) {
   add("camera_info", topics.camera_info);
   add("mask", topics.mask);
   add("truth", topics.truth);
+}
+
+/// Compares the clock of the stamps with that of the recorder, and with those of other topics.
+void check_clocks(BagRecording& recording) {
+  constexpr double kSameClock = 1.0;  // [s]
+  const BagStream* first = nullptr;
+  for (const BagStream* stream : {&recording.color, &recording.depth, &recording.cloud}) {
+    if (stream->empty()) continue;
+    if (std::abs(to_seconds(stream->delay)) > kSameClock) {
+      recording.facts.push_back("clock: " + stream->topic + " was recorded " +
+                                Timestamp(stream->delay.count()).to_string() +
+                                " s after its stamps");
+    }
+    if (first == nullptr) first = stream;
+    if (std::abs(to_seconds(stream->delay) - to_seconds(first->delay)) > kSameClock) {
+      recording.warnings.push_back("the stamps of " + first->topic + " and " + stream->topic +
+                                   " have different clocks: they were recorded " +
+                                   Timestamp(first->delay.count()).to_string() + " s and " +
+                                   Timestamp(stream->delay.count()).to_string() + " s later");
+    }
+  }
 }
 
 BagTopicNames topics_of(const BagReader& bag, const BagTopicNames& given,
@@ -174,16 +230,19 @@ BagRecording read_bag_recording(const fs::path& path, const SourceOptions& optio
   recording.facts.emplace_back(topics.cloud.empty() ? "sensor: depth camera" : "sensor: LiDAR");
   add_topic_facts(recording);
   add_choice_facts(recording, topics);
-  recording.color = read_stream(bag, topics.color);
-  recording.depth = read_stream(bag, topics.depth);
-  recording.cloud = read_stream(bag, topics.cloud);
+  const bool masks = options.load_masks && options.masks.empty();
+  read_streams({{bag, recording.color, topics.color},
+                {bag, recording.depth, topics.depth},
+                {bag, recording.cloud, topics.cloud},
+                {bag, recording.mask, masks ? topics.mask : ""}});
+  check_clocks(recording);
   topics.cloud.empty() ? make_rgbd_frames(recording, path.string()) : make_cloud_frames(recording);
   const TransformTree transforms = read_transforms(bag, recording.warnings);
   const auto calibration = std::make_shared<const Calibration>(
       bag_calibration(recording, topics.camera_info, transforms, path, options.camera.file));
   recording.calibration = registered_calibration(calibration);
   recording.registration = make_registration(*calibration);
-  find_masks(recording, topics.mask, options);
+  find_masks(recording, options);
   if (!topics.truth.empty()) {
     const BagStream& sensor = topics.cloud.empty() ? recording.color : recording.cloud;
     recording.ground_truth =

@@ -20,6 +20,7 @@ struct BagStream {
   bool compressed = false;
   std::string frame_id;
   std::vector<Timestamp> stamps;
+  Duration delay{0};  ///< of the recording after the stamp, median
 
   bool empty() const { return stamps.empty(); }
 };

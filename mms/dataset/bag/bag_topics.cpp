@@ -147,7 +147,7 @@ int beside(int rank, const std::string& name, const std::string& other) {
 std::string find_camera_info(const Choice& choice, const std::string& color) {
   return choice.best([&](const BagTopic& topic) {
     if (topic.type != "sensor_msgs/CameraInfo") return 0;
-    const bool own = topic.name == camera_of(color) + "camera_info";
+    const bool own = topic.name == camera_info_beside(color);
     return own ? 100'000 : 1 + common(topic.name, color);
   });
 }

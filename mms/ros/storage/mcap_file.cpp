@@ -12,6 +12,12 @@ namespace {
 constexpr std::size_t kBeforeData =
     sizeof(std::uint16_t) + sizeof(std::uint32_t) + 2 * sizeof(std::uint64_t);
 
+/// A time in nanoseconds; the last one that we can represent for later ones.
+Timestamp take_time(ByteReader& reader) {
+  constexpr std::uint64_t kLast = INT64_MAX;
+  return Timestamp(static_cast<std::int64_t>(std::min(reader.take<std::uint64_t>(), kLast)));
+}
+
 std::string_view take_text(ByteReader& reader) {
   return reader.take(reader.take_count(1));
 }
@@ -83,7 +89,7 @@ void McapFile::add_index(std::string_view content) {
   const auto topic = reader.take<std::uint16_t>();
   ByteReader entries(take_text(reader), reader.where());
   while (entries.left() > 0) {
-    const Timestamp time(static_cast<std::int64_t>(entries.take<std::uint64_t>()));
+    const Timestamp time = take_time(entries);
     contents_.messages.push_back({.received = time,
                                   .topic = topic,
                                   .chunk = static_cast<std::uint32_t>(chunks_.size() - 1),
@@ -96,7 +102,7 @@ void McapFile::add_message(std::string_view content, StoredMessage at) {
   ByteReader reader(content, "message");
   at.topic = reader.take<std::uint16_t>();
   reader.take(sizeof(std::uint32_t));  // sequence number
-  at.received = Timestamp(static_cast<std::int64_t>(reader.take<std::uint64_t>()));
+  at.received = take_time(reader);
   contents_.messages.push_back(at);
 }
 

@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
+
 #include "mms/core/error.hpp"
 #include "mms/ros/storage/input_file.hpp"
 
@@ -132,7 +134,7 @@ void SqliteBag::read_messages(const TopicNumbers& numbers, std::uint64_t file_si
       continue;
     }
     contents_.messages.push_back(
-        {.received = Timestamp(sqlite3_column_int64(rows.get(), 2)),
+        {.received = Timestamp(std::max<std::int64_t>(0, sqlite3_column_int64(rows.get(), 2))),
          .topic = topic->second,
          .offset = static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 0))});
   }

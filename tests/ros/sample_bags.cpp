@@ -1,4 +1,4 @@
-#include "tests/ros/recordings.hpp"
+#include "tests/ros/sample_bags.hpp"
 
 #include <gtest/gtest.h>
 #include <lz4frame.h>
