@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,19 +38,6 @@ struct InfoOptions {
   }
 };
 
-/// Reads one frame of a newly opened recording.
-/// @returns the fault; empty if none
-std::string fault_of_frame(const InfoOptions& options, std::size_t index) {
-  const auto source = options.open();
-  std::vector<std::string> warnings;
-  source->on_warning([&](const std::string& message) { warnings.push_back(message); });
-  warnings.clear();  // those of opening are in info_of
-  source->skip(index);
-  const auto frame = source->next();
-  const bool read = frame && frame->index == static_cast<std::int64_t>(index);
-  return read || warnings.empty() ? "" : warnings.front();
-}
-
 /// What is known of a recording and what was checked in it.
 struct RecordingInfo {
   std::vector<std::string> facts;  ///< "name: text" each
@@ -60,11 +48,20 @@ struct RecordingInfo {
   std::vector<std::string> implausible;
 };
 
-void check_frames(const InfoOptions& options, RecordingInfo& info) {
-  for (const std::size_t index : {std::size_t{0}, info.frames / 2, info.frames - 1}) {
-    if (!info.frame_faults.contains(index)) {
-      info.frame_faults[index] = fault_of_frame(options, index);
+/// Reads the first frame, one at half and the last one of a newly opened recording.
+void check_frames(FrameSource& source, RecordingInfo& info) {
+  std::vector<std::string> warnings;
+  source.on_warning([&](const std::string& message) { warnings.push_back(message); });
+  std::size_t position = 0;
+  for (const std::size_t index : std::set<std::size_t>{0, info.frames / 2, info.frames - 1}) {
+    if (index >= position) {
+      warnings.clear();  // those of opening are in info_of
+      source.skip(index - position);
+      const auto frame = source.next();  // or the next one that can be read
+      position = frame ? static_cast<std::size_t>(frame->index) + 1 : info.frames;
     }
+    const bool read = position == index + 1 || warnings.empty();
+    info.frame_faults[index] = read ? "" : warnings.front();
   }
 }
 
@@ -90,7 +87,7 @@ RecordingInfo info_of(const InfoOptions& options) {
   source->on_warning([&](const std::string& message) { info.warnings.push_back(message); });
   info.frames = source->size();
   if (info.frames == 0) return info;
-  check_frames(options, info);
+  check_frames(*source, info);
   if (!is_simulated(options.data)) check_plausibility(options, info);
   return info;
 }
