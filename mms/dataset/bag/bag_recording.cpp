@@ -64,9 +64,9 @@ class StreamReader {
 
   void finish() {
     if (delays_.empty()) return;
-    const auto middle = delays_.begin() + std::ptrdiff_t(delays_.size() / 2);
-    std::nth_element(delays_.begin(), middle, delays_.end());
-    stream_->delay = *middle;
+    const auto center = delays_.begin() + std::ptrdiff_t(delays_.size() / 2);
+    std::nth_element(delays_.begin(), center, delays_.end());
+    stream_->delay = *center;
   }
 
  private:
