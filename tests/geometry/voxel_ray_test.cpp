@@ -13,7 +13,10 @@ namespace {
 
 std::vector<VoxelKey> voxels_between(const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
   std::vector<VoxelKey> keys;
-  for_each_voxel(from, to, [&](const VoxelKey& key) { keys.push_back(key); });
+  for_each_voxel(from, to, [&](const VoxelKey& key) {
+    keys.push_back(key);
+    return true;
+  });
   return keys;
 }
 

@@ -35,8 +35,8 @@ struct VoxelStep {
   static constexpr float kNever = std::numeric_limits<float>::infinity();
 };
 
-/// Calls `visit(key)` for the voxels along the segment in order, both ends included; consecutive
-/// voxels share a face (Amanatides and Woo, 1987).
+/// Calls `visit(key)` for the voxels along the segment in order, both ends included, until it
+/// returns false; consecutive voxels share a face (Amanatides and Woo, 1987).
 /// @param from, to in units of the voxel's side; finite and within 2^30 of the origin
 template <class Visit>
 void for_each_voxel(const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Visit& visit) {
@@ -44,7 +44,7 @@ void for_each_voxel(const Eigen::Vector3f& from, const Eigen::Vector3f& to, cons
   VoxelStep x(from.x(), to.x());
   VoxelStep y(from.y(), to.y());
   VoxelStep z(from.z(), to.z());
-  visit(key);
+  if (!visit(key)) return;
   for (int steps = x.left + y.left + z.left; steps > 0; --steps) {
     if (x.next <= y.next && x.next <= z.next) {
       x.take(key.x);
@@ -53,7 +53,7 @@ void for_each_voxel(const Eigen::Vector3f& from, const Eigen::Vector3f& to, cons
     } else {
       z.take(key.z);
     }
-    visit(key);
+    if (!visit(key)) return;
   }
 }
 

@@ -13,6 +13,13 @@ constexpr int kFaceSize = 180;
 /// [px]: largest gap between two rings. Source: 3 degrees; LiDARs of 16 rings have 2 degrees.
 constexpr int kMaxRingGap = 6;
 
+/// [px]: side of the tiles in which the farthest range is kept. Source: a block of 16 cm has 8 px
+/// at 2.3 m, so that few tiles decide on it.
+constexpr int kTileSize = 8;
+
+/// [-]: tiles along the side of a face. Source: `kFaceSize`, rounded up.
+constexpr int kTiles = (kFaceSize + kTileSize - 1) / kTileSize;
+
 using Ranges = Image<float>;  // [m], 0 for none
 
 CubeImage<float> measured_ranges(const LabeledCloud& cloud) {
@@ -70,16 +77,52 @@ Ranges nearest_about(const Ranges& ranges) {
   return nearest;
 }
 
+Ranges farthest_of_tiles(const Ranges& ranges) {
+  Ranges tiles(kTiles, kTiles);
+  for (int y = 0; y < kFaceSize; ++y) {
+    for (int x = 0; x < kFaceSize; ++x) {
+      float& tile = tiles(x / kTileSize, y / kTileSize);
+      tile = std::max(tile, ranges(x, y));
+    }
+  }
+  return tiles;
+}
+
 }  // namespace
 
 ScanSight::ScanSight(const LabeledCloud& cloud, double margin)
     : free_range_(measured_ranges(cloud)), margin_(static_cast<float>(margin)) {
-  for (Ranges& face : free_range_) face = nearest_about(bridge_rings(face));
+  for (std::size_t face = 0; face < free_range_.size(); ++face) {
+    free_range_[face] = nearest_about(bridge_rings(free_range_[face]));
+    farthest_[face] = farthest_of_tiles(free_range_[face]);
+    for (const float range : farthest_[face].pixels()) {
+      farthest_of_all_ = std::max(farthest_of_all_, range);
+    }
+  }
 }
 
 float ScanSight::free_range(const Eigen::Vector3f& point) const {
   const CubePixel pixel(point, kFaceSize);
   return free_range_[pixel.face](pixel.x, pixel.y);
+}
+
+bool ScanSight::may_see_into(const Eigen::Vector3f& center, float radius) const {
+  const float near = center.norm() - radius;
+  if (near + margin_ >= farthest_of_all_) return false;
+  const float depth = center.cwiseAbs().maxCoeff() - radius;  // along the axis of the face
+  if (depth <= 0.0F) return true;
+  // |x/z - cx/cz| <= 2 r / (cz - r) for all points of a ball whose center is on the face.
+  const int reach = static_cast<int>(radius / depth * static_cast<float>(kFaceSize)) + 1;
+  const CubePixel pixel(center, kFaceSize);
+  const bool is_on_face = pixel.x >= reach && pixel.x + reach < kFaceSize && pixel.y >= reach &&
+                          pixel.y + reach < kFaceSize;
+  if (!is_on_face) return true;
+  for (int y = (pixel.y - reach) / kTileSize; y <= (pixel.y + reach) / kTileSize; ++y) {
+    for (int x = (pixel.x - reach) / kTileSize; x <= (pixel.x + reach) / kTileSize; ++x) {
+      if (farthest_[pixel.face](x, y) > near + margin_) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace mms

@@ -21,16 +21,15 @@ class ScanSight {
     return free_range(point) > point.norm() + margin_;
   }
 
-  /// False where the direction of `center` (sensor frame [m]) is not free up to the ball around it;
-  /// approximate for a ball wider than a direction; cheap.
-  bool may_see_into(const Eigen::Vector3f& center, float radius) const {
-    return free_range(center) > center.norm() - radius + margin_;
-  }
+  /// False where no point of the ball (sensor frame [m]) can be seen through; cheap.
+  bool may_see_into(const Eigen::Vector3f& center, float radius) const;
 
  private:
   float free_range(const Eigen::Vector3f& point) const;
 
   CubeImage<float> free_range_;  // [m], 0 where it is not known
+  CubeImage<float> farthest_;    // of `free_range_` in tiles
+  float farthest_of_all_ = 0.0F;
   float margin_;
 };
 

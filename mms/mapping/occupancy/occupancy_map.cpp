@@ -23,6 +23,10 @@ constexpr int kMaxStep = 64;
 /// normal noise.
 constexpr float kClearanceSigmas = 2.0F;
 
+/// [-]: consecutive voxels freed by other rays of the scan at which a ray ends. Source: with one or
+/// two, voxels beside crossing rays are left out.
+constexpr int kMaxRepeated = 4;
+
 /// [-]: share of the memory budget used before voxels are coarsened. Source: the coarser copy is
 /// built beside the finer map and has about an eighth of its memory.
 constexpr double kMaxMemoryShare = 0.85;
@@ -52,17 +56,20 @@ void OccupancyMap::integrate(const LabeledCloud& cloud,
   if (!config_.enabled || !T_world_sensor.is_finite()) return;
   if (T_world_sensor.translation().cwiseAbs().maxCoeff() > kMaxSensorVoxels * voxel_size()) return;
   const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
-  const int step = step_of(cloud);
   KeyframeMarks marks(blocks_, ++keyframes_, marks_);
-  mark_hits(cloud, T, step, marks);
-  mark_rays(cloud, T, step, marks);
+  if (cloud.organised()) {
+    const int step = step_of(cloud);
+    mark_hits(cloud, T, step, marks);
+    mark_rays(cloud, T, step, marks);
+  } else {
+    mark_scan(cloud, T, marks);
+  }
   apply();
   keep_to_budget();
 }
 
 /// Step between the rows and columns that are used: `kRaysPerVoxel` at the largest depth.
 int OccupancyMap::step_of(const LabeledCloud& cloud) const {
-  if (!cloud.organised()) return 1;
   const double pixels = cloud.camera.fx * voxel_size() / surface_.max_depth;
   return std::clamp(static_cast<int>(std::min(pixels / kRaysPerVoxel, 1.0 * kMaxStep)), 1,
                     kMaxStep);
@@ -81,22 +88,13 @@ void OccupancyMap::mark_hits(const LabeledCloud& cloud, const Eigen::Isometry3f&
 }
 
 /// The point, or the last one within range on the ray to it.
-Eigen::Vector3f OccupancyMap::reach(const Eigen::Vector3f& point, bool is_depth) const {
-  float share = std::min(1.0F, static_cast<float>(config_.max_range) / point.norm());
-  if (is_depth) share = std::min(share, static_cast<float>(surface_.max_depth) / point.z());
-  return share * point;
-}
-
-/// Distance before a point at which its ray ends [m].
-float OccupancyMap::clearance(const Eigen::Vector3f& point, bool is_depth) const {
-  const auto half_voxel = static_cast<float>(0.5 * voxel_size());
-  return is_depth ? half_voxel + kClearanceSigmas * surface_.noise.depth.sigma(point.z())
-                  : half_voxel;
+Eigen::Vector3f OccupancyMap::reach(const Eigen::Vector3f& point) const {
+  const float share = std::min(1.0F, static_cast<float>(config_.max_range) / point.norm());
+  return std::min(share, static_cast<float>(surface_.max_depth) / point.z()) * point;
 }
 
 void OccupancyMap::mark_rays(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor,
                              int step, KeyframeMarks& marks) const {
-  const bool is_depth = cloud.organised();
   const auto inverse_size = static_cast<float>(1.0 / voxel_size());
   for (int y = 0; y < cloud.height; y += step) {
     for (int x = 0; x < cloud.width; x += step) {
@@ -104,26 +102,68 @@ void OccupancyMap::mark_rays(const LabeledCloud& cloud, const Eigen::Isometry3f&
                      static_cast<std::size_t>(x);
       const Eigen::Vector3f& point = cloud.points[i];
       if (cloud.labels[i] == PointLabel::kInvalid || !std::isfinite(point.norm())) continue;
-      if (point.isZero(0.0F) || (is_depth && !(point.z() > 0.0F))) continue;
-      const Eigen::Vector3f target = reach(point, is_depth);
+      if (!(point.z() > 0.0F)) continue;
+      const Eigen::Vector3f target = reach(point);
       const VoxelKey end = voxel_key(T_world_sensor * target, inverse_size);
       BlockMarks& there = marks.of(end);
       if (cloud.labels[i] == PointLabel::kStatic) there.keep.test_and_set(BlockCells::cell_of(end));
       if (there.end.test_and_set(BlockCells::cell_of(end))) continue;
-      mark_ray(target, is_depth, T_world_sensor, marks);
+      mark_depth_ray(target, T_world_sensor, marks);
     }
   }
 }
 
-void OccupancyMap::mark_ray(const Eigen::Vector3f& target, bool is_depth,
-                            const Eigen::Isometry3f& T_world_sensor, KeyframeMarks& marks) const {
+void OccupancyMap::mark_depth_ray(const Eigen::Vector3f& target,
+                                  const Eigen::Isometry3f& T_world_sensor,
+                                  KeyframeMarks& marks) const {
   const auto inverse_size = static_cast<float>(1.0 / voxel_size());
-  const float share = 1.0F - clearance(target, is_depth) / target.norm();
+  const float clearance = static_cast<float>(0.5 * voxel_size()) +
+                          kClearanceSigmas * surface_.noise.depth.sigma(target.z());
+  const float share = 1.0F - clearance / target.norm();
   if (!(share > 0.0F)) return;
   const Eigen::Vector3f last = T_world_sensor * Eigen::Vector3f(share * target);
-  for_each_voxel(
-      inverse_size * T_world_sensor.translation(), inverse_size * last,
-      [&](const VoxelKey& key) { marks.of(key).free.test_and_set(BlockCells::cell_of(key)); });
+  for_each_voxel(inverse_size * T_world_sensor.translation(), inverse_size * last,
+                 [&](const VoxelKey& key) {
+                   marks.of(key).free.test_and_set(BlockCells::cell_of(key));
+                   return true;
+                 });
+}
+
+void OccupancyMap::mark_scan(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor,
+                             KeyframeMarks& marks) const {
+  const auto inverse_size = static_cast<float>(1.0 / voxel_size());
+  const auto farthest = static_cast<float>(config_.max_range);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const float range = cloud.points[i].norm();
+    if (cloud.labels[i] == PointLabel::kInvalid || !(range > 0.0F && std::isfinite(range)))
+      continue;
+    const Eigen::Vector3f target = std::min(1.0F, farthest / range) * cloud.points[i];
+    const VoxelKey end = voxel_key(T_world_sensor * target, inverse_size);
+    const std::uint16_t cell = BlockCells::cell_of(end);
+    BlockMarks& there = marks.of(end);
+    if (cloud.labels[i] == PointLabel::kStatic) {
+      there.keep.test_and_set(cell);
+      const bool is_mapped = range <= farthest && range <= static_cast<float>(surface_.max_range);
+      if (is_mapped) there.hit.test_and_set(cell);
+    }
+    if (!there.end.test_and_set(cell)) mark_scan_ray(target, T_world_sensor, marks);
+  }
+}
+
+void OccupancyMap::mark_scan_ray(const Eigen::Vector3f& target,
+                                 const Eigen::Isometry3f& T_world_sensor,
+                                 KeyframeMarks& marks) const {
+  const auto inverse_size = static_cast<float>(1.0 / voxel_size());
+  const float share = 1.0F - static_cast<float>(0.5 * voxel_size()) / target.norm();
+  if (!(share > 0.0F)) return;
+  const Eigen::Vector3f last = T_world_sensor * Eigen::Vector3f(share * target);
+  int repeated = 0;
+  for_each_voxel(inverse_size * last, inverse_size * T_world_sensor.translation(),
+                 [&](const VoxelKey& key) {
+                   const bool is_known = marks.of(key).free.test_and_set(BlockCells::cell_of(key));
+                   repeated = is_known ? repeated + 1 : 0;
+                   return repeated < kMaxRepeated;
+                 });
 }
 
 void OccupancyMap::apply() {

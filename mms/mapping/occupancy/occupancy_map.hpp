@@ -18,7 +18,10 @@ namespace mms {
 ///
 /// A voxel that a keyframe hits is not freed by the same keyframe, and rays end short of their
 /// points, so that rays at grazing angles do not free a wall. One ray a voxel is followed: the cost
-/// of a keyframe depends on its view, not on the length of the run.
+/// of a keyframe depends on its view, not on the length of the run. Rays of a scan are followed
+/// from their points to the sensor and end where others freed the space already (as the fast
+/// integrator of Voxblox, Oleynikova et al., IROS 2017): most of them share the voxels near the
+/// sensor.
 class OccupancyMap {
  public:
   /// @param surface  selects the points of a depth image that make hits; the noise of all points
@@ -39,17 +42,20 @@ class OccupancyMap {
   double voxel_size() const { return blocks_.voxel_size(); }  ///< current one [m]
 
  private:
+  void mark_scan(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor,
+                 KeyframeMarks& marks) const;
   void mark_hits(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor, int step,
                  KeyframeMarks& marks) const;
   void mark_rays(const LabeledCloud& cloud, const Eigen::Isometry3f& T_world_sensor, int step,
                  KeyframeMarks& marks) const;
-  void mark_ray(const Eigen::Vector3f& target, bool is_depth,
-                const Eigen::Isometry3f& T_world_sensor, KeyframeMarks& marks) const;
+  void mark_depth_ray(const Eigen::Vector3f& target, const Eigen::Isometry3f& T_world_sensor,
+                      KeyframeMarks& marks) const;
+  void mark_scan_ray(const Eigen::Vector3f& target, const Eigen::Isometry3f& T_world_sensor,
+                     KeyframeMarks& marks) const;
   void apply();
   void keep_to_budget();
   int step_of(const LabeledCloud& cloud) const;
-  Eigen::Vector3f reach(const Eigen::Vector3f& point, bool is_depth) const;
-  float clearance(const Eigen::Vector3f& point, bool is_depth) const;
+  Eigen::Vector3f reach(const Eigen::Vector3f& point) const;
 
   OccupancyConfig config_;
   SurfaceConfig surface_;

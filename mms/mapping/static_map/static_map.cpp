@@ -76,6 +76,8 @@ bool StaticMap::finalize() {
 }
 
 void StaticMap::count_view() {
+  view_blocks_ = std::exchange(measured_, {});
+  std::sort(view_blocks_.begin(), view_blocks_.end());
   coarsened_ = keep_to_budget();
   ++views_;
   previous_view_ = std::exchange(last_view_, last_frame());
@@ -111,6 +113,9 @@ void StaticMap::insert(const std::vector<SurfacePoint>& points,
       const SurfacePoint& point = points[begin + i];
       VoxelBlock& block = *places[i].block;
       Voxel& voxel = places[i].voxel();
+      if (block.last_frame <= last_view_) {
+        measured_.push_back(static_cast<std::uint32_t>(places[i].block_index));
+      }
       if (is_first_view(block.last_frame) && point.weight >= sharp) increment(block.views);
       if (is_first_view(voxel.last_frame)) increment(voxel.hits);
       average_in(point, T_world_sensor, voxel);
@@ -132,24 +137,26 @@ std::size_t StaticMap::carve(const Space& free_space, double views_per_hit,
                              const Eigen::Isometry3f& T_sensor_world) {
   const auto ratio = static_cast<float>(views_per_hit);
   const auto side = static_cast<float>(grid_.block_size());
-  const float radius = 0.5F * std::sqrt(3.0F) * side;
   const auto gone = [&](Voxel& voxel) {
     if (voxel.last_frame == last_frame()) return false;
     if (!free_space.sees_through(T_sensor_world * voxel.position)) return false;
     increment(voxel.seen_through);
     return voxel.seen_through > ratio * voxel.hits;
   };
-  for (VoxelBlock& block : grid_.blocks()) {
+  const auto may_see_into = [&](const Eigen::Vector3f& center, float radius) {
+    return free_space.may_see_into(T_sensor_world * center, radius);
+  };
+  grid_.for_each_block(may_see_into, [&](VoxelBlock& block) {
     const Eigen::Vector3f corner(static_cast<float>(block.key.x), static_cast<float>(block.key.y),
                                  static_cast<float>(block.key.z));
     const Eigen::Vector3f center = (corner.array() + 0.5F).matrix() * side;
-    if (!free_space.may_see_into(T_sensor_world * center, radius)) continue;
+    if (!may_see_into(center, VoxelGrid::kHalfDiagonal * side)) return;
     grid_.erase_if(block, [&](Voxel& voxel) {
       if (!gone(voxel)) return false;
       carved_.push_back(block.voxel_key(voxel));
       return true;
     });
-  }
+  });
   return carved_.size();
 }
 

@@ -108,6 +108,7 @@ class StaticMap {
   bool keep_to_budget();
   void prune_viewpoints();
   std::uint32_t last_frame() const { return viewpoints_.last(); }
+  BlockChange change_of_block(const VoxelBlock& block) const;
   Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
   template <class Visit>
   void for_each_shown(const Visit& visit) const;
@@ -116,10 +117,12 @@ class StaticMap {
   VoxelGrid grid_;
   FrameViewpoints viewpoints_;
   std::size_t views_ = 0;
-  std::uint32_t last_view_ = 0;      // the frame that ended it
-  std::uint32_t previous_view_ = 0;  // the frame that ended the one before
-  std::vector<VoxelKey> carved_;     // by the last view
-  bool coarsened_ = false;           // by the last view
+  std::uint32_t last_view_ = 0;             // the frame that ended it
+  std::uint32_t previous_view_ = 0;         // the frame that ended the one before
+  std::vector<std::uint32_t> measured_;     // blocks, since the last view
+  std::vector<std::uint32_t> view_blocks_;  // blocks that the last view measured, ascending
+  std::vector<VoxelKey> carved_;            // by the last view
+  bool coarsened_ = false;                  // by the last view
 };
 
 }  // namespace mms

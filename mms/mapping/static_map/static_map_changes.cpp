@@ -68,21 +68,30 @@ MapChanges StaticMap::changes() const {
   changes.viewpoint = viewpoints_.at(last_view_);
   changes.whole = coarsened_;
   if (!coarsened_) changes.erased = carved_;
-  for (const VoxelBlock& block : grid_.blocks()) {
-    if (!coarsened_ && block.last_frame <= previous_view_) continue;
-    BlockChange change{block.key, block.views, {}};
-    for (const Voxel& voxel : block.voxels) {
-      const bool is_reported =
-          voxel.last_frame > previous_view_ && is_due(voxel, config_.min_observations);
-      if (coarsened_ || is_reported)
-        change.voxels.push_back(change_of(block, voxel, grid_.voxel_size()));
-    }
-    // Further views show the same voxels as those before.
-    const auto needed = static_cast<std::size_t>(config_.min_observations);
+  // Further views show the same voxels as those before.
+  const auto needed = static_cast<std::size_t>(config_.min_observations);
+  const auto add = [&](const VoxelBlock& block) {
+    BlockChange change = change_of_block(block);
     const bool matters = block.views <= kViewsPerObservation * needed + 1;
     if (matters || !change.voxels.empty()) changes.blocks.push_back(std::move(change));
+  };
+  if (coarsened_) {
+    for (const VoxelBlock& block : grid_.blocks()) add(block);
+  } else {
+    for (const std::uint32_t index : view_blocks_) add(grid_.blocks()[index]);
   }
   return changes;
+}
+
+BlockChange StaticMap::change_of_block(const VoxelBlock& block) const {
+  BlockChange change{block.key, block.views, {}};
+  for (const Voxel& voxel : block.voxels) {
+    const bool is_reported =
+        voxel.last_frame > previous_view_ && is_due(voxel, config_.min_observations);
+    if (coarsened_ || is_reported)
+      change.voxels.push_back(change_of(block, voxel, grid_.voxel_size()));
+  }
+  return change;
 }
 
 void StaticMap::apply(const MapChanges& changes) {

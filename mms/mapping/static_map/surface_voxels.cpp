@@ -5,6 +5,10 @@
 namespace mms {
 namespace {
 
+/// [-]: most voxels of a block that are searched one by one. Source: a table of slots has the
+/// memory of twenty voxels; distant blocks of a LiDAR's map have one or two.
+constexpr std::size_t kMaxListed = 12;
+
 void merge(const Voxel& from, Voxel& into) {
   const bool first = into.hits == 0;
   into.weight += from.weight;
@@ -25,29 +29,51 @@ VoxelGrid::VoxelGrid(double voxel_size)
 std::size_t VoxelGrid::block_index(const VoxelKey& key) {
   if (last_block_ < blocks_.size() && blocks_[last_block_].key == key) return last_block_;
   const auto [entry, created] = index_.insert({key, static_cast<std::uint32_t>(blocks_.size())});
-  if (created) blocks_.emplace_back().key = key;
+  if (created) {
+    blocks_.emplace_back().key = key;
+    add_to_region(key, entry->second);
+  }
   return last_block_ = entry->second;
 }
 
+void VoxelGrid::add_to_region(const VoxelKey& block, std::uint32_t index) {
+  const VoxelKey key{block.x >> kRegionBits, block.y >> kRegionBits, block.z >> kRegionBits};
+  const auto [entry, created] =
+      region_index_.insert({key, static_cast<std::uint32_t>(regions_.size())});
+  if (created) regions_.push_back({key, {}});
+  regions_[entry->second].blocks.push_back(index);
+}
+
+void VoxelGrid::make_slots(VoxelBlock& block) {
+  block.slots = std::make_unique<VoxelBlock::Slots>();
+  for (std::size_t i = 0; i < block.voxels.size(); ++i) {
+    (*block.slots)[block.voxels[i].cell] = static_cast<std::uint16_t>(i + 1);
+  }
+  ++slots_;
+}
+
 VoxelGrid::Place VoxelGrid::place(const VoxelKey& key) {
-  VoxelBlock& block = blocks_[block_index(BlockCells::block_of(key))];
+  const std::size_t at = block_index(BlockCells::block_of(key));
+  VoxelBlock& block = blocks_[at];
   const std::uint16_t cell = BlockCells::cell_of(key);
-  if (block.slot[cell] == 0) {
+  const std::size_t index = block.index_of(cell);
+  if (index == block.voxels.size()) {
     const std::size_t before = block.voxels.capacity();
     block.voxels.emplace_back().cell = cell;
-    block.slot[cell] = static_cast<std::uint16_t>(block.voxels.size());
+    if (block.slots) (*block.slots)[cell] = static_cast<std::uint16_t>(index + 1);
+    if (!block.slots && block.voxels.size() > kMaxListed) make_slots(block);
     capacity_ += block.voxels.capacity() - before;
     ++size_;
   }
-  return {&block, block.slot[cell] - 1U};
+  return {&block, at, index};
 }
 
 const Voxel* VoxelGrid::find(const VoxelKey& key) const {
   const auto entry = index_.find(BlockCells::block_of(key));
   if (entry == index_.end()) return nullptr;
   const VoxelBlock& block = blocks_[entry->second];
-  const std::uint16_t slot = block.slot[BlockCells::cell_of(key)];
-  return slot == 0 ? nullptr : &block.voxels[slot - 1U];
+  const std::size_t index = block.index_of(BlockCells::cell_of(key));
+  return index == block.voxels.size() ? nullptr : &block.voxels[index];
 }
 
 VoxelBlock* VoxelGrid::find_block(const VoxelKey& key) {
@@ -58,15 +84,18 @@ VoxelBlock* VoxelGrid::find_block(const VoxelKey& key) {
 void VoxelGrid::erase(const VoxelKey& key) {
   VoxelBlock* block = find_block(BlockCells::block_of(key));
   if (block == nullptr) return;
-  const std::uint16_t slot = block->slot[BlockCells::cell_of(key)];
-  if (slot != 0) erase(*block, slot - 1U);
+  const std::size_t index = block->index_of(BlockCells::cell_of(key));
+  if (index != block->voxels.size()) erase(*block, index);
 }
 
 void VoxelGrid::erase(VoxelBlock& block, std::size_t index) {
-  block.slot[block.voxels[index].cell] = 0;
+  const auto set_slot = [&](std::uint16_t cell, std::size_t slot) {
+    if (block.slots) (*block.slots)[cell] = static_cast<std::uint16_t>(slot);
+  };
+  set_slot(block.voxels[index].cell, 0);
   if (index + 1 != block.voxels.size()) {
     block.voxels[index] = block.voxels.back();
-    block.slot[block.voxels[index].cell] = static_cast<std::uint16_t>(index + 1);
+    set_slot(block.voxels[index].cell, index + 1);
   }
   block.voxels.pop_back();
   --size_;
@@ -87,7 +116,8 @@ std::size_t VoxelGrid::memory_bytes() const {
   using Entry = std::pair<VoxelKey, std::uint32_t>;
   // [-]: bytes of a bucket. Source: robin_map stores a distance and a hash of 4 bytes each.
   constexpr std::size_t kBucketSize = sizeof(Entry) + 8;
-  return blocks_.size() * sizeof(VoxelBlock) + capacity_ * sizeof(Voxel) +
+  return blocks_.size() * (sizeof(VoxelBlock) + sizeof(std::uint32_t)) +
+         slots_ * sizeof(VoxelBlock::Slots) + capacity_ * sizeof(Voxel) +
          index_.bucket_count() * kBucketSize;
 }
 

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "mms/core/image.hpp"
@@ -42,14 +44,28 @@ inline Rgb to_rgb(const Eigen::Vector3f& color) {
 
 /// A cube of voxels (`BlockCells`) of which only the occupied ones are stored.
 struct VoxelBlock {
-  VoxelKey key;                                          ///< in units of the block's side
-  std::array<std::uint16_t, BlockCells::kCount> slot{};  ///< 1 + index into `voxels`, 0 for none
+  /// By cell: 1 + index into `voxels`, 0 for none.
+  using Slots = std::array<std::uint16_t, BlockCells::kCount>;
+
+  VoxelKey key;  ///< in units of the block's side
   std::vector<Voxel> voxels;
+  std::unique_ptr<Slots> slots;  ///< null for a block of few voxels, which are searched one by one
   std::uint32_t last_frame = 0;  ///< number of the last frame that measured in it
   std::uint16_t views = 0;       ///< views that measured in it with little noise
 
   /// In units of the voxel's side.
   VoxelKey voxel_key(const Voxel& voxel) const { return BlockCells::voxel_of(key, voxel.cell); }
+
+  /// Index into `voxels`; their number where the cell has none.
+  std::size_t index_of(std::uint16_t cell) const {
+    if (slots) {
+      const std::uint16_t slot = (*slots)[cell];
+      return slot == 0 ? voxels.size() : slot - 1U;
+    }
+    std::size_t index = 0;
+    while (index < voxels.size() && voxels[index].cell != cell) ++index;
+    return index;
+  }
 };
 
 /// Sparse voxels in hashed blocks, so that whole blocks can be culled against a camera's view.
@@ -62,7 +78,8 @@ class VoxelGrid {
   /// Reference to a voxel; valid until voxels are erased.
   struct Place {
     VoxelBlock* block = nullptr;
-    std::size_t index = 0;
+    std::size_t block_index = 0;  ///< into `blocks`
+    std::size_t index = 0;        ///< into the block's voxels
 
     Voxel& voxel() const { return block->voxels[index]; }
   };
@@ -93,11 +110,29 @@ class VoxelGrid {
     return erased;
   }
 
+  /// Calls `visit(block)` for the blocks of all regions, cubes of blocks, for which
+  /// `may_matter(center, radius)` holds of the ball around the region (world frame [m]).
+  template <class MayMatter, class Visit>
+  void for_each_block(const MayMatter& may_matter, const Visit& visit) {
+    const auto side = static_cast<float>(block_size() * kRegionSide);
+    for (const Region& region : regions_) {
+      const Eigen::Vector3f corner(static_cast<float>(region.key.x),
+                                   static_cast<float>(region.key.y),
+                                   static_cast<float>(region.key.z));
+      const Eigen::Vector3f center = (corner.array() + 0.5F).matrix() * side;
+      if (!may_matter(center, kHalfDiagonal * side)) continue;
+      for (const std::uint32_t index : region.blocks) visit(blocks_[index]);
+    }
+  }
+
   /// The same content in voxels of twice the side: means of means, the larger count of hits.
   VoxelGrid coarsened() const;
 
   std::deque<VoxelBlock>& blocks() { return blocks_; }
   const std::deque<VoxelBlock>& blocks() const { return blocks_; }
+
+  /// [-]: radius of the ball around a cube over the cube's side. Source: half of sqrt(3).
+  static constexpr float kHalfDiagonal = 0.8660254F;
 
   double voxel_size() const { return voxel_size_; }
   double block_size() const { return voxel_size_ * BlockCells::kSide; }
@@ -105,16 +140,31 @@ class VoxelGrid {
   std::size_t memory_bytes() const;
 
  private:
+  /// [-]: binary logarithm of the blocks along the side of a region. Source: a region of 1.28 m at
+  /// voxels of 2 cm; a map of a hundred thousand blocks has some thousand.
+  static constexpr int kRegionBits = 3;
+  static constexpr int kRegionSide = 1 << kRegionBits;
+
+  struct Region {
+    VoxelKey key;  // in units of the region's side
+    std::vector<std::uint32_t> blocks;
+  };
+
   std::size_t block_index(const VoxelKey& key);
+  void add_to_region(const VoxelKey& block, std::uint32_t index);
+  void make_slots(VoxelBlock& block);
   void erase(VoxelBlock& block, std::size_t index);
 
   double voxel_size_;
   float inverse_size_;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;       // of all blocks' voxel vectors
+  std::size_t slots_ = 0;          // blocks that have them
   std::size_t last_block_ = 0;     // neighbouring points mostly share a block
   std::deque<VoxelBlock> blocks_;  // a vector would copy every block's table when it grows
   tsl::robin_map<VoxelKey, std::uint32_t, VoxelKeyHash> index_;
+  std::vector<Region> regions_;
+  tsl::robin_map<VoxelKey, std::uint32_t, VoxelKeyHash> region_index_;
 };
 
 }  // namespace mms
