@@ -18,7 +18,7 @@ constexpr float kMaxFlatRatio = 0.2F;
 Eigen::Vector3f flat_normal(const std::vector<Eigen::Vector3f>& points) {
   if (points.size() < kMinNeighbours) return Eigen::Vector3f::Zero();
   const auto scatter = scatter_of(points);
-  const auto axes = principal_axes(scatter.matrix);
+  const auto axes = principal_axes(scatter.matrix, EigenMethod::kClosedForm);
   if (!(axes.variances[0] <= kMaxFlatRatio * axes.variances[1])) return Eigen::Vector3f::Zero();
   const Eigen::Vector3f to_origin = -scatter.mean;
   return oriented(axes.smallest(), to_origin);

@@ -1,5 +1,7 @@
 #include "mms/pipeline/mapping.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <cassert>
 #include <vector>
 
@@ -30,8 +32,8 @@ FrameResult Mapping::map(FrameResult result) {
     std::vector<TrackedObject> objects = dynamic_map_.objects();
     mask_unseen_objects(objects, T_world_sensor, result.cloud);
     if (result.keyframe) {
-      static_map_.integrate(result.cloud, T_world_sensor);
-      occupancy_map_.integrate(result.cloud, T_world_sensor);
+      tbb::parallel_invoke([&] { static_map_.integrate(result.cloud, T_world_sensor); },
+                           [&] { occupancy_map_.integrate(result.cloud, T_world_sensor); });
     } else if (result.odometry.status != Status::kLost) {
       static_map_.add(result.cloud, T_world_sensor);
     }

@@ -39,18 +39,12 @@ void PointMap::within(const Eigen::Vector3f& query, float radius,
   result.clear();
   const VoxelKey low = voxels_.key(query - Eigen::Vector3f::Constant(radius));
   const VoxelKey high = voxels_.key(query + Eigen::Vector3f::Constant(radius));
-  for (int z = low.z; z <= high.z; ++z) {
-    for (int y = low.y; y <= high.y; ++y) {
-      for (int x = low.x; x <= high.x; ++x) {
-        const Cell* cell = voxels_.find({x, y, z});
-        if (cell == nullptr) continue;
-        for (const Eigen::Vector3f& point : *cell) {
-          const float distance2 = (point - query).squaredNorm();
-          if (distance2 <= radius * radius) result.push_back({point, distance2});
-        }
-      }
+  voxels_.for_each_in(low, high, [&](const Cell& cell) {
+    for (const Eigen::Vector3f& point : cell) {
+      const float distance2 = (point - query).squaredNorm();
+      if (distance2 <= radius * radius) result.push_back({point, distance2});
     }
-  }
+  });
   std::sort(result.begin(), result.end(), closer);
 }
 

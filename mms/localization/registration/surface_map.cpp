@@ -35,19 +35,15 @@ std::optional<SurfaceMap::Surface> SurfaceMap::match(const Eigen::Vector3f& poin
   const VoxelKey centre = voxels_.key(point);
   const Cell* best = nullptr;
   float best_distance2 = std::numeric_limits<float>::max();
-  for (int dz = -1; dz <= 1; ++dz) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const Cell* cell = voxels_.find({centre.x + dx, centre.y + dy, centre.z + dz});
-        if (cell == nullptr) continue;
-        const float distance2 = (cell->mean - point).squaredNorm();
-        if (distance2 >= best_distance2) continue;
-        if (cell->normal.dot(normal) < kMinNormalCosine * cell->normal.norm()) continue;
-        best = cell;
-        best_distance2 = distance2;
-      }
-    }
-  }
+  const VoxelKey low{centre.x - 1, centre.y - 1, centre.z - 1};
+  const VoxelKey high{centre.x + 1, centre.y + 1, centre.z + 1};
+  voxels_.for_each_in(low, high, [&](const Cell& cell) {
+    const float distance2 = (cell.mean - point).squaredNorm();
+    if (distance2 >= best_distance2) return;
+    if (cell.normal.dot(normal) < kMinNormalCosine * cell.normal.norm()) return;
+    best = &cell;
+    best_distance2 = distance2;
+  });
   if (best == nullptr) return std::nullopt;
   return Surface{best->mean, best->normal.normalized(), 1.0F / std::sqrt(best->weight)};
 }

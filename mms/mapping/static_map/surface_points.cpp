@@ -168,6 +168,7 @@ std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const Surf
 std::vector<SurfacePoint> scan_points(const LabeledCloud& cloud, const SurfaceConfig& config) {
   const auto limit = static_cast<float>(config.max_range);
   std::vector<SurfacePoint> result;
+  result.reserve(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.labels[i] != PointLabel::kStatic) continue;
     if (!(cloud.points[i].norm() <= limit)) continue;
