@@ -23,8 +23,8 @@ MapChanges sample_changes(int seed) {
   changes.viewpoint = Eigen::Vector3f(0.5F, -1.25F, static_cast<float>(seed));
   changes.voxel_size = 0.02;
   changes.whole = seed % 2 == 1;
-  changes.blocks.push_back({{-3, seed, 7}, 2, {{511, 4, {1, 2, 3}, {-127, 0, 127}, {9, 8, 7}}}});
-  changes.blocks.push_back({{1, 2, 3}, 3, {}});
+  changes.blocks = {{{-3, seed, 7}, 2, 1}, {{1, 2, 3}, 3, 0}};
+  changes.voxels = {{511, 4, {1, 2, 3}, {-127, 0, 127}, {9, 8, 7}}};
   changes.erased = {{-1, -2, -3}, {seed, 0, 0}};
   return changes;
 }

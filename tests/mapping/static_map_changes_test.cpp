@@ -133,7 +133,7 @@ TEST(StaticMapChanges, GetRareForStaticSensor) {
   std::size_t changed = 0;
   for (int i = 0; i < 64; ++i) {
     map.integrate(keyframe_cloud(1), keyframe_pose(0));
-    for (const BlockChange& block : map.changes().blocks) changed += block.voxels.size();
+    changed += map.changes().voxels.size();
   }
   EXPECT_LE(changed, 7 * map.size());  // at 1, 2, 4, ... 64 observations
 }
@@ -147,7 +147,8 @@ TEST(StaticMapChanges, AreEmptyForEmptyMap) {
 TEST(StaticMapChanges, RejectCellOutsideBlock) {
   MapChanges changes;
   changes.voxel_size = 0.02;
-  changes.blocks.push_back({{0, 0, 0}, 1, {VoxelChange{.cell = 512, .hits = 1}}});
+  changes.blocks = {{{0, 0, 0}, 1, 1}};
+  changes.voxels = {VoxelChange{.cell = 512, .hits = 1}};
   StaticMap map;
   EXPECT_THROW(map.apply(changes), DataError);
 }

@@ -17,7 +17,8 @@ using namespace testing;  // NOLINT: helpers of the tests
 MapChanges one_voxel(const VoxelKey& block, std::uint16_t hits, std::uint16_t views) {
   MapChanges changes;
   changes.voxel_size = 0.1;
-  changes.blocks = {{block, views, {{0, hits, {128, 128, 128}, {}, Rgb{1, 2, 3}}}}};
+  changes.blocks = {{block, views, 1}};
+  changes.voxels = {{0, hits, {128, 128, 128}, {}, Rgb{1, 2, 3}}};
   return changes;
 }
 
@@ -118,7 +119,7 @@ TEST(MapChunks, WholeMapReplacesFormer) {
 
 TEST(MapChunks, IgnoresCellsOutsideBlock) {
   MapChanges invalid = one_voxel({0, 0, 0}, 1, 1);
-  invalid.blocks[0].voxels[0].cell = 512;
+  invalid.voxels[0].cell = 512;
   MapChunks map(1);
   map.apply(invalid);
   EXPECT_EQ(map.size(), 0U);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mms/core/image.hpp"
@@ -26,7 +28,7 @@ struct VoxelChange {
 struct BlockChange {
   VoxelKey key;             ///< in units of the block's side
   std::uint16_t views = 0;  ///< observations of the block
-  std::vector<VoxelChange> voxels;
+  std::uint32_t count = 0;  ///< its voxels in `MapChanges::voxels`, after those of earlier blocks
 
   bool operator==(const BlockChange&) const = default;
 };
@@ -37,7 +39,19 @@ struct MapChanges {
   double voxel_size = 0.0;                              ///< side of a voxel [m]
   bool whole = false;               ///< the blocks are the whole map and replace the present one
   std::vector<BlockChange> blocks;  ///< in order of insertion into the map
+  std::vector<VoxelChange> voxels;  ///< of all blocks, in their order
   std::vector<VoxelKey> erased;     ///< removed voxels, in units of a voxel's side
+
+  /// Calls `visit(block, voxels)` for all blocks, with the span of their voxels.
+  template <class Visit>
+  void for_each_block(const Visit& visit) const {
+    std::span<const VoxelChange> rest(voxels);
+    for (const BlockChange& block : blocks) {
+      const std::size_t count = std::min<std::size_t>(block.count, rest.size());
+      visit(block, rest.first(count));
+      rest = rest.subspan(count);
+    }
+  }
 
   bool operator==(const MapChanges&) const = default;
 };

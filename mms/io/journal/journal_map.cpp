@@ -1,6 +1,7 @@
 #include "mms/io/journal/journal_map.hpp"
 
 #include <cmath>
+#include <span>
 
 #include "mms/core/error.hpp"
 #include "mms/io/text/numbers.hpp"
@@ -49,7 +50,8 @@ VoxelChange take_voxel(ByteReader& bytes) {
                                      " in its block, allowed: 0 to " + std::to_string(kCells - 1));
 }
 
-BlockChange take_block(ByteReader& bytes) {
+/// Adds a block and its voxels to the changes.
+void take_block(ByteReader& bytes, MapChanges& changes) {
   BlockChange block;
   block.key = take_key(bytes);
   for (const std::int32_t side : {block.key.x, block.key.y, block.key.z}) {
@@ -58,24 +60,26 @@ BlockChange take_block(ByteReader& bytes) {
                                        ", allowed: within +-" + std::to_string(kMaxKey));
   }
   block.views = bytes.take<std::uint16_t>();
-  block.voxels.resize(bytes.take_count(kVoxelBytes));
-  for (VoxelChange& voxel : block.voxels) voxel = take_voxel(bytes);
-  return block;
+  block.count = bytes.take_count(kVoxelBytes);
+  changes.blocks.push_back(block);
+  for (std::uint32_t i = 0; i < block.count; ++i) changes.voxels.push_back(take_voxel(bytes));
 }
 
 }  // namespace
 
 void append_map(std::string& bytes, const MapChanges& changes) {
+  bytes.reserve(bytes.size() + kVoxelBytes * changes.voxels.size() +
+                kBlockBytes * changes.blocks.size() + kKeyBytes * changes.erased.size());
   for (int axis = 0; axis < 3; ++axis) append_bytes(bytes, changes.viewpoint[axis]);
   append_bytes(bytes, changes.voxel_size);
   append_bytes(bytes, static_cast<std::uint8_t>(changes.whole));
   append_bytes(bytes, static_cast<std::uint32_t>(changes.blocks.size()));
-  for (const BlockChange& block : changes.blocks) {
+  changes.for_each_block([&](const BlockChange& block, std::span<const VoxelChange> voxels) {
     append_key(bytes, block.key);
     append_bytes(bytes, block.views);
-    append_bytes(bytes, static_cast<std::uint32_t>(block.voxels.size()));
-    for (const VoxelChange& voxel : block.voxels) append_voxel(bytes, voxel);
-  }
+    append_bytes(bytes, block.count);
+    for (const VoxelChange& voxel : voxels) append_voxel(bytes, voxel);
+  });
   append_bytes(bytes, static_cast<std::uint32_t>(changes.erased.size()));
   for (const VoxelKey& key : changes.erased) append_key(bytes, key);
 }
@@ -85,8 +89,9 @@ MapChanges take_map(ByteReader& bytes) {
   for (int axis = 0; axis < 3; ++axis) changes.viewpoint[axis] = bytes.take<float>();
   changes.voxel_size = take_voxel_size(bytes);
   changes.whole = bytes.take<std::uint8_t>() != 0;
-  changes.blocks.resize(bytes.take_count(kBlockBytes));
-  for (BlockChange& block : changes.blocks) block = take_block(bytes);
+  const std::uint32_t blocks = bytes.take_count(kBlockBytes);
+  changes.blocks.reserve(blocks);
+  for (std::uint32_t i = 0; i < blocks; ++i) take_block(bytes, changes);
   changes.erased.resize(bytes.take_count(kKeyBytes));
   for (VoxelKey& key : changes.erased) key = take_key(bytes);
   return changes;

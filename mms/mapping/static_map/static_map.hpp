@@ -108,7 +108,6 @@ class StaticMap {
   bool keep_to_budget();
   void prune_viewpoints();
   std::uint32_t last_frame() const { return viewpoints_.last(); }
-  BlockChange change_of_block(const VoxelBlock& block) const;
   Eigen::Vector3f normal_of(const VoxelBlock& block, const Voxel& voxel) const;
   template <class Visit>
   void for_each_shown(const Visit& visit) const;

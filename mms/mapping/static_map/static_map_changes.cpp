@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "mms/core/error.hpp"
@@ -71,9 +72,17 @@ MapChanges StaticMap::changes() const {
   // Further views show the same voxels as those before.
   const auto needed = static_cast<std::size_t>(config_.min_observations);
   const auto add = [&](const VoxelBlock& block) {
-    BlockChange change = change_of_block(block);
+    const std::size_t before = changes.voxels.size();
+    for (const Voxel& voxel : block.voxels) {
+      const bool is_reported =
+          voxel.last_frame > previous_view_ && is_due(voxel, config_.min_observations);
+      if (coarsened_ || is_reported) {
+        changes.voxels.push_back(change_of(block, voxel, grid_.voxel_size()));
+      }
+    }
+    const auto count = static_cast<std::uint32_t>(changes.voxels.size() - before);
     const bool matters = block.views <= kViewsPerObservation * needed + 1;
-    if (matters || !change.voxels.empty()) changes.blocks.push_back(std::move(change));
+    if (matters || count > 0) changes.blocks.push_back({block.key, block.views, count});
   };
   if (coarsened_) {
     for (const VoxelBlock& block : grid_.blocks()) add(block);
@@ -83,25 +92,14 @@ MapChanges StaticMap::changes() const {
   return changes;
 }
 
-BlockChange StaticMap::change_of_block(const VoxelBlock& block) const {
-  BlockChange change{block.key, block.views, {}};
-  for (const Voxel& voxel : block.voxels) {
-    const bool is_reported =
-        voxel.last_frame > previous_view_ && is_due(voxel, config_.min_observations);
-    if (coarsened_ || is_reported)
-      change.voxels.push_back(change_of(block, voxel, grid_.voxel_size()));
-  }
-  return change;
-}
-
 void StaticMap::apply(const MapChanges& changes) {
   if (changes.whole) grid_ = VoxelGrid(changes.voxel_size);
   viewpoints_.add(changes.viewpoint);
   ++views_;
   last_view_ = last_frame();
   if (viewpoints_.wants_pruning()) prune_viewpoints();
-  for (const BlockChange& change : changes.blocks) {
-    for (const VoxelChange& voxel_change : change.voxels) {
+  changes.for_each_block([&](const BlockChange& change, std::span<const VoxelChange> voxels) {
+    for (const VoxelChange& voxel_change : voxels) {
       check(voxel_change);
       const VoxelKey key = BlockCells::voxel_of(change.key, voxel_change.cell);
       Voxel& voxel = grid_.place(key).voxel();
@@ -109,7 +107,7 @@ void StaticMap::apply(const MapChanges& changes) {
       voxel.last_frame = last_view_;
     }
     if (VoxelBlock* block = grid_.find_block(change.key)) block->views = change.views;
-  }
+  });
   for (const VoxelKey& key : changes.erased) grid_.erase(key);
 }
 

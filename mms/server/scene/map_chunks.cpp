@@ -111,16 +111,18 @@ void MapChunks::apply(const MapChanges& changes) {
     voxels_ = 0;
   }
   voxel_size_ = changes.voxel_size;
-  for (const BlockChange& block : changes.blocks) change(block);
+  changes.for_each_block([&](const BlockChange& block, std::span<const VoxelChange> voxels) {
+    change(block, voxels);
+  });
   for (const VoxelKey& voxel : changes.erased) erase(voxel);
 }
 
-void MapChunks::change(const BlockChange& change) {
+void MapChunks::change(const BlockChange& change, std::span<const VoxelChange> voxels) {
   Chunk& chunk = chunks_[chunk_of_block(change.key)];
   Block& block = chunk.blocks[change.key];
   chunk.version = version_;
   block.views = change.views;
-  for (const VoxelChange& voxel : change.voxels) {
+  for (const VoxelChange& voxel : voxels) {
     if (voxel.cell >= kBlockCells) continue;
     const auto place = place_of(block.voxels, voxel.cell);
     if (place != block.voxels.end() && place->cell == voxel.cell) {
@@ -213,20 +215,28 @@ MapChanges changes_of(std::span<const Eigen::Vector3f> points, std::span<const R
   changes.whole = true;
   const auto inverse = static_cast<float>(1.0 / voxel_size);
   tsl::robin_map<VoxelKey, std::size_t, VoxelKeyHash> place;
+  std::vector<std::vector<VoxelChange>> voxels_of_block;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f steps = points[i] * inverse;
     if (!steps.allFinite() || steps.cwiseAbs().maxCoeff() > kMaxVoxels) continue;
     const VoxelKey voxel = voxel_key(points[i], inverse);
     const VoxelKey key = block_of(voxel);
     const auto [found, added] = place.try_emplace(key, changes.blocks.size());
-    if (added) changes.blocks.push_back({key, 1, {}});
+    if (added) {
+      changes.blocks.push_back({key, 1, 0});
+      voxels_of_block.emplace_back();
+    }
     VoxelChange change{cell_of(voxel), 1, {}, {}, i < colors.size() ? colors[i] : kUncoloredVoxel};
     for (int axis = 0; axis < 3; ++axis) {
       const float part = (steps[axis] - std::floor(steps[axis])) * kOffsetSteps;
       change.offset[static_cast<std::size_t>(axis)] =
           static_cast<std::uint8_t>(std::clamp(part, 0.0F, kOffsetSteps - 1.0F));
     }
-    changes.blocks[found->second].voxels.push_back(change);
+    ++changes.blocks[found->second].count;
+    voxels_of_block[found->second].push_back(change);
+  }
+  for (const std::vector<VoxelChange>& voxels : voxels_of_block) {
+    changes.voxels.insert(changes.voxels.end(), voxels.begin(), voxels.end());
   }
   return changes;
 }

@@ -69,7 +69,7 @@ class MapChunks {
     std::map<VoxelKey, Block> blocks;
   };
 
-  void change(const BlockChange& change);
+  void change(const BlockChange& change, std::span<const VoxelChange> voxels);
   void erase(const VoxelKey& voxel);
   bool is_shown(const Block& block, const VoxelChange& voxel) const;
   template <class Use>
