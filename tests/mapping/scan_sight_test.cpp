@@ -59,6 +59,27 @@ TEST(ScanSight, DoesNotSeeThroughStaticSurfaces) {
   }
 }
 
+TEST(ScanSight, MaySeeIntoBallsWithPointsSeenThrough) {
+  const ScanSight sight(hall_scan({kPerson}, pose({0.7, -0.4, 0.1}, 0.3)), kMargin);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> place(-12.0F, 12.0F);
+  std::uniform_real_distribution<float> size(0.05F, 1.5F);
+  std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
+  int culled = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Eigen::Vector3f center(place(random), place(random), 0.3F * place(random));
+    const float radius = size(random);
+    if (sight.may_see_into(center, radius)) continue;
+    ++culled;
+    for (int k = 0; k < 20; ++k) {
+      const Eigen::Vector3f offset(unit(random), unit(random), unit(random));
+      if (offset.norm() > 1.0F) continue;
+      EXPECT_FALSE(sight.sees_through(center + radius * offset)) << center.transpose();
+    }
+  }
+  EXPECT_GT(culled, 5000);
+}
+
 TEST(ScanSight, SeesThroughFormerPosition) {
   const auto T = pose({0.0, 0.0, 0.0});
   const ScanSight sight(hall_scan({}, T), kMargin);

@@ -16,7 +16,7 @@ struct CarvingConfig {
   double margin = 0.03;  ///< [m]
   double ratio = 0.5;
   double scan_margin = 0.15;  ///< [m]
-  double scan_ratio = 1.5;
+  double scan_ratio = 0.5;
 
   void visit(ConfigVisitor& v) {
     v.boolean({"enabled", "", "remove voxels that later keyframes see through"}, enabled);
@@ -25,8 +25,7 @@ struct CarvingConfig {
     v.number({"ratio", "", "views through a voxel per hit that remove it"}, ratio, {0.1, 1000.0});
     v.number({"scan_margin", "m", "margin of LiDAR scans, noise included"}, scan_margin,
              {0.01, 10.0});
-    v.number({"scan_ratio", "", "ratio of LiDAR scans, which hit a voxel less often"}, scan_ratio,
-             {0.1, 1000.0});
+    v.number({"scan_ratio", "", "ratio of LiDAR scans"}, scan_ratio, {0.1, 1000.0});
   }
 };
 

@@ -8,9 +8,10 @@
 namespace mms {
 
 /// The space that one LiDAR scan observes as free, precise enough to remove points from a map:
-/// directions are half a degree wide. Between two rings the nearer one counts, so that a floor at
-/// a grazing angle is not carved. A direction is free only as far as its eight neighbours, all of
-/// which have to be known, so that objects beside its rays stay.
+/// directions are a quarter of a degree wide, or half a degree for sparse scans. Between two rings
+/// the nearer one counts, so that a floor at a grazing angle is not carved. A direction is free
+/// only as far as its eight neighbours, all of which have to be known, so that objects beside its
+/// rays stay.
 class ScanSight {
  public:
   /// @param margin  by which a point has to lie behind another, noise included [m]

@@ -48,6 +48,7 @@ std::size_t StaticMap::add(const LabeledCloud& cloud,
                            const Transform<World, Sensor>& T_world_sensor) {
   if (!T_world_sensor.is_finite()) return 0;
   const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
+  if (last_frame() == 0 && !cloud.organised()) choose_voxel_size(cloud);
   viewpoints_.add(T.translation(), cloud.stamp);
   const std::vector<SurfacePoint> points = surface_points(cloud, config_.surface);
   insert(points, T);
@@ -78,7 +79,8 @@ bool StaticMap::finalize() {
 void StaticMap::count_view() {
   view_blocks_ = std::exchange(measured_, {});
   std::sort(view_blocks_.begin(), view_blocks_.end());
-  coarsened_ = keep_to_budget();
+  const bool is_resized = std::exchange(is_resized_, false);
+  coarsened_ = keep_to_budget() || is_resized;
   ++views_;
   previous_view_ = std::exchange(last_view_, last_frame());
   if (viewpoints_.wants_pruning()) prune_viewpoints();
@@ -91,6 +93,20 @@ void StaticMap::prune_viewpoints() {
     for (const Voxel& voxel : block.voxels) is_needed[voxel.last_frame] = true;
   }
   viewpoints_.prune(is_needed);
+}
+
+void StaticMap::choose_voxel_size(const LabeledCloud& first_scan) {
+  std::vector<float> ranges;
+  for (std::size_t i = 0; i < first_scan.points.size(); ++i) {
+    if (first_scan.labels[i] == PointLabel::kStatic) ranges.push_back(first_scan.points[i].norm());
+  }
+  if (ranges.empty()) return;
+  const auto median = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), median, ranges.end());
+  const double least = config_.scan_voxel * static_cast<double>(*median);
+  if (!(least > grid_.voxel_size())) return;
+  grid_ = VoxelGrid(least);
+  is_resized_ = true;
 }
 
 void StaticMap::insert(const std::vector<SurfacePoint>& points,

@@ -18,7 +18,8 @@ namespace mms {
 
 struct StaticMapConfig {
   double voxel_size = 0.02;  ///< [m]
-  double memory = 200.0;     ///< [MB]
+  double scan_voxel = 0.005;
+  double memory = 200.0;  ///< [MB]
   int min_observations = 2;
   SurfaceConfig surface{};
   CarvingConfig carving{};
@@ -26,6 +27,9 @@ struct StaticMapConfig {
   void visit(ConfigVisitor& v) {
     v.number({"voxel_size", "m", "side of a voxel, doubled whenever the memory is used up"},
              voxel_size, {0.001, 10.0});
+    v.number({"scan_voxel", "",
+              "least side of a voxel of a LiDAR's map, over the median range of the first scan"},
+             scan_voxel, {0.0, 0.1});
     v.number({"memory", "MB", "budget of the map"}, memory, {1.0, 1e6});
     v.integer({"min_observations", "",
                "views, from keyframe to keyframe, that must measure a voxel before it is shown"},
@@ -53,7 +57,8 @@ struct MapUpdate {
 /// Points that a mask missed leave ghosts of people in the map; a voxel is removed once keyframes
 /// that measure a surface behind it outnumber those that measured it (`FreeSpace` of images,
 /// `ScanSight` of LiDAR scans). The memory is bounded: when the budget is used up, voxels are
-/// merged to twice their size, so that the map stays complete.
+/// merged to twice their size, so that the map stays complete. The voxels of a LiDAR's map follow
+/// the range of its first scan, since the distances between points do.
 class StaticMap {
  public:
   explicit StaticMap(const StaticMapConfig& config = {});
@@ -99,6 +104,7 @@ class StaticMap {
   std::size_t views() const { return views_; }              ///< completed
 
  private:
+  void choose_voxel_size(const LabeledCloud& first_scan);
   void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor);
   std::size_t carve(const LabeledCloud& cloud, const Eigen::Isometry3f& T_sensor_world);
   template <class Space>
@@ -121,6 +127,7 @@ class StaticMap {
   std::vector<std::uint32_t> measured_;     // blocks, since the last view
   std::vector<std::uint32_t> view_blocks_;  // blocks that the last view measured, ascending
   std::vector<VoxelKey> carved_;            // by the last view
+  bool is_resized_ = false;                 // since the last view
   bool coarsened_ = false;                  // by the last view
 };
 
