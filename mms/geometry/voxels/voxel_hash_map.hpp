@@ -50,7 +50,7 @@ class VoxelHashMap {
   }
 
   /// Calls `visit(cell)` for the cells of the box from `low` to `high`, both included, x before y
-  /// before z. Looks up each block of cells once.
+  /// before z. Each block of cells is searched once.
   template <class Visit>
   void for_each_in(const VoxelKey& low, const VoxelKey& high, const Visit& visit) const {
     const VoxelKey first = block_of(low);
