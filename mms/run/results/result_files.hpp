@@ -18,7 +18,7 @@ enum class MapFrame {
 
 /// The map for result files: that of a LiDAR has a normal for every point.
 /// @param correction  moves the map to the global frame; empty for none
-MapCloud result_map(const StaticMap& map, MapFrame frame, const StampCorrection& correction);
+MapCloud result_map(const StaticMap& map, MapFrame frame, const StampCorrection& correction = {});
 
 /// Comments of PLY files that say their frame.
 std::vector<std::string> ply_comments(MapFrame frame);
