@@ -56,14 +56,15 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
     deskew(result.cloud, odometry_.velocity());
     exclude_moving_points(result.cloud, frame.features);
-    OdometryEstimate estimate = odometry_.accept(hypotheses_.align(
+    return odometry_.accept(hypotheses_.align(
         odometry_, result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
-    return estimate;
   });
+  const bool is_checked = frames_to_check_ > 0;
   result.wants_relocalization = wants_relocalization(result);
   if (result.wants_relocalization) {
     result.odometry.status = Status::kLost;
   } else {
+    if (is_checked) result.odometry.status = Status::kRecovered;
     choose_keyframes(result);
   }
   result.dynamic_share = dynamic_share(result.cloud);

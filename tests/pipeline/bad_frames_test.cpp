@@ -40,11 +40,14 @@ TEST(BadFrames, RecoversAfterFiftyFramesWithoutDepth) {
     EXPECT_EQ(result.dynamic_share, 0.0);
   }
   EXPECT_EQ(system.static_map().size(), map_size);
-  for (std::size_t i = 5; i < 8; ++i) {
+  for (std::size_t i = 5; i < 12; ++i) {
     Frame frame = scene_frame(i);
     frame.stamp = frame.stamp + 50 * period;
     const FrameResult result = system.process(frame);
-    EXPECT_EQ(result.odometry.status, i == 5 ? Status::kRecovered : Status::kTracking);
+    // For five frames a recognized place could contradict the odometry.
+    EXPECT_EQ(result.odometry.status, i < 10    ? Status::kLost
+                                      : i == 10 ? Status::kRecovered
+                                                : Status::kTracking);
     const Eigen::Vector3d truth = scene().truth(static_cast<int>(i)).T_world_sensor.translation();
     EXPECT_LT((result.odometry.T_world_sensor.translation() - truth).norm(), 0.03);
   }

@@ -86,7 +86,7 @@ TEST(Run, MetricsHaveDocumentedKeys) {
   EXPECT_EQ(keys_of(metrics),
             (Keys{"version", "frames", "frames_skipped", "rate_hz", "time_per_frame_s", "stages_s",
                   "peak_memory_mb", "status", "dynamic_pct", "implausible_masks",
-                  "overruled_frames", "overruled_pct", "tracks", "trajectory", "drift"}));
+                  "overruled_frames", "overruled_pct", "tracks", "trajectory", "drift", "loops"}));
   EXPECT_EQ(metrics["frames"], kFrames);
   EXPECT_EQ(metrics["frames_skipped"], 0);
   expect_time_statistics(metrics["time_per_frame_s"]);

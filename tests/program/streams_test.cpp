@@ -1,6 +1,7 @@
 // Closed and full standard streams, and interrupted commands.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -47,12 +48,21 @@ TEST(Streams, ClosedErrorStreamDoesNotSpoilFiles) {
   EXPECT_EQ(status_of(folder, "run no_such_recording 2>&-"), 1);
 }
 
-/// Waits for a file, at most a minute.
+/// Whether the folder of `file` has one whose name begins as it.
+bool has_file(const fs::path& file) {
+  if (!fs::exists(file.parent_path())) return false;
+  const auto begins = [&](const fs::directory_entry& entry) {
+    return entry.path().filename().string().starts_with(file.filename().string());
+  };
+  return std::any_of(fs::directory_iterator(file.parent_path()), {}, begins);
+}
+
+/// Waits for a file whose name begins so, at most a minute.
 bool appears(const fs::path& file) {
-  for (int i = 0; i < 6000 && !fs::exists(file); ++i) {
+  for (int i = 0; i < 6000 && !has_file(file); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return fs::exists(file);
+  return has_file(file);
 }
 
 /// Outcome of a command that gets a signal after a file appeared.
@@ -74,7 +84,7 @@ TEST(Signals, InterruptedCommandsSaySo) {
       interrupted(folder, {"segment", "sim:still_walker", "-o", "found"}, "found/overlays");
   EXPECT_EQ(segment.exit_code, 130) << segment.err;
   const Outcome convert =
-      interrupted(folder, {"convert", "sim:still_walker", "-o", "x.bag"}, "x.bag.part");
+      interrupted(folder, {"convert", "sim:still_walker", "-o", "x.bag"}, "x.bag.tmp");
   EXPECT_EQ(convert.exit_code, 130) << convert.err;
   expect_in("of 300 frames are in x.partial.bag", convert.err);
   EXPECT_TRUE(fs::exists(folder.path() / "x.partial.bag"));
