@@ -20,12 +20,12 @@ namespace {
 /// choice; 3 cells are 0.75 m at a median range of 5 m, where rings of 16 are 0.17 m apart.
 constexpr double kCell = 1.25;
 
-/// [cells]: grid of the points that neighborhoods are made of, so that rings and near surfaces do
-/// not outweigh the rest. Source: a plane then has some 30 of them in a neighborhood.
+/// [-]: in cells, grid of the points that neighborhoods are made of, so that rings and near
+/// surfaces do not outweigh the rest. Source: a plane then has some 30 of them in a neighborhood.
 constexpr double kNeighborGrid = 0.5;
 
-/// [cells]: half the side of the cube of eq. (2) and of the plane fit. Source: a cell and the 26
-/// around it.
+/// [-]: in cells, half the side of the cube of eq. (2) and of the plane fit. Source: a cell and the
+/// 26 around it.
 constexpr double kNeighborRadius = 1.5;
 
 /// [-]: points of the smallest neighborhood. Source: twice the three that determine a plane.
@@ -46,11 +46,11 @@ constexpr double kMaxFlatness = 0.2;
 /// Source: half of a disc's 0.5; a single ring of a scan has only its noise, 0.04.
 constexpr double kMinWidth = 0.25;
 
-/// [sigmas]: largest thickness of a plane (standard deviation), by the noise of range.
+/// [-]: largest thickness of a plane (standard deviation), by the noise of range.
 /// Source: 95 % of the normal distribution; thicker ones are steps and creases.
 constexpr double kMaxThickness = 2.0;
 
-/// [sigmas]: largest distance of a feature from the plane of its neighborhood.
+/// [-]: largest distance of a feature from the plane of its neighborhood, by the noise of range.
 /// Source: three-sigma rule.
 constexpr double kMaxDistance = 3.0;
 
