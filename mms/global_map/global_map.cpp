@@ -12,8 +12,10 @@
 namespace mms {
 namespace {
 
-/// [-]: candidates of a keyframe by place recognition, and by position. Source: computing time.
+/// [-]: candidates of a keyframe by place recognition. Source: computing time.
 constexpr std::size_t kMaxRecognized = 3;
+
+/// [-]: candidates of a keyframe by position. Source: computing time.
 constexpr std::size_t kMaxNearby = 2;
 
 /// [-]: candidates of a lost frame. Source: computing time; a lost sensor has no better use of it.
@@ -23,17 +25,25 @@ constexpr std::size_t kMaxRelocalized = 5;
 /// place; in a warehouse, similar places had 1.5 and the right ones more than three.
 constexpr int kInlierFactor = 2;
 
-/// Largest motion between two lost frames: a part for the error of both poses, and one for the
-/// time between. Source: initial choice; a person who walks and turns with a camera.
-constexpr double kMaxStep = 0.1;                                 // [m]
-constexpr double kMaxSpeed = 2.0;                                // [m/s]
-constexpr double kMaxStepTurn = 5.0 * std::numbers::pi / 180.0;  // [rad]
-constexpr double kMaxTurnRate = std::numbers::pi;                // [rad/s]
+/// [m]: distance of the places of two lost frames that the errors of their poses explain.
+/// Source: initial choice.
+constexpr double kMaxStep = 0.1;
 
-/// Nearness of candidates by position: distance and angle between the views. Source: initial
-/// choice; views beyond share too little.
-constexpr double kNearby = 1.0;                         // [m]
-constexpr double kNearbyTurn = std::numbers::pi / 6.0;  // [rad]
+/// [rad]: the same of the angle. Source: initial choice, 5 degrees.
+constexpr double kMaxStepTurn = 5.0 * std::numbers::pi / 180.0;
+
+/// [m/s]: largest speed between two lost frames. Source: initial choice, a person who walks fast.
+constexpr double kMaxSpeed = 2.0;
+
+/// [rad/s]: largest turn rate between two lost frames. Source: initial choice, half a turn a
+/// second.
+constexpr double kMaxTurnRate = std::numbers::pi;
+
+/// [m]: distance of candidates by position. Source: initial choice; views beyond share too little.
+constexpr double kNearby = 1.0;
+
+/// [rad]: angle between the views of candidates by position. Source: as `kNearby`.
+constexpr double kNearbyTurn = std::numbers::pi / 6.0;
 
 /// [m]: largest standard deviation of a position by the odometry for candidates by position.
 /// Source: registration converges from three of them; structures that repeat are farther apart.
@@ -43,13 +53,16 @@ constexpr double kMaxNearbySigma = 0.15;
 /// the chi-square distribution with six degrees of freedom.
 constexpr double kMaxSquaredDeviation = 22.5;
 
-/// [keyframes]: two loops at most this many keyframes apart confirm each other if they agree.
+/// [-]: keyframes between two loops that confirm each other, at most. Source: one of them
+/// may be covered by people.
 constexpr std::size_t kConfirmation = 2;
 
-/// Largest difference of the poses that two loops give. Source: twice the noise floor of loops,
-/// and the odometry between them.
-constexpr double kMaxDifference = 0.05;                // [m]
-constexpr double kMaxTurn = std::numbers::pi / 180.0;  // [rad]
+/// [m]: largest distance of the positions that two loops give. Source: 95 % of the errors of loops
+/// are below 1 cm; along a corridor they are larger.
+constexpr double kMaxDifference = 0.05;
+
+/// [rad]: the same of the angle. Source: 95 % of the errors are below 0.1 degrees.
+constexpr double kMaxTurn = std::numbers::pi / 180.0;
 
 /// Whether a sensor can move from one pose to the other.
 bool agree(const StampedPose& before, const StampedPose& now) {

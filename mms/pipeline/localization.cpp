@@ -19,9 +19,11 @@ constexpr int kMinLostFrames = 3;
 /// a recognized place. Source: two must agree, and some are blurred or show nothing but people.
 constexpr int kCheckedFrames = 6;
 
-/// [m], [rad]: differences of the pose of a recognized place from that of the odometry up to which
-/// they agree. Source: errors of poses from keypoints, far below the distance of similar places.
+/// [m]: distance of a recognized place from the pose of the odometry up to which they agree.
+/// Source: errors of poses from keypoints, far below the distance of similar places.
 constexpr double kMaxDistance = 0.2;
+
+/// [rad]: the same of the angle. Source: as `kMaxDistance`.
 constexpr double kMaxTurn = 0.1;
 
 bool agree(const OdometryEstimate& odometry, const Relocalization& place) {

@@ -8,7 +8,7 @@ namespace {
 using testing::constant_faults;
 
 constexpr const char* kCheckedFolders[] = {"mms/localization", "mms/fusion", "mms/mapping",
-                                           "mms/pipeline"};
+                                           "mms/pipeline", "mms/global_map"};
 
 std::vector<std::string> faults_of(const std::string& source) {
   return constant_faults("a.cpp", source);

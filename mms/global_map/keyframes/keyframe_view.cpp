@@ -18,13 +18,15 @@ constexpr int kViewWidth = 80;
 /// of carving, since a view has a sixteenth of the pixels.
 constexpr double kMargin = 0.1;
 
-/// [mm]: largest depth of a view. Source: the type's range.
+/// [-]: largest depth of a view in mm. Source: the type's range.
 constexpr float kMaxDepth = 65535.0F;
 
-/// A point's pixel whose neighbors have nearly the same depth: FreeSpace takes the nearest of nine
-/// pixels, so that steep surfaces and boundaries seem to contradict.
+/// [-]: differences of depth of neighboring pixels, as a share of the depth, up to which they are
+/// compared. Source: a surface at 76 degrees, across two pixels of 80.
 constexpr float kMaxSlope = 0.1F;
 
+/// `FreeSpace` takes the nearest of nine pixels, so that steep surfaces and boundaries seem to
+/// contradict.
 bool is_smooth(const Image<std::uint16_t>& depth, int x, int y) {
   const auto center = static_cast<float>(depth(x, y));
   for (int dy = -1; dy <= 1; ++dy) {

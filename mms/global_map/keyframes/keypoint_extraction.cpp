@@ -22,10 +22,13 @@ constexpr std::size_t kMaxKeypoints = 500;
 /// spread. Source: three times as many leave enough in most cells.
 constexpr int kDetected = 1500;
 
-/// [-]: columns and rows of the cells over which keypoints are spread, and the most in each.
-/// Source: 48 cells; a third of them fills the image's share.
+/// [-]: columns of the cells over which keypoints are spread. Source: initial choice.
 constexpr int kColumns = 8;
+
+/// [-]: rows of these cells. Source: squares, with `kColumns`.
 constexpr int kRows = 6;
+
+/// [-]: keypoints in a cell, at most. Source: a third of the 48 cells has room for all.
 constexpr int kMaxInCell = 30;
 
 /// [px]: boundary of the image without keypoints. Source: ORB's patch of 31 px.

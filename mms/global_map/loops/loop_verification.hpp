@@ -46,7 +46,9 @@ enum class LoopOutcome : std::uint8_t {
   kUnconfirmed,    ///< no neighboring keyframe has a loop that agrees
   kInconsistent,   ///< the other edges of the pose graph exclude it
 };
-inline constexpr int kLoopOutcomes = 10;  ///< number of outcomes
+
+/// [-]: the number of them. Source: `LoopOutcome`.
+inline constexpr int kLoopOutcomes = 10;
 
 constexpr std::string_view to_string(LoopOutcome outcome) {
   constexpr std::array<std::string_view, kLoopOutcomes> kNames = {

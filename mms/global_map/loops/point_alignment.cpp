@@ -13,7 +13,7 @@ namespace {
 /// [-]: samples of three pairs. Source: finds three inliers among 20 % with a probability of 0.98.
 constexpr int kSamples = 500;
 
-/// [-]: standard deviations up to which a pair is an inlier.
+/// [-]: standard deviations up to which a pair is an inlier. Source: three-sigma rule.
 constexpr double kInlierSigmas = 3.0;
 
 /// [m]: least side of a sampled triangle. Source: shorter ones give no rotation with noise of 1 cm.
@@ -22,6 +22,7 @@ constexpr double kMinSide = 0.2;
 /// [-]: rounds of least squares. Source: the inliers are those of the transform after two.
 constexpr int kRounds = 3;
 
+/// [-]: pairs that agree, at least. Source: one more than three, which always have a transform.
 constexpr std::size_t kMinInliers = 4;
 
 using Indices = std::vector<std::size_t>;

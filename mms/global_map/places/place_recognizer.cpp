@@ -14,7 +14,7 @@ constexpr int kMaxDistance = 50;
 /// geometry decides later.
 constexpr double kMinScore = 10.0;
 
-/// [keyframes]: candidates this near to a better one show the same place. Source: about 1 m.
+/// [-]: keyframes to a better candidate up to which one shows the same place. Source: about 1 m.
 constexpr std::size_t kGroup = 4;
 
 }  // namespace
