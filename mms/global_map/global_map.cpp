@@ -119,10 +119,10 @@ void GlobalMap::add_node(const KeyframeRecord& record) {
   path_.push_back(path_.back() + length);
 }
 
-/// The first keyframe that the path since is too short for a loop to.
+/// The first keyframe that the path since is too short for a loop to; the new one at the latest.
 std::size_t GlobalMap::first_recent() const {
   const auto recent = std::upper_bound(path_.begin(), path_.end(), path_.back() - config_.min_path);
-  return static_cast<std::size_t>(recent - path_.begin());
+  return std::min(static_cast<std::size_t>(recent - path_.begin()), records_.size());
 }
 
 /// Earlier keyframes that look in nearly the same direction from nearly the same position.

@@ -73,7 +73,7 @@ class GlobalMap {
   /// All candidates that were checked, in order.
   const std::vector<Loop>& loops() const { return loops_; }
   const std::deque<KeyframeRecord>& records() const { return records_; }
-  /// Corrected poses, by keyframe; empty before the first keyframe.
+  /// Corrected poses, by keyframe; the identity before the first one.
   const std::vector<Eigen::Isometry3d>& poses() const { return graph_.poses(); }
 
  private:

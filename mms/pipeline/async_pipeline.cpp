@@ -170,7 +170,7 @@ class StageThreads {
   void close_all_loops() {
     while (std::optional<LoopTask> task = keyframes_.pop()) {
       if (task->answer) {
-        task->answer->set_value(system_.relocalize(task->keyframe));
+        answer(*task);
       } else {
         system_.close_loops(task->keyframe);
       }
@@ -202,6 +202,16 @@ class StageThreads {
   void rethrow() const { error_.rethrow(); }
 
  private:
+  /// The waiting thread gets an error, too.
+  void answer(LoopTask& task) {
+    try {
+      task.answer->set_value(system_.relocalize(task.keyframe));
+    } catch (...) {
+      task.answer->set_exception(std::current_exception());
+      throw;
+    }
+  }
+
   /// Waits until the keyframes before are in the global map, so that the answer depends on the
   /// frames alone.
   FrameResult relocate(const Frame& frame, FrameResult lost) {

@@ -162,6 +162,16 @@ TEST(LoopClosing, OtherPlacesThatLookAlikeCloseNoLoop) {
   EXPECT_TRUE(visit.map.correction().empty());
 }
 
+TEST(LoopClosing, WithoutLeastPathAKeyframeIsNoCandidateOfItself) {
+  GlobalMapConfig config;
+  config.min_path = 0.0;
+  const SystemConfig system;
+  GlobalMap map(config, system.features, system.odometry.registration);
+  for (const GlobalKeyframe& view : views()) map.add(view);
+  EXPECT_FALSE(map.loops().empty());
+  for (const Loop& loop : map.loops()) EXPECT_LT(loop.candidate, loop.query);
+}
+
 TEST(LoopClosing, EqualKeyframesGiveEqualPoses) {
   const Visit a = there_and_back(0.005);
   const Visit b = there_and_back(0.005);
