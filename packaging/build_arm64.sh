@@ -27,7 +27,7 @@ make_sysroot() {
   local packages
   packages="$(packages_of demo | grep -vE '^(g\+\+|cmake|ninja-build)$' | paste -sd,)"
   mmdebstrap --mode=root --variant=extract --architectures=arm64 \
-    --include="$packages,libgtest-dev,libceres-dev,libstb-dev,libblas-dev,liblapack-dev,libc6-dev" \
+    --include="$packages,libgtest-dev,libstb-dev,libblas-dev,liblapack-dev,libc6-dev" \
     bookworm "$sysroot" "$@"
   # Absolute links would lead to this machine's own libraries.
   find "$sysroot" -type l -lname '/*' -printf '%p %l\n' | while read -r link target; do

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mms/core/error.hpp"
+#include "mms/core/random_stream.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "tests/dataset/capture_file.hpp"
 #include "tests/dataset/recording.hpp"
@@ -399,6 +400,58 @@ TEST_F(Capture, WarnsOfTruncatedFile) {
   const Playback played(open_dataset(write(bytes.substr(0, bytes.size() - 700))));
   EXPECT_EQ(played.frames.size(), 3U);
   EXPECT_TRUE(any_has(played.warnings, "x.pcap: is damaged or truncated"));
+}
+
+/// Opens and plays a damaged capture: frames and an mms::Error are allowed, everything else is a
+/// failure.
+void expect_survives(const std::filesystem::path& capture) {
+  try {
+    const Playback played(open_dataset(capture));
+    for (const Frame& frame : played.frames) {
+      EXPECT_EQ(frame.scan.time_offset.size(), frame.scan.points.size());
+    }
+  } catch (const Error&) {
+  }
+}
+
+/// With some bytes changed, half of them among the first 200, or the end cut off.
+std::string damaged(std::string bytes, RandomStream& random) {
+  if (random.chance(0.2F)) return bytes.substr(0, random.below(bytes.size()));
+  for (int i = 0; i < 8; ++i) {
+    const std::size_t end =
+        random.chance(0.5F) ? std::min<std::size_t>(200, bytes.size()) : bytes.size();
+    bytes[random.below(end)] = static_cast<char>(random.chance(0.5F) ? 0xFF : random.bits());
+  }
+  return bytes;
+}
+
+TEST_F(Capture, DamagedCapturesOfVelodyneAreSurvived) {
+  const std::string whole = velodyne_capture(vlp16(), 1.5);
+  RandomStream random(1);
+  for (int i = 0; i < 300; ++i) expect_survives(write(damaged(whole, random)));
+}
+
+TEST_F(Capture, DamagedCapturesOfOusterAreSurvived) {
+  RandomStream random(2);
+  for (const OusterSpec& spec : kOusterSpecs) {
+    const std::string whole = ouster_capture(spec, 2, 0);
+    folder_.write("x.json", ouster_metadata(spec, true));
+    for (int i = 0; i < 100; ++i) expect_survives(write(damaged(whole, random)));
+  }
+}
+
+TEST_F(Capture, DamagedMetadataOfOusterIsSurvived) {
+  RandomStream random(3);
+  write(ouster_capture(kOusterSpecs[1], 2, 0));
+  const std::string whole = ouster_metadata(kOusterSpecs[1], false);
+  for (int i = 0; i < 300; ++i) {
+    std::string text = whole;
+    // Mostly digits, so that it stays JSON with other numbers.
+    for (int k = 0; k < 4; ++k)
+      text[random.below(text.size())] = "0123456789-.e\"[]{}"[random.below(18)];
+    folder_.write("x.json", text);
+    expect_survives(folder_.path() / "x.pcap");
+  }
 }
 
 }  // namespace

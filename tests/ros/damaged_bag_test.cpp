@@ -48,7 +48,7 @@ void read_all(const BagReader& bag, const std::string& topic) {
   }
 }
 
-/// Opens the recordings and reads all messages: messages and errors of ours are right, everything
+/// Opens the recordings and reads all messages. Messages and an mms::Error are allowed, everything
 /// else is a failure.
 class DamagedBags : public ::testing::TestWithParam<std::string> {
  protected:
