@@ -49,10 +49,6 @@ constexpr double kNearbyTurn = std::numbers::pi / 6.0;
 /// Source: registration converges from three of them; structures that repeat are farther apart.
 constexpr double kMaxNearbySigma = 0.15;
 
-/// [-]: squared deviation of a loop from the odometry above which it is excluded. Source: 99.9 % of
-/// the chi-square distribution with six degrees of freedom.
-constexpr double kMaxSquaredDeviation = 22.5;
-
 /// [-]: keyframes between two loops that confirm each other, at most. Source: one of them
 /// may be covered by people.
 constexpr std::size_t kConfirmation = 2;

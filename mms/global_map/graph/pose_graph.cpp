@@ -18,10 +18,6 @@ namespace {
 /// residual; a loop has six.
 constexpr double kRobustScale = 3.0;
 
-/// [-]: squared deviation of a loop above which it is wrong. Source: 99.9 % of the chi-square
-/// distribution with six degrees of freedom.
-constexpr double kMaxSquaredDeviation = 22.5;
-
 /// [-]: most iterations. Source: graphs of 1,000 nodes need less than 20.
 constexpr int kMaxIterations = 50;
 

@@ -17,6 +17,10 @@ struct PoseEdge {
   Matrix6d information = Matrix6d::Identity();
 };
 
+/// [-]: squared deviation (`squared_deviation`) above which a relative pose is excluded.
+/// Source: 99.9 % of the chi-square distribution with six degrees of freedom.
+inline constexpr double kMaxSquaredDeviation = 22.5;
+
 /// Poses of nodes that agree best with measured relative poses. Node 0 is fixed. Solved by Ceres in
 /// one thread, so that equal edges give equal poses.
 class PoseGraph {
@@ -33,8 +37,8 @@ class PoseGraph {
   /// Adds an edge between earlier nodes, with a robust cost. To be solved for.
   void add_loop(const PoseEdge& loop) { loops_.push_back(loop); }
 
-  /// Minimizes the squared deviations. A loop whose deviation stays above three sigma is removed,
-  /// and the graph is solved again.
+  /// Minimizes the squared deviations. A loop whose deviation stays above `kMaxSquaredDeviation` is
+  /// removed, and the graph is solved again.
   /// @returns the loops that were removed
   std::vector<PoseEdge> solve();
 

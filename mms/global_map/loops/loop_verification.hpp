@@ -68,7 +68,8 @@ struct Loop {
   double overlap = 0.0;        ///< the smaller one of both views
   double contradiction = 0.0;  ///< the larger one of both views
 
-  /// Standard deviation of the position in its least certain direction [m]; 0 before it is known.
+  /// Standard deviation of the position in its least certain direction [m], as if the rotation was
+  /// known; 0 before it is estimated.
   double sigma() const;
 };
 

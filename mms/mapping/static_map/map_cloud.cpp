@@ -3,6 +3,7 @@
 #include <tsl/robin_map.h>
 
 #include "mms/geometry/voxels/voxel_key.hpp"
+#include "mms/mapping/static_map/surface_voxels.hpp"
 
 namespace mms {
 namespace {
@@ -37,10 +38,8 @@ MapCloud merged(const MapCloud& map, double voxel_size) {
   for (const PointSum& sum : sums) {
     const auto weight = static_cast<float>(sum.observations);
     const float length = sum.normal.norm();
-    const Eigen::Vector3f color = sum.color / weight;
-    const auto channel = [](float value) { return static_cast<std::uint8_t>(value + 0.5F); };
     result.points.push_back(sum.point / weight);
-    result.colors.push_back({channel(color.x()), channel(color.y()), channel(color.z())});
+    result.colors.push_back(to_rgb(sum.color / weight));
     result.normals.push_back(length > 0.0F ? Eigen::Vector3f(sum.normal / length)
                                            : Eigen::Vector3f::Zero());
     result.observations.push_back(sum.observations);
