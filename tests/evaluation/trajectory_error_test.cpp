@@ -54,6 +54,15 @@ TEST(TrajectoryError, AteOfKnownOffsets) {
   EXPECT_NEAR(error.ate_max_m, 0.1, 1e-12);
 }
 
+TEST(TrajectoryError, WithoutAlignmentAnOffsetCounts) {
+  std::mt19937 random(3);
+  const Trajectory truth = test::random_walk(random, 50);
+  Eigen::Isometry3d offset = Eigen::Isometry3d::Identity();
+  offset.translation() = Eigen::Vector3d(0.3, 0.0, 0.4);
+  const auto error = evaluate_trajectory(truth, test::moved(truth, offset), {.align = false});
+  EXPECT_NEAR(error.ate_rmse_m, 0.5, 1e-9);
+}
+
 TEST(TrajectoryError, TooFewMatchesNameCountsAndStamps) {
   const Trajectory reference = test::along_x({0, 1, 2, 3});
   Trajectory estimate = reference;

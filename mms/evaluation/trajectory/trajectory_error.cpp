@@ -35,16 +35,17 @@ std::string stamp_range(const Trajectory& trajectory) {
   throw DataError("trajectory", what, "are both from the same recording and clock?");
 }
 
-/// Distances of matched positions after alignment [m].
+/// Distances of matched positions, after alignment if wanted [m].
 std::vector<double> absolute_errors(const Trajectory& reference, const Trajectory& estimate,
-                                    const std::vector<PoseMatch>& matches) {
+                                    const std::vector<PoseMatch>& matches, bool align) {
   std::vector<Eigen::Vector3d> source;
   std::vector<Eigen::Vector3d> target;
   for (const PoseMatch& pair : matches) {
     source.push_back(estimate[pair.estimate].T_world_sensor.translation());
     target.push_back(reference[pair.reference].T_world_sensor.translation());
   }
-  const Eigen::Isometry3d T_reference_estimate = align_points(source, target);
+  const Eigen::Isometry3d T_reference_estimate =
+      align ? align_points(source, target) : Eigen::Isometry3d::Identity();
   std::vector<double> errors;
   for (std::size_t i = 0; i < source.size(); ++i) {
     errors.push_back((target[i] - T_reference_estimate * source[i]).norm());
@@ -74,7 +75,7 @@ TrajectoryError evaluate_trajectory(const Trajectory& reference, const Trajector
                                     const TrajectoryErrorOptions& options) {
   const std::vector<PoseMatch> matches = match(reference, estimate, options);
   if (matches.size() < kMinMatches) throw_too_few(reference, estimate, options, matches.size());
-  const std::vector<double> errors = absolute_errors(reference, estimate, matches);
+  const std::vector<double> errors = absolute_errors(reference, estimate, matches, options.align);
   return {.matched = matches.size(),
           .poses = estimate.size(),
           .path_m = path_length(reference, matches),

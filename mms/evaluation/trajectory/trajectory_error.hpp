@@ -18,6 +18,7 @@ enum class Matching {
 struct TrajectoryErrorOptions {
   Matching matching = Matching::kByStamp;
   Duration max_difference{20'000'000};  ///< of matched stamps [ns], inclusive
+  bool align = true;  ///< false: both are in one frame, as of a localization in a known map
   /// Of the relative pose error; by default 1 s (TUM) by stamp and 10 m of path (KITTI) by index.
   std::optional<RelativeDelta> rpe_delta{};
 };
@@ -31,7 +32,7 @@ struct TrajectoryError {
   std::size_t poses = 0;    ///< poses of the estimate
   double path_m = 0.0;      ///< length of the reference through the matched poses [m]
   /// Absolute trajectory error (ATE): distances of matched positions after rigid alignment of the
-  /// estimate to the reference, without scale [m].
+  /// estimate to the reference, without scale, unless `align` is false [m].
   double ate_rmse_m = 0.0;
   double ate_mean_m = 0.0;
   double ate_median_m = 0.0;

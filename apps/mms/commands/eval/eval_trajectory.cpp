@@ -21,6 +21,7 @@ struct TrajectoryArguments {
   double max_difference = 0.02;  ///< [s]
   std::optional<double> rpe_delta;
   std::string rpe_unit = "s";
+  bool no_align = false;
   bool json = false;
 };
 
@@ -49,6 +50,7 @@ Matching matching_of(const TrajectoryArguments& arguments) {
 TrajectoryErrorOptions options_of(const TrajectoryArguments& arguments) {
   TrajectoryErrorOptions options;
   options.matching = matching_of(arguments);
+  options.align = !arguments.no_align;
   options.max_difference =
       std::chrono::round<Duration>(std::chrono::duration<double>(arguments.max_difference));
   if (arguments.rpe_delta) {
@@ -66,9 +68,9 @@ void evaluate(const TrajectoryArguments& arguments) {
     const std::string how = options.matching == Matching::kByIndex
                                 ? "frame by frame"
                                 : fmt::format("within {} s", arguments.max_difference);
-    fmt::print("matched {} of {} poses {}, SE(3) aligned; RPE over {} pairs {} {} apart\n",
-               error.matched, error.poses, how, error.rpe.pairs, delta.value,
-               unit_name(delta.unit));
+    fmt::print("matched {} of {} poses {}, {}; RPE over {} pairs {} {} apart\n", error.matched,
+               error.poses, how, options.align ? "SE(3) aligned" : "not aligned", error.rpe.pairs,
+               delta.value, unit_name(delta.unit));
   }
   print_metrics(metric_values(error), arguments.json);
 }
@@ -89,6 +91,8 @@ void add_options(CLI::App& command, TrajectoryArguments& arguments) {
   command.add_option("--rpe-unit", arguments.rpe_unit, "unit of --rpe-delta")
       ->check(CLI::IsMember({"s", "m", "frames"}))
       ->needs(delta);
+  command.add_flag("--no-align", arguments.no_align,
+                   "compare in the frame of REFERENCE, as of a localization in a known map");
 }
 
 }  // namespace
