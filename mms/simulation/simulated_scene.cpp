@@ -73,13 +73,22 @@ struct SimulatedScene::Impl {
         trajectory(config, stage.building(), seconds),
         table(ray_table(sensor.color.intrinsics)),
         calibration(calibration_of(sensor)),
-        T_world_building(T_building_sensor(0.0).inverse()) {}
+        T_world_building(first_pose().inverse()) {}
 
   Stage make_stage() const {
     Building building = build(config);
     const CameraMotion way(config, building, seconds);
     std::vector<Actor> actors = cast_actors(config, building, way.robot(), seconds);
     return Stage(std::move(building), std::move(actors));
+  }
+
+  /// The world is the first sensor frame of day 0.
+  Eigen::Isometry3d first_pose() const {
+    SceneConfig first_day = config;
+    first_day.day = 0;
+    const CameraMotion way(first_day, stage.building(), seconds);
+    const Eigen::Isometry3d T = way.T_building_camera(0.0);
+    return sensor.lidar ? T * sensor.T_camera_lidar : T;
   }
 
   double seconds_at(int index) const { return index / sensor.hz; }
@@ -157,8 +166,7 @@ Timestamp SimulatedScene::stamp(int index) const {
 SimulatedFrame SimulatedScene::render(int index) {
   Impl& scene = *impl_;
   const double at = scene.seconds_at(index);
-  const std::uint64_t key =
-      hash_of(static_cast<std::uint64_t>(scene.config.seed), static_cast<std::uint64_t>(index));
+  const std::uint64_t key = daily_seed(scene.config, static_cast<std::uint64_t>(index));
   SimulatedFrame result;
   Frame& frame = result.frame;
   frame.index = index;

@@ -133,8 +133,9 @@ Building build_hall(const SceneConfig& config, RandomStream& random) {
   Building hall;
   const Material wall = one_colored(Pattern::kPlaster, {0.74F, 0.75F, 0.72F}, 0.35F, 1);
   add_shell(hall.mesh, kHalfX, kHalfY, kHeight, wall, random);
+  RandomStream today(daily_seed(config, 0x60d5));
   for (const float y : {-2.75F, -1.65F, 1.65F, 2.75F}) {
-    add_rack(hall.mesh, at(0.0F, y, 0.0F), 5, 3, false, random);
+    add_rack(hall.mesh, at(0.0F, y, 0.0F), 5, 3, false, random, config.day > 0 ? &today : nullptr);
   }
   for (const Side& side : sides_of(kHalfX, kHalfY)) {
     furnish_wall(hall.mesh, side, clutter, true, random);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mms/core/error.hpp"
+#include "mms/core/hash_noise.hpp"
 #include "mms/simulation/sensors/sensor_preset.hpp"
 
 namespace mms {
@@ -11,9 +12,9 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kLayouts = {"hall", "corridor", "aisle"};
 constexpr std::array<std::string_view, 4> kTrajectories = {"still", "loop", "along", "shaken"};
-constexpr std::array<std::string_view, 8> kScenes = {"warehouse_loop", "still_walker", "crowd",
-                                                     "stop_and_go",    "corridor",     "static",
-                                                     "fast",           "rack_aisle"};
+constexpr std::array<std::string_view, 9> kScenes = {
+    "warehouse_loop", "still_walker", "crowd",      "stop_and_go", "corridor",
+    "static",         "fast",         "rack_aisle", "second_day"};
 
 SceneConfig nobody(SceneConfig config) {
   config.crossing = config.leading = config.oncoming = config.working = config.agvs = 0;
@@ -102,14 +103,24 @@ SceneConfig rack_aisle() {
   return config;
 }
 
+SceneConfig second_day() {
+  SceneConfig config = warehouse_loop();
+  config.day = 1;
+  return config;
+}
+
 constexpr std::array<SceneConfig (*)(), kScenes.size()> kMakers = {
-    warehouse_loop, still_walker, crowd, stop_and_go, corridor, empty_hall, fast, rack_aisle};
+    warehouse_loop, still_walker, crowd,      stop_and_go, corridor,
+    empty_hall,     fast,         rack_aisle, second_day};
 
 }  // namespace
 
 void SceneConfig::visit(ConfigVisitor& v) {
   v.integer({"seed", "", "of building, stock, people, their paths and the noise"}, seed,
             {0.0, 1e9});
+  v.integer({"day", "",
+             "other days have other people and goods in the same building, and start elsewhere"},
+            day, {0.0, 1e6});
   v.number({"duration", "s", "duration of the recording"}, duration, {0.1, 1e5});
   v.integer({"frames", "", "number of played frames; 0: all"}, frames, {0.0, 1e6});
   v.number({"hz", "1/s", "frame rate; 0: that of the sensor"}, hz, {0.0, 1000.0});
@@ -139,6 +150,11 @@ void SceneConfig::visit(ConfigVisitor& v) {
            {0.0, 0.9});
   v.number({"pause", "s", "mean length of a pause"}, pause, {0.5, 60.0});
   v.group({"mask_errors", "", "errors of the masks"}, mask_errors);
+}
+
+std::uint64_t daily_seed(const SceneConfig& config, std::uint64_t purpose) {
+  const std::uint64_t seed = hash_of(static_cast<std::uint64_t>(config.seed), purpose);
+  return config.day == 0 ? seed : hash_of(seed, static_cast<std::uint64_t>(config.day));
 }
 
 std::span<const std::string_view> scene_names() {

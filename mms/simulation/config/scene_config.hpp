@@ -27,6 +27,7 @@ enum class CameraTrajectory : std::uint8_t {
 struct SceneConfig {
   std::string name = "warehouse_loop";
   int seed = 1;
+  int day = 0;  ///< other days have other people and goods in the same building, in one world frame
   double duration = 64.0;  ///< length of all trajectories [s]
   int frames = 0;          ///< number of played frames; 0: all
   double hz = 0.0;         ///< frame rate [Hz]; 0: that of the sensor
@@ -53,6 +54,10 @@ struct SceneConfig {
 
   void visit(ConfigVisitor& v);
 };
+
+/// Seed of what differs from day to day.
+/// @param purpose  of the random numbers
+std::uint64_t daily_seed(const SceneConfig& config, std::uint64_t purpose);
 
 /// Names of the built-in scenes; the first is the default.
 std::span<const std::string_view> scene_names();

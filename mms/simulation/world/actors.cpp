@@ -82,7 +82,7 @@ class Casting {
         robot_(robot),
         seconds_(seconds),
         lane_(building, robot),
-        random_(hash_of(static_cast<std::uint64_t>(config.seed), 0xac7)) {}
+        random_(daily_seed(config, 0xac7)) {}
 
   std::vector<Actor> all() {
     for (int i = 0; i < config_.leading; ++i) add_person([&] { return leading(3.2 + 1.2 * i); });

@@ -31,6 +31,8 @@ Motion robot_motion(const SceneConfig& config, const Building& building, double 
   route.acceleration = 0.5;
   route.look_ahead = 0.9;
   if (config.trajectory == CameraTrajectory::kAlong && building.lane_closed) route.start = 2.0;
+  constexpr double kDailyStart = 2.0;  // [m]
+  if (config.trajectory == CameraTrajectory::kLoop) route.start = kDailyStart * config.day;
   return drive(route, seconds);
 }
 
@@ -54,7 +56,7 @@ CameraMotion::CameraMotion(const SceneConfig& config, const Building& building, 
       still_(config.trajectory == CameraTrajectory::kStill),
       swing_amplitude_(config.trajectory == CameraTrajectory::kShaken ? 0.55 : 0.12),
       swing_rate_(config.trajectory == CameraTrajectory::kShaken ? 2.4 : 0.5),
-      seed_(hash_of(static_cast<std::uint64_t>(config.seed), 0xca3)) {}
+      seed_(daily_seed(config, 0xca3)) {}
 
 double CameraMotion::swing(double seconds) const {
   return swing_amplitude_ * std::sin(swing_rate_ * seconds);
