@@ -9,6 +9,7 @@
 #include "mms/core/trajectory.hpp"
 #include "mms/geometry/sensor_noise.hpp"
 #include "mms/global_map/graph/pose_graph.hpp"
+#include "mms/global_map/graph/session_groups.hpp"
 #include "mms/global_map/keyframes/keyframe_record.hpp"
 #include "mms/global_map/loops/loop_verification.hpp"
 #include "mms/global_map/places/place_recognizer.hpp"
@@ -43,6 +44,23 @@ struct GlobalKeyframe {
   bool after_lost = false;  ///< whether the sensor was lost since the keyframe before
 };
 
+/// Content of a global map, for map files. Sessions are numbered from 0 in the order of the
+/// records.
+struct GlobalMapContent {
+  std::deque<KeyframeRecord> records;
+  std::vector<Eigen::Isometry3d> poses;  ///< corrected, by record
+  std::vector<Loop> loops;               ///< all that were checked, in order
+};
+
+/// Correction of a session by the loops of a map, see `GlobalMap::correction`.
+/// @param poses  by record
+PoseCorrection session_correction(const std::deque<KeyframeRecord>& records,
+                                  const std::vector<Eigen::Isometry3d>& poses,
+                                  const std::vector<Loop>& loops, std::uint32_t session);
+
+/// Whether later keyframes may correct an earlier map.
+enum class MapUse { kExtend, kLocalizeOnly };
+
 /// Pose of a lost frame at a place of the global map.
 struct Relocalization {
   Transform<World, Sensor> T_world_sensor;   ///< in the frame of the odometry
@@ -58,17 +76,35 @@ class GlobalMap {
   GlobalMap(const GlobalMapConfig& config, const FeatureConfig& features,
             const RegistrationConfig& registration);
 
+  /// Takes an earlier map before the first keyframe. The keyframes that follow are a new session:
+  /// the first loops to earlier ones give its place.
+  void restore(GlobalMapContent content, MapUse use);
+
   /// Adds the next keyframe and checks loops to earlier ones.
   /// @returns the loops accepted with it
   std::vector<Loop> add(const GlobalKeyframe& keyframe);
+
+  /// The same with a record, as those of another map; its session is that of the last one, or the
+  /// next.
+  std::vector<Loop> add(KeyframeRecord record);
+
+  /// Brings the poses up to date with all loops. After the last keyframe.
+  void finish();
 
   /// Recognizes the place of a frame whose pose is lost. Two frames in a row must agree.
   /// @param frame  its pose is not used
   /// @returns nothing if the place is not recognized for sure
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
 
-  /// Correction by all loops so far; empty without any.
-  PoseCorrection correction() const;
+  /// Correction of the present session by all loops so far; empty without any.
+  PoseCorrection correction() const { return correction(session_); }
+  PoseCorrection correction(std::uint32_t session) const;
+
+  /// Whether loops join a session to the first one, whose world is the frame of the map.
+  bool is_joined(std::uint32_t session) const;
+
+  /// Number of the session of the keyframes that are added.
+  std::uint32_t session() const { return session_; }
 
   /// All candidates that were checked, in order.
   const std::vector<Loop>& loops() const { return loops_; }
@@ -79,11 +115,16 @@ class GlobalMap {
  private:
   KeyframeRecord record_of(const GlobalKeyframe& keyframe) const;
   void add_node(const KeyframeRecord& record);
+  void join(const Loop& loop);
+  std::vector<Eigen::Isometry3d> poses_in_world() const;
+  std::optional<Matrix6d> relative_covariance(std::size_t earlier, std::size_t later) const;
+  bool may_match(std::size_t candidate) const;
   std::size_t first_recent() const;
   std::vector<std::size_t> nearby(std::size_t end) const;
   std::vector<Loop> find_loop(const KeyframeRecord& record);
   bool is_likely(const Loop& loop) const;
   std::vector<Loop> confirm();
+  void solve_if_needed(const std::vector<Loop>& accepted);
   void solve();
 
   GlobalMapConfig config_;
@@ -94,6 +135,10 @@ class GlobalMap {
   std::deque<KeyframeRecord> records_;
   std::vector<double> path_;  ///< length of the path up to each keyframe [m]
   PoseGraph graph_;
+  std::uint32_t session_ = 0;
+  SessionGroups sessions_;    // up to that of the last record
+  std::size_t fixed_ = 0;     // first keyframes that are not corrected
+  std::size_t unsolved_ = 0;  // loops since the pose graph was solved
   std::vector<Loop> loops_;
   std::vector<std::size_t> pending_;       ///< indices of recent loops that wait for confirmation
   std::optional<StampedPose> recognized_;  ///< of the last lost frame, not yet confirmed

@@ -1,6 +1,7 @@
 #include "mms/pipeline/localization.hpp"
 
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 #include "mms/geometry/se3.hpp"
@@ -25,6 +26,13 @@ constexpr double kMaxDistance = 0.2;
 
 /// [rad]: the same of the angle. Source: as `kMaxDistance`.
 constexpr double kMaxTurn = 0.1;
+
+/// [s]: first part of a run in which the place in an earlier map is searched for at short
+/// intervals. Source: initial choice; people may cover the view for some seconds.
+constexpr Duration kSearchTime = std::chrono::seconds(5);
+
+/// [s]: these intervals. Source: two views must agree, and within 1 s of the start some may fail.
+constexpr Duration kSearchInterval = std::chrono::milliseconds(200);
 
 bool agree(const OdometryEstimate& odometry, const Relocalization& place) {
   const Eigen::Isometry3d difference =
@@ -111,10 +119,21 @@ void Localization::choose_keyframes(FrameResult& result) {
     hypotheses_.remember(result.cloud, odometry.T_world_sensor);
   }
   if (!closes_loops_ || !result.cloud.organised()) return;
-  result.global_keyframe = global_keyframes_.is_keyframe(result.odometry);
+  result.global_keyframe =
+      global_keyframes_.is_keyframe(result.odometry) || is_search_keyframe(result.odometry);
   if (result.global_keyframe) {
     result.after_lost = std::exchange(lost_since_global_keyframe_, false);
   }
+}
+
+/// A sensor that stands still where the map begins has no keyframes by distance.
+bool Localization::is_search_keyframe(const OdometryEstimate& odometry) {
+  if (!searches_place_ || odometry.status == Status::kLost) return false;
+  if (!search_begin_) search_begin_ = last_search_ = odometry.stamp;
+  if (odometry.stamp - *search_begin_ > kSearchTime) searches_place_ = false;
+  if (odometry.stamp - last_search_ < kSearchInterval) return false;
+  last_search_ = odometry.stamp;
+  return true;
 }
 
 void Localization::exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const {

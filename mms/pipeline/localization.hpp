@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "mms/core/thread_confinement.hpp"
+#include "mms/core/time.hpp"
 #include "mms/global_map/global_map.hpp"
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
@@ -27,12 +30,17 @@ class Localization {
   /// @param lost  result of `localize` for that frame
   FrameResult relocate(FrameResult lost, const Relocalization& place);
 
+  /// Takes more keyframes for the global map in the first seconds, since an earlier map was given
+  /// in which the place is to be recognized.
+  void search_place() { searches_place_ = true; }
+
   void release_thread() { thread_.release(); }  ///< lets another thread call
 
  private:
   void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
   bool wants_relocalization(const FrameResult& result);
   void choose_keyframes(FrameResult& result);
+  bool is_search_keyframe(const OdometryEstimate& odometry);
 
   Odometry odometry_;
   MotionSegmentation motion_segmentation_;
@@ -41,6 +49,9 @@ class Localization {
   KeyframeSelector global_keyframes_;
   bool closes_loops_;
   bool lost_since_global_keyframe_ = false;
+  bool searches_place_ = false;
+  std::optional<Timestamp> search_begin_;
+  Timestamp last_search_;
   int lost_frames_ = 0;      // in a row
   int frames_to_check_ = 0;  // after a loss
   ThreadConfinement thread_;

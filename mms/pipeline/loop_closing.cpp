@@ -18,6 +18,11 @@ std::optional<Relocalization> LoopClosing::relocalize(const GlobalKeyframe& fram
   return global_map_.relocalize(frame);
 }
 
+void LoopClosing::finish() {
+  assert(thread_.is_owner());
+  global_map_.finish();
+}
+
 const GlobalMap& LoopClosing::global_map() const {
   assert(thread_.is_owner());
   return global_map_;

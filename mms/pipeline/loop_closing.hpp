@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "mms/core/thread_confinement.hpp"
 #include "mms/global_map/global_map.hpp"
@@ -20,6 +21,14 @@ class LoopClosing {
 
   /// Recognizes the place of a lost frame, see `GlobalMap`. In the same thread.
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
+
+  /// Takes an earlier map before the first keyframe, see `GlobalMap`.
+  void restore(GlobalMapContent content, MapUse use) {
+    global_map_.restore(std::move(content), use);
+  }
+
+  /// Brings the global map up to date after the last keyframe.
+  void finish();
 
   const GlobalMap& global_map() const;
 

@@ -27,6 +27,12 @@ class SlamSystem {
         loop_closing_(config),
         mapping_(config) {}
 
+  /// Takes an earlier map before the first frame; the place of the sensor in it is recognized.
+  void restore(GlobalMapContent map, MapUse use) {
+    loop_closing_.restore(std::move(map), use);
+    localization_.search_place();
+  }
+
   /// Localizes a frame and integrates it into the maps. Frames come in the order of their stamps.
   /// @throws DataError when the frame's images and calibration disagree in size
   FrameResult process(const Frame& frame) {
@@ -56,8 +62,11 @@ class SlamSystem {
   }
   FrameResult map(FrameResult localized) { return mapping_.map(std::move(localized)); }
 
-  /// Completes the static map after the last frame; see `Mapping::finalize`.
-  std::optional<MapChanges> finalize() { return mapping_.finalize(); }
+  /// Completes the maps after the last frame; see `Mapping::finalize`.
+  std::optional<MapChanges> finalize() {
+    loop_closing_.finish();
+    return mapping_.finalize();
+  }
 
   /// Lets other threads call the steps; to be called while none of them runs.
   void release_threads() {

@@ -14,41 +14,10 @@
 #include "mms/pipeline/perception.hpp"
 #include "mms/segmentation/segmenters/mask_segmenter.hpp"
 #include "mms/simulation/simulated_scene.hpp"
+#include "tests/pipeline/aisle_views.hpp"
 
 namespace mms {
 namespace {
-
-/// An aisle with people, seen at 2 Hz.
-SceneConfig aisle(int seed) {
-  SceneConfig config = scene_config("rack_aisle");
-  config.width = 320;
-  config.hz = 2.0;
-  config.seed = seed;
-  return config;
-}
-
-constexpr int kSteps = 20;  // frames from one end of the path to the other
-
-/// Perceived frames, with the true masks.
-std::vector<GlobalKeyframe> views_of(int seed) {
-  SimulatedScene scene(aisle(seed));
-  SystemConfig config;
-  config.fusion.stride = 1;  // the images are half the usual size
-  Perception perception(config, std::make_unique<MaskSegmenter>());
-  std::vector<GlobalKeyframe> views;
-  for (int i = 0; i < kSteps; ++i) {
-    const SimulatedFrame simulated = scene.render(i);
-    const PerceivedFrame perceived =
-        perception.perceive(simulated.frame, perception.segment(simulated.frame));
-    views.push_back({simulated.frame.color, perceived.cloud, scene.truth(i).T_world_sensor, false});
-  }
-  return views;
-}
-
-const std::vector<GlobalKeyframe>& views() {
-  static const std::vector<GlobalKeyframe> kViews = views_of(1);
-  return kViews;
-}
 
 GlobalMap make_map() {
   GlobalMapConfig config;
@@ -92,6 +61,7 @@ Visit there_and_back(double drift) {
     offset.translation().x() += drift;
     visit.add(views()[static_cast<std::size_t>(i)], offset);
   }
+  visit.map.finish();
   return visit;
 }
 

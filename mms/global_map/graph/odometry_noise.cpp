@@ -28,6 +28,12 @@ constexpr double kLostTranslation = 3.0;
 /// [rad]: the same of a rotation. Source: initial choice, 60 degrees.
 constexpr double kLostRotation = std::numbers::pi / 3.0;
 
+/// [m]: standard deviation of a translation between worlds. Source: larger than any map.
+constexpr double kUnknownTranslation = 1e5;
+
+/// [rad]: the same of a rotation. Source: larger than any turn.
+constexpr double kUnknownRotation = 1e3;
+
 }  // namespace
 
 Matrix6d odometry_information(const Eigen::Isometry3d& motion, bool after_lost) {
@@ -40,6 +46,13 @@ Matrix6d odometry_information(const Eigen::Isometry3d& motion, bool after_lost) 
   Vector6d information;
   information.head<3>().setConstant(1.0 / (translation * translation));
   information.tail<3>().setConstant(1.0 / (rotation * rotation));
+  return information.asDiagonal();
+}
+
+Matrix6d unknown_motion_information() {
+  Vector6d information;
+  information.head<3>().setConstant(1.0 / (kUnknownTranslation * kUnknownTranslation));
+  information.tail<3>().setConstant(1.0 / (kUnknownRotation * kUnknownRotation));
   return information.asDiagonal();
 }
 

@@ -12,4 +12,8 @@ namespace mms {
 /// @param after_lost  whether the sensor was lost in between, so that the motion is a guess
 Matrix6d odometry_information(const Eigen::Isometry3d& motion, bool after_lost);
 
+/// Information of the motion from the last keyframe of a session to the first one of the next: so
+/// little that it only keeps the pose graph solvable.
+Matrix6d unknown_motion_information();
+
 }  // namespace mms

@@ -86,6 +86,10 @@ void PoseGraph::add_node(const Eigen::Isometry3d& motion, const Matrix6d& inform
   edges_.push_back({last, last + 1, motion, information});
 }
 
+void PoseGraph::move(std::size_t first, std::size_t end, const Eigen::Isometry3d& T) {
+  for (std::size_t i = first; i < end; ++i) poses_[i] = T * poses_[i];
+}
+
 Matrix6d PoseGraph::chain_covariance(std::size_t first, std::size_t last) const {
   Matrix6d covariance = Matrix6d::Zero();
   for (std::size_t i = first; i < last; ++i) {
@@ -122,20 +126,23 @@ void PoseGraph::minimize() {
   }
   ceres::Problem problem;
   ceres::EigenQuaternionManifold* manifold = new ceres::EigenQuaternionManifold;
-  const auto add = [&](const PoseEdge& edge, ceres::LossFunction* loss) {
+  const auto add = [&](const PoseEdge& edge, auto make_loss) {
+    if (edge.a < fixed_ && edge.b < fixed_) return;
     PoseState& a = states[edge.a];
     PoseState& b = states[edge.b];
-    problem.AddResidualBlock(cost_of(edge), loss, a.rotation.coeffs().data(), a.position.data(),
-                             b.rotation.coeffs().data(), b.position.data());
+    problem.AddResidualBlock(cost_of(edge), make_loss(), a.rotation.coeffs().data(),
+                             a.position.data(), b.rotation.coeffs().data(), b.position.data());
   };
   for (PoseState& state : states) {
     problem.AddParameterBlock(state.rotation.coeffs().data(), 4, manifold);
     problem.AddParameterBlock(state.position.data(), 3);
   }
-  for (const PoseEdge& edge : edges_) add(edge, nullptr);
-  for (const PoseEdge& loop : loops_) add(loop, new ceres::HuberLoss(kRobustScale));
-  problem.SetParameterBlockConstant(states.front().rotation.coeffs().data());
-  problem.SetParameterBlockConstant(states.front().position.data());
+  for (const PoseEdge& edge : edges_) add(edge, [] { return nullptr; });
+  for (const PoseEdge& loop : loops_) add(loop, [] { return new ceres::HuberLoss(kRobustScale); });
+  for (std::size_t i = 0; i < std::min(fixed_, states.size()); ++i) {
+    problem.SetParameterBlockConstant(states[i].rotation.coeffs().data());
+    problem.SetParameterBlockConstant(states[i].position.data());
+  }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
@@ -144,7 +151,7 @@ void PoseGraph::minimize() {
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  for (std::size_t i = 0; i < poses_.size(); ++i) poses_[i] = pose_of(states[i]);
+  for (std::size_t i = fixed_; i < poses_.size(); ++i) poses_[i] = pose_of(states[i]);
 }
 
 }  // namespace mms

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "mms/geometry/se3.hpp"
@@ -34,6 +35,18 @@ class PoseGraph {
   /// @param information  of `motion`, as that of `PoseEdge`
   void add_node(const Eigen::Isometry3d& motion, const Matrix6d& information);
 
+  /// Moves nodes whose place relative to the others was unknown.
+  /// @param first, end  of the nodes
+  /// @param T           new frame of their poses from the old one
+  void move(std::size_t first, std::size_t end, const Eigen::Isometry3d& T);
+
+  /// Keeps the poses of the first nodes.
+  void fix(std::size_t end) { fixed_ = end; }
+
+  /// Sets all poses, as a solution of the same edges.
+  /// @param poses  by node
+  void set_poses(std::vector<Eigen::Isometry3d> poses) { poses_ = std::move(poses); }
+
   /// Adds an edge between earlier nodes, with a robust cost. To be solved for.
   void add_loop(const PoseEdge& loop) { loops_.push_back(loop); }
 
@@ -56,6 +69,7 @@ class PoseGraph {
   std::vector<Eigen::Isometry3d> poses_;
   std::vector<PoseEdge> edges_;
   std::vector<PoseEdge> loops_;
+  std::size_t fixed_ = 1;  ///< first nodes that do not move
 };
 
 /// Squared Mahalanobis distance of a relative pose from an edge's, in six degrees of freedom.

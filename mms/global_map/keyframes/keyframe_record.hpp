@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "mms/core/odometry_estimate.hpp"
@@ -25,11 +26,15 @@ struct ImageKeypoints {
 /// What the global map keeps of a keyframe. Only static points are in it.
 struct KeyframeRecord {
   Timestamp stamp;                          ///< of the frame
+  std::uint32_t session = 0;                ///< number of its run; each run has a world of its own
   Transform<World, Sensor> T_world_sensor;  ///< by odometry
   bool after_lost = false;                  ///< whether the sensor was lost since the record before
   ImageKeypoints keypoints;                 ///< for place recognition
   FeatureCloud features;                    ///< edges and planes, for registration
   KeyframeView view;                        ///< small depth image
+
+  /// Whether nothing but its pose was kept.
+  bool is_pose_only() const { return features.edges.empty() && features.planes.empty(); }
 };
 
 }  // namespace mms

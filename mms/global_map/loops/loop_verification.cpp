@@ -80,10 +80,16 @@ Matrix6d with_floor(const Matrix6d& information) {
 
 }  // namespace
 
-std::pair<std::size_t, std::size_t> neighbors(std::size_t keyframe, std::size_t count) {
+std::pair<std::size_t, std::size_t> neighbors(const std::deque<KeyframeRecord>& records,
+                                              std::size_t keyframe) {
   // About 1 m on each side, so that the local map exceeds the view.
   constexpr std::size_t kNeighbors = 3;
-  return {keyframe - std::min(keyframe, kNeighbors), std::min(keyframe + kNeighbors + 1, count)};
+  std::size_t first = keyframe - std::min(keyframe, kNeighbors);
+  std::size_t end = std::min(keyframe + kNeighbors + 1, records.size());
+  const std::uint32_t session = records[keyframe].session;
+  while (records[first].session != session) ++first;
+  while (records[end - 1].session != session) --end;
+  return {first, end};
 }
 
 double Loop::sigma() const {
@@ -168,7 +174,7 @@ bool LoopVerifier::register_features(const std::deque<KeyframeRecord>& records,
   const FeatureCloud& features = query.features;
   LocalMaps maps(automatic_voxel_size(median_range(features)), kMaxVoxels);
   const Eigen::Isometry3d T_candidate_world = poses[loop.candidate].inverse();
-  const auto [first, end] = neighbors(loop.candidate, records.size());
+  const auto [first, end] = neighbors(records, loop.candidate);
   for (std::size_t i = first; i < end; ++i) {
     maps.insert(records[i].features, T_candidate_world * poses[i],
                 registration_.geometric.association);

@@ -73,9 +73,10 @@ struct Loop {
   double sigma() const;
 };
 
-/// First and end of the keyframes around one, whose features are the local map of its place.
-/// @param count  of all keyframes
-std::pair<std::size_t, std::size_t> neighbors(std::size_t keyframe, std::size_t count);
+/// First and end of the keyframes around one in its session, whose features are the local map of
+/// its place.
+std::pair<std::size_t, std::size_t> neighbors(const std::deque<KeyframeRecord>& records,
+                                              std::size_t keyframe);
 
 /// Checks whether two keyframes show the same place, by their static points alone.
 class LoopVerifier {

@@ -47,4 +47,17 @@ MapCloud merged(const MapCloud& map, double voxel_size) {
   return result;
 }
 
+MapCloud moved(MapCloud map, const std::vector<Timestamp>& stamps,
+               const StampCorrection& correction) {
+  tsl::robin_map<std::int64_t, Eigen::Isometry3f> corrections;  // by stamp [ns]
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const auto [known, is_new] = corrections.try_emplace(stamps[i].nanoseconds());
+    if (is_new) known.value() = correction(stamps[i]).cast<float>();
+    const Eigen::Isometry3f& T = known.value();
+    map.points[i] = T * map.points[i];
+    map.normals[i] = T.linear() * map.normals[i];
+  }
+  return map;
+}
+
 }  // namespace mms

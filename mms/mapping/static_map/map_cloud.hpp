@@ -1,9 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <functional>
 #include <vector>
 
 #include "mms/core/image.hpp"
+#include "mms/core/time.hpp"
 
 namespace mms {
 
@@ -21,5 +23,13 @@ struct MapCloud {
 /// point of each voxel.
 /// @param voxel_size  side of a voxel [m]
 MapCloud merged(const MapCloud& map, double voxel_size);
+
+/// Transform from the world frame to a corrected one, of what was measured at a stamp.
+using StampCorrection = std::function<Eigen::Isometry3d(Timestamp)>;
+
+/// The map with every point moved by the correction of its stamp.
+/// @param stamps  of the last frames that measured the points
+MapCloud moved(MapCloud map, const std::vector<Timestamp>& stamps,
+               const StampCorrection& correction);
 
 }  // namespace mms

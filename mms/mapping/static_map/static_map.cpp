@@ -226,20 +226,20 @@ MapCloud StaticMap::cloud_with_normals() const {
   return cloud;
 }
 
-MapCloud StaticMap::cloud(const StampCorrection& correction) const {
-  tsl::robin_map<std::uint32_t, Eigen::Isometry3f> corrections;  // by frame number
+std::vector<Timestamp> StaticMap::stamps() const {
+  tsl::robin_map<std::uint32_t, Timestamp> stamp_of;  // by frame number
   for (const FrameViewpoints::Entry& entry : viewpoints_.entries()) {
-    corrections.emplace(entry.frame, correction(entry.stamp).cast<float>());
+    stamp_of.emplace(entry.frame, entry.stamp);
   }
-  MapCloud corrected = cloud();
-  std::size_t i = 0;
+  std::vector<Timestamp> stamps;
   for_each_shown([&](const VoxelBlock&, const Voxel& voxel) {
-    const Eigen::Isometry3f& T = corrections.at(voxel.last_frame);
-    corrected.points[i] = T * corrected.points[i];
-    corrected.normals[i] = T.linear() * corrected.normals[i];
-    ++i;
+    stamps.push_back(stamp_of.at(voxel.last_frame));
   });
-  return merged(corrected, voxel_size());
+  return stamps;
+}
+
+MapCloud StaticMap::cloud(const StampCorrection& correction) const {
+  return merged(moved(cloud(), stamps(), correction), voxel_size());
 }
 
 }  // namespace mms

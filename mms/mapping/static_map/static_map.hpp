@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "mms/core/config_visitor.hpp"
@@ -38,9 +37,6 @@ struct StaticMapConfig {
     v.group({"carving", "", "removal of voxels in observed free space"}, carving);
   }
 };
-
-/// Transform from the world frame to a corrected one, of what was measured at a stamp.
-using StampCorrection = std::function<Eigen::Isometry3d(Timestamp)>;
 
 /// Changes of the static map by one keyframe.
 struct MapUpdate {
@@ -88,6 +84,9 @@ class StaticMap {
   /// The same with every voxel moved by the correction of the last frame that measured it. Surfaces
   /// of several visits that then coincide are merged. Not for a map made by `apply`.
   MapCloud cloud(const StampCorrection& correction) const;
+
+  /// Stamps of the last frames that measured the points of `cloud`. Not for a map made by `apply`.
+  std::vector<Timestamp> stamps() const;
 
   /// Changes by the last view: `apply` of all views' changes, in order, makes a map that shows the
   /// same voxels; their means and counts are those of when the count last doubled.
