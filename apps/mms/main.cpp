@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   mms::add_view_command(app);
   mms::add_convert_command(app);
   mms::add_info_command(app);
+  mms::add_map_command(app);
+  mms::add_merge_command(app);
   mms::add_calibration_command(app);
   mms::add_config_command(app);
   mms::add_doctor_command(app);

@@ -51,6 +51,13 @@ Json loops_json(const LoopMetrics& metrics) {
                  {"checked", metrics.checked},
                  {"closed", metrics.closed},
                  {"relocalized", metrics.relocalized}};
+  if (metrics.earlier_map) {
+    const EarlierMapMetrics& map = *metrics.earlier_map;
+    object["earlier_map"] = {{"sessions", map.sessions},
+                             {"keyframes", map.keyframes},
+                             {"closed", map.closed},
+                             {"localized_s", map.localized_s ? Json(*map.localized_s) : Json()}};
+  }
   if (metrics.trajectory) object["trajectory"] = json_object(metric_values(*metrics.trajectory));
   return object;
 }
@@ -110,6 +117,11 @@ MetricSection loops_section(const RunMetrics& metrics) {
   if (!metrics.loops) return section;
   if (metrics.loops->relocalized > 0) {
     add(section, {count("relocalized after lost frames", metrics.loops->relocalized)});
+  }
+  if (metrics.loops->earlier_map && metrics.loops->earlier_map->localized_s) {
+    add(section,
+        {{"", "localized in the map after", *metrics.loops->earlier_map->localized_s, "s", 2},
+         count("loops to the map", metrics.loops->earlier_map->closed)});
   }
   if (metrics.loops->closed == 0) return section;
   add(section, {count("loops closed", metrics.loops->closed)});

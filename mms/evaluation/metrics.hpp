@@ -37,13 +37,22 @@ struct RealtimeMetrics {
   std::int64_t without_masks = 0;  ///< frames without masks because the network was busy
 };
 
+/// Localization in the map of earlier sessions.
+struct EarlierMapMetrics {
+  std::int64_t sessions = 0;          ///< of the map
+  std::int64_t keyframes = 0;         ///< of the map
+  std::int64_t closed = 0;            ///< accepted loops to them
+  std::optional<double> localized_s;  ///< stamp of the first one, from the first frame [s]
+};
+
 /// Loop closure of a run.
 struct LoopMetrics {
-  std::int64_t keyframes = 0;                 ///< of the global map
-  std::int64_t checked = 0;                   ///< possible loops
-  std::int64_t closed = 0;                    ///< accepted loops
-  std::int64_t relocalized = 0;               ///< lost frames whose place was recognized
-  std::optional<TrajectoryError> trajectory;  ///< of the corrected poses; with ground truth
+  std::int64_t keyframes = 0;                    ///< of the global map
+  std::int64_t checked = 0;                      ///< possible loops
+  std::int64_t closed = 0;                       ///< accepted loops
+  std::int64_t relocalized = 0;                  ///< lost frames whose place was recognized
+  std::optional<EarlierMapMetrics> earlier_map;  ///< with a map file
+  std::optional<TrajectoryError> trajectory;     ///< of the corrected poses; with ground truth
 };
 
 /// Summary of a run: the content of metrics.json.

@@ -72,6 +72,7 @@ SlamRun::SlamRun(const RunOptions& options)
       source_(open_source(options)),
       config_(load_settings(options, *source_, warnings_)),
       system_(config_, make_segmenter(options.segmenter, options.data, config_, *source_)),
+      map_(options_, source_->calibration().get(), config_),
       frames_(std::min(options.frames, source_->size() - options.start)) {
   if (!options_.view) return;
   view_ = std::make_unique<LiveView>(*options_.view, options_.data, *source_, config_, frames_);
@@ -105,6 +106,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
                                   config_.dynamic_map);
   observer.on_start(run_heading(options_, *source_, config_, frames_, folder), frames_);
   for (const std::string& warning : of_settings) warn(warning, observer);
+  map_.load(system_, handler);
   if (options_.realtime) warm_up();
   AsyncPipeline pipeline(threads_of(options_, config_));
   // The check takes about 0.2 s, which a run in real time does not have.
@@ -117,6 +119,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   interrupted_ = observer.stop_requested();
   if (interrupted_) warn("interrupted, writing the results so far", observer);
   log_->finish(source_->skipped(), pipeline, system_);
+  warn_if_not_localized(observer);
   if (log_->frames().empty()) {
     throw DataError(options_.data,
                     fmt::format("none of its {} frames could be processed", source_->size()),
@@ -192,6 +195,14 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   if (view_) view_->show(std::move(processed), std::move(shown));
 }
 
+void SlamRun::warn_if_not_localized(RunObserver& observer) {
+  const auto& loops = log_->metrics().loops;
+  if (!loops || !loops->earlier_map || loops->earlier_map->localized_s) return;
+  warn(fmt::format("no place of {} was recognized: the results are in a frame of their own",
+                   options_.map.string()),
+       observer);
+}
+
 void SlamRun::end_map() {
   std::optional<MapChanges> map = system_.finalize();
   if (!map) return;
@@ -230,6 +241,11 @@ void SlamRun::write(const std::filesystem::path& folder) {
                              log_->has_image(), system_.static_map().voxel_size()),
                    *log_);
   if (!options_.keep_journal) journal_->remove();
+}
+
+bool SlamRun::save_map(RunObserver& observer) {
+  return map_.save(system_, *log_,
+                   [&](const std::string& message) { observer.on_warning(message); });
 }
 
 }  // namespace mms

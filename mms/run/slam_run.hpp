@@ -13,6 +13,7 @@
 #include "mms/run/record/run_journal.hpp"
 #include "mms/run/record/run_log.hpp"
 #include "mms/run/record/run_options.hpp"
+#include "mms/run/results/run_map.hpp"
 #include "mms/run/run_observer.hpp"
 #include "mms/run/view/live_view.hpp"
 
@@ -32,6 +33,11 @@ class SlamRun {
 
   /// Writes all files of the run and closes the journal.
   void write(const std::filesystem::path& folder);
+
+  /// Writes the map file, if one was asked for. After `play`.
+  /// @returns whether it was written
+  /// @throws FileError if it cannot be; an earlier map is as before then
+  bool save_map(RunObserver& observer);
 
   /// The viewer of the run; null without `RunOptions::view`.
   LiveView* view() const { return view_.get(); }
@@ -57,6 +63,7 @@ class SlamRun {
   AsyncPipeline::Source frames_for(RunObserver& observer);
   void finish_frame(Processed processed, RunObserver& observer);
   void end_map();
+  void warn_if_not_localized(RunObserver& observer);
 
   RunOptions options_;
   std::unique_ptr<FrameSource> source_;
@@ -64,6 +71,7 @@ class SlamRun {
   std::mutex warnings_mutex_;
   SystemConfig config_;
   SlamSystem system_;
+  RunMap map_;
   std::size_t frames_ = 0;  // to be processed at most
   std::unique_ptr<RunLog> log_;
   std::unique_ptr<RunJournal> journal_;

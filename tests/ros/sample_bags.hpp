@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mms/ros/storage/bag_writer.hpp"
-#include "mms/ros/storage/compression.hpp"
+#include "mms/storage/compression.hpp"
 
 namespace mms::testing {
 

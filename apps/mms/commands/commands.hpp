@@ -34,6 +34,12 @@ void add_import_command(CLI::App& app);
 /// Adds `mms info DATA`: content of a recording, and whether its frames can be read.
 void add_info_command(CLI::App& app);
 
+/// Adds `mms map export|check|compact`, for map files.
+void add_map_command(CLI::App& app);
+
+/// Adds `mms merge`.
+void add_merge_command(CLI::App& app);
+
 /// Adds `mms quantize`.
 void add_quantize_command(CLI::App& app);
 

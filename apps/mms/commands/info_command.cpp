@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/mms/commands/calibration_options.hpp"
+#include "apps/mms/commands/map_command.hpp"
 #include "apps/mms/commands/topic_options.hpp"
 #include "apps/mms/console/common_options.hpp"
 #include "mms/core/error.hpp"
@@ -19,6 +20,7 @@
 #include "mms/dataset/simulated/simulated_source.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/io/weights/safetensors.hpp"
+#include "mms/map_file/map_file.hpp"
 #include "mms/segmentation/solo/prepared_image.hpp"
 #include "mms/segmentation/weights/model.hpp"
 #include "mms/segmentation/weights/operation_count.hpp"
@@ -147,6 +149,10 @@ void print_info(const InfoOptions& options) {
     if (options.json) throw DataError(options.data, "is no recording", "--json is for recordings");
     return print_model(options.data);
   }
+  if (is_map_file(options.data)) {
+    if (options.json) throw DataError(options.data, "is no recording", "--json is for recordings");
+    return print_map_info(options.data);
+  }
   const RecordingInfo info = info_of(options);
   options.json ? print_json(options.data, info) : print_text(info);
 }
@@ -156,10 +162,11 @@ void print_info(const InfoOptions& options) {
 void add_info_command(CLI::App& app) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* command =
-      app.add_subcommand("info", "Show the content of a recording or a weights file");
+      app.add_subcommand("info", "Show the content of a recording, a map or a weights file");
   command
-      ->add_option("DATA", options->data,
-                   "recording (folder, .bag, .mcap or .db3), sim:SCENE, or weights.safetensors")
+      ->add_option(
+          "DATA", options->data,
+          "recording (folder, .bag, .mcap or .db3), sim:SCENE, map, or weights.safetensors")
       ->required();
   const auto sequence = std::make_shared<std::string>();
   add_sequence_option(*command, *sequence);

@@ -54,20 +54,20 @@ void keep_showing(const SlamRun& run, const std::filesystem::path& folder) {
   wait_for_interrupt();
 }
 
-void play(SlamRun& run, const std::filesystem::path& folder, bool quiet) {
-  Progress progress(quiet);
-  run.play(folder, progress);
-}
-
 void run(const RunOptions& options, const ConsoleOptions& console) {
   SlamRun run(options);
   if (run.view() != nullptr) announce(run.view()->server(), *options.view);
   const InterruptGuard interrupt;  // also while the results are written
   const ResultFolder folder(options.output, options.data, options.overwrite);
-  play(run, folder.path(), console.quiet);
+  Progress progress(console.quiet);
+  run.play(folder.path(), progress);
   run.write(folder.path());
   folder.make_latest();
   print_summary(folder.path(), run.log().metrics(), console);
+  if (run.save_map(progress) && !console.json && !console.quiet) {
+    fmt::print("saved:  {}\n",
+               (options.save_map.empty() ? options.map : options.save_map).string());
+  }
   if (!run.failure().empty()) {
     throw DataError(options.data, run.failure(),
                     "check its calibration and depth with mms info, and see the warnings above");
@@ -126,6 +126,16 @@ void add_run_command(CLI::App& app) {
                    "close loops and write the corrected trajectory_map.tum (default: that of the "
                    "settings, on)")
       ->check(CLI::IsMember({"on", "off"}));
+  command
+      ->add_option("--save-map", options->save_map,
+                   "write the map to this file, to localize in it later (depth images)")
+      ->type_name("FILE");
+  command
+      ->add_option("--map", options->map,
+                   "localize in this map, and add the run to it; with --save-map to a copy")
+      ->type_name("FILE");
+  command->add_flag("--localise,--localize", options->localise,
+                    "localize in the map of --map without changing it");
   add_frames_option(*command, options->frames, "process at most N frames");
   command->add_option("--start", options->start, "skip the first K frames")
       ->check(CLI::Range(std::size_t{0}, kMaxFrames))

@@ -9,12 +9,12 @@
 #include "mms/core/error.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/io/text/numbers.hpp"
-#include "mms/ros/storage/compression.hpp"
 #include "mms/ros/storage/mcap_file.hpp"
 #include "mms/ros/storage/mcap_writer.hpp"
 #include "mms/ros/storage/ros1_bag.hpp"
 #include "mms/ros/storage/ros1_writer.hpp"
 #include "mms/ros/storage/sqlite_bag.hpp"
+#include "mms/storage/compression.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;

@@ -4,8 +4,8 @@
 
 #include "mms/core/error.hpp"
 #include "mms/ros/bag/bag_files.hpp"
-#include "mms/ros/storage/compression.hpp"
 #include "mms/ros/storage/input_file.hpp"
+#include "mms/storage/compression.hpp"
 
 namespace mms {
 

@@ -9,8 +9,8 @@
 
 #include "mms/io/journal/byte_reader.hpp"
 #include "mms/ros/storage/bag_storage.hpp"
-#include "mms/ros/storage/compression.hpp"
 #include "mms/ros/storage/input_file.hpp"
+#include "mms/storage/compression.hpp"
 
 namespace mms {
 

@@ -5,7 +5,7 @@
 
 #include "mms/io/journal/byte_reader.hpp"
 #include "mms/io/journal/crc32.hpp"
-#include "mms/ros/storage/compression.hpp"
+#include "mms/storage/compression.hpp"
 
 namespace mms {
 namespace {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -128,15 +129,27 @@ void RunLog::sum_up_accuracy() {
 
 void RunLog::sum_up_loops(const GlobalMap& map) {
   if (map.records().empty()) return;
-  loops_ = map.loops();
+  const auto is_own = [&](std::size_t keyframe) {
+    return map.records()[keyframe].session == map.session();
+  };
   for (const KeyframeRecord& record : map.records()) loop_stamps_.push_back(record.stamp);
+  std::copy_if(map.loops().begin(), map.loops().end(), std::back_inserter(loops_),
+               [&](const Loop& loop) { return is_own(loop.query); });
   correction_ = map.correction();
   LoopMetrics& loops = metrics_.loops.emplace();
-  loops.keyframes = static_cast<std::int64_t>(loop_stamps_.size());
   loops.checked = static_cast<std::int64_t>(loops_.size());
-  loops.closed = std::count_if(loops_.begin(), loops_.end(), [](const Loop& loop) {
-    return loop.outcome == LoopOutcome::kAccepted;
-  });
+  EarlierMapMetrics earlier;
+  earlier.sessions = map.session();
+  for (std::size_t i = 0; i < map.records().size(); ++i) {
+    ++(is_own(i) ? loops.keyframes : earlier.keyframes);
+  }
+  for (const Loop& loop : loops_) {
+    if (loop.outcome != LoopOutcome::kAccepted) continue;
+    ++(is_own(loop.candidate) ? loops.closed : earlier.closed);
+    if (is_own(loop.candidate) || earlier.localized_s) continue;
+    earlier.localized_s = to_seconds(loop_stamps_[loop.query] - frames_.front().stamp);
+  }
+  if (map.session() > 0) loops.earlier_map = earlier;
   loops.relocalized = std::count_if(frames_.begin(), frames_.end(),
                                     [](const LoggedFrame& frame) { return frame.relocalized; });
   if (metrics_.trajectory) loops.trajectory = evaluate_trajectory(truth_, corrected_trajectory());

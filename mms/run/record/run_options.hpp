@@ -22,17 +22,20 @@ struct ViewOptions {
 /// Arguments of `mms run`.
 struct RunOptions {
   std::string data = "sim:warehouse_loop";
-  std::filesystem::path config;  ///< empty: the defaults
-  std::vector<std::string> set;  ///< settings "group.key=value", after those of `config`
-  std::filesystem::path output;  ///< empty: `results/TIME_NAME`
-  bool overwrite = false;        ///< replace the results of an earlier run in `output`
-  std::string segmenter;         ///< "network", "masks" or "none"
-  std::filesystem::path masks;   ///< empty: the recording's own
-  std::string weights;           ///< of the network; empty: as the config says
-  BagTopicNames topics;          ///< of a bag
-  CameraOptions camera;          ///< in place of the recording's
-  std::string fusion;            ///< empty: as the config says
-  std::string loops;             ///< "on", "off"; empty: as the config says
+  std::filesystem::path config;    ///< empty: the defaults
+  std::vector<std::string> set;    ///< settings "group.key=value", after those of `config`
+  std::filesystem::path output;    ///< empty: `results/TIME_NAME`
+  bool overwrite = false;          ///< replace the results of an earlier run in `output`
+  std::string segmenter;           ///< "network", "masks" or "none"
+  std::filesystem::path masks;     ///< empty: the recording's own
+  std::string weights;             ///< of the network; empty: as the config says
+  BagTopicNames topics;            ///< of a bag
+  CameraOptions camera;            ///< in place of the recording's
+  std::string fusion;              ///< empty: as the config says
+  std::string loops;               ///< "on", "off"; empty: as the config says
+  std::filesystem::path map;       ///< earlier map to start from; empty: none
+  std::filesystem::path save_map;  ///< where the map is written; empty: in `map`, if any
+  bool localise = false;           ///< changes no map
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::size_t start = 0;
   bool realtime = false;

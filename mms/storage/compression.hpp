@@ -23,7 +23,7 @@ std::string decompress(std::string_view bytes, Compression compression, std::siz
 /// As decompress, but the part before the damage.
 std::string decompress_start(std::string_view bytes, Compression compression, std::size_t limit);
 
-/// Compresses a block as one zstd frame, at its fastest level.
+/// Compresses a block as one zstd frame with its checksum, at its fastest level.
 std::string compress_zstd(std::string_view bytes);
 
 /// Whether the bytes begin as a zstd frame.

@@ -1,4 +1,4 @@
-#include "mms/ros/storage/compression.hpp"
+#include "mms/storage/compression.hpp"
 
 #include <bzlib.h>
 #include <lz4frame.h>
@@ -176,8 +176,15 @@ std::string decompress_start(std::string_view bytes, Compression compression, st
 std::string compress_zstd(std::string_view bytes) {
   constexpr int kLevel = 1;
   std::string result(ZSTD_compressBound(bytes.size()), '\0');
+  struct Free {
+    void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+  };
+  const std::unique_ptr<ZSTD_CCtx, Free> context(ZSTD_createCCtx());
+  if (!context) throw std::bad_alloc();
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kLevel);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
   const std::size_t size =
-      ZSTD_compress(result.data(), result.size(), bytes.data(), bytes.size(), kLevel);
+      ZSTD_compress2(context.get(), result.data(), result.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(size) != 0U) throw std::bad_alloc();  // no other fault is possible here
   result.resize(size);
   return result;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "mms/global_map/global_map.hpp"
+#include "mms/map_file/map_file.hpp"
+
+namespace mms {
+
+/// Joins maps at the places that they share. The order of the maps does not matter.
+class MapMerge {
+ public:
+  /// Called for each keyframe: done, all.
+  using ProgressHandler = std::function<void(std::size_t, std::size_t)>;
+
+  /// @throws Error if a file is no map; DataError if two are the same map
+  /// @param warn  called for each damaged part that is left out
+  MapMerge(const std::vector<std::filesystem::path>& maps, const MapFile::WarningHandler& warn);
+
+  /// Finds loops between the maps.
+  /// @param map  without keyframes
+  /// @returns the sessions that are joined to the first one, of `sessions`
+  std::size_t join(GlobalMap& map, const ProgressHandler& progress);
+
+  std::size_t sessions() const { return sessions_; }
+
+  /// Writes all sessions to a new file.
+  /// @param map  of `join`
+  void write(const std::filesystem::path& path, const GlobalMap& map,
+             const MapFile::WarningHandler& warn) const;
+
+ private:
+  struct Part {
+    std::unique_ptr<MapFile> file;
+    GlobalMapContent content;
+    std::uint64_t digest = 0;  // of the keyframes
+  };
+
+  std::vector<Part> parts_;  // in an order that their content alone decides
+  std::size_t sessions_ = 0;
+};
+
+}  // namespace mms

@@ -1,0 +1,121 @@
+#include "mms/map_file/session_changes.hpp"
+
+#include <tsl/robin_map.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mms/geometry/voxels/voxel_key.hpp"
+#include "mms/map_file/map_composition.hpp"
+#include "mms/mapping/free_space/free_space.hpp"
+
+namespace mms {
+namespace {
+
+/// [m]: distance before a surface, above noise, that counts as seen through. The views have few
+/// pixels, as those that check loops.
+constexpr double kMargin = 0.1;
+
+/// [-]: keyframes that must see through a point.
+constexpr int kMinViews = 2;
+
+/// [m]: side of the cubes of points that are compared with a view together.
+constexpr double kCubeSide = 1.0;
+
+/// [-]: radius of the ball around a cube over its side.
+constexpr float kHalfDiagonal = 0.8660254F;
+
+/// What the keyframes of one session saw at a point.
+struct Evidence {
+  int through = 0;
+  int surface = 0;
+
+  bool is_through() const { return through >= kMinViews && surface == 0; }
+};
+
+/// Points in cubes, so that most are not compared with a view that cannot see them.
+class PointCubes {
+ public:
+  explicit PointCubes(const std::vector<Eigen::Vector3f>& points) : points_(points) {
+    tsl::robin_map<VoxelKey, std::size_t, VoxelKeyHash> index;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      const VoxelKey key = voxel_key(points[i], static_cast<float>(1.0 / kCubeSide));
+      const auto [known, is_new] = index.try_emplace(key, cubes_.size());
+      if (is_new) cubes_.push_back({key, {}});
+      cubes_[known->second].points.push_back(i);
+    }
+  }
+
+  void compare(const FreeSpace& space, const Eigen::Isometry3f& T_view_map,
+               std::vector<Evidence>& evidence) const {
+    constexpr auto kSide = static_cast<float>(kCubeSide);
+    for (const Cube& cube : cubes_) {
+      const Eigen::Vector3f corner(static_cast<float>(cube.key.x), static_cast<float>(cube.key.y),
+                                   static_cast<float>(cube.key.z));
+      const Eigen::Vector3f center = (corner.array() + 0.5F).matrix() * kSide;
+      // Surfaces have to be seen, too: they lie up to the margin behind what is seen through.
+      const float radius = kHalfDiagonal * kSide + 3.0F * static_cast<float>(kMargin);
+      if (!space.may_see_into(T_view_map * center, radius)) continue;
+      for (const std::uint32_t i : cube.points) {
+        const SpaceState state = space.state_at(T_view_map * points_[i]);
+        evidence[i].through += state == SpaceState::kFree;
+        evidence[i].surface += state == SpaceState::kSurface;
+      }
+    }
+  }
+
+ private:
+  struct Cube {
+    VoxelKey key;
+    std::vector<std::uint32_t> points;
+  };
+
+  const std::vector<Eigen::Vector3f>& points_;
+  std::vector<Cube> cubes_;
+};
+
+Change change_of(const Evidence& earlier, const Evidence& later) {
+  if (later.is_through()) return Change::kGone;
+  if (earlier.is_through()) return Change::kNew;
+  return earlier.surface + later.surface > 0 ? Change::kUnchanged : Change::kUnknown;
+}
+
+}  // namespace
+
+MapCloud points_of(const MapChangeCloud& cloud, std::initializer_list<Change> changes) {
+  MapCloud chosen;
+  for (std::size_t i = 0; i < cloud.changes.size(); ++i) {
+    if (std::find(changes.begin(), changes.end(), cloud.changes[i]) == changes.end()) continue;
+    chosen.points.push_back(cloud.map.points[i]);
+    chosen.colors.push_back(cloud.map.colors[i]);
+    chosen.normals.push_back(cloud.map.normals[i]);
+    chosen.observations.push_back(cloud.map.observations[i]);
+  }
+  return merged(chosen, cloud.voxel_size);
+}
+
+MapChangeCloud find_changes(const MapFile& file, const GlobalMapContent& content,
+                            const DepthNoise& noise, const MapFile::WarningHandler& warn) {
+  MapChangeCloud result;
+  for (const std::uint32_t session : joined_sessions(content)) {
+    const SessionSurfaces surfaces = corrected_surfaces(file, content, session, warn);
+    const PointCubes cubes(surfaces.cloud.points);
+    std::vector<Evidence> earlier(surfaces.cloud.size());
+    std::vector<Evidence> later(surfaces.cloud.size());
+    for (std::size_t i = 0; i < content.records.size(); ++i) {
+      const KeyframeRecord& record = content.records[i];
+      if (record.session == session || record.is_pose_only()) continue;
+      const FreeSpace space(record.view.cloud(), kMargin, noise);
+      cubes.compare(space, content.poses[i].inverse().cast<float>(),
+                    record.session < session ? earlier : later);
+    }
+    for (std::size_t i = 0; i < earlier.size(); ++i) {
+      result.changes.push_back(change_of(earlier[i], later[i]));
+    }
+    append(result.map, surfaces.cloud);
+    result.voxel_size = std::max(result.voxel_size, file.sessions()[session].voxel_size);
+  }
+  return result;
+}
+
+}  // namespace mms

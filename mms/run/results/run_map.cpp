@@ -1,0 +1,107 @@
+#include "mms/run/results/run_map.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <utility>
+
+#include "mms/core/error.hpp"
+#include "mms/io/config/config_yaml.hpp"
+
+namespace mms {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_options(const RunOptions& options, const Calibration* calibration,
+                   const SystemConfig& config) {
+  const std::string option = options.map.empty() ? "--save-map" : "--map";
+  if (options.localise && options.map.empty()) {
+    throw DataError("--localise", "needs a map", "--map FILE");
+  }
+  if (options.localise && !options.save_map.empty()) {
+    throw DataError("--save-map", "does not go with --localise, which changes no map");
+  }
+  if (!config.global_map.enabled) {
+    throw DataError(option, "needs loop closure, but it is off", "leave out --loops off");
+  }
+  if (calibration != nullptr && !calibration->camera) {
+    throw DataError(option, "needs depth images, but " + options.data + " has LiDAR scans");
+  }
+  if (!options.save_map.empty() && fs::exists(options.save_map) && !options.overwrite) {
+    throw FileError(options.save_map.string(), "exists",
+                    "--map FILE goes on in it, --overwrite replaces it");
+  }
+}
+
+std::string size_of(const CameraIntrinsics& camera) {
+  return fmt::format("{}x{}, fx {:.1f}", camera.width, camera.height, camera.fx);
+}
+
+/// Whether images of the two are of one camera: the sizes may differ.
+bool is_like(const CameraIntrinsics& a, const CameraIntrinsics& b) {
+  constexpr double kMaxDifference = 0.1;  // of the field of view
+  if (a.width == 0 || b.width == 0) return true;
+  return std::abs(a.fx / a.width - b.fx / b.width) < kMaxDifference * a.fx / a.width;
+}
+
+}  // namespace
+
+RunMap::RunMap(const RunOptions& options, const Calibration* calibration,
+               const SystemConfig& config)
+    : name_(options.data), settings_(dump_config(config)) {
+  if (options.map.empty() && options.save_map.empty() && !options.localise) return;
+  check_options(options, calibration, config);
+  if (calibration != nullptr) camera_ = *calibration->camera;
+  if (options.localise) use_ = MapUse::kLocalizeOnly;
+  path_ = options.save_map.empty() ? options.map : options.save_map;
+  if (options.map.empty()) {
+    written_ = std::make_unique<MapFile>(path_, MapFile::Mode::kCreate);
+  } else if (options.localise) {
+    earlier_ = std::make_unique<MapFile>(path_, MapFile::Mode::kRead);
+  } else if (options.save_map.empty()) {
+    written_ = std::make_unique<MapFile>(path_, MapFile::Mode::kExtend);
+  } else {
+    written_ = std::make_unique<MapFile>(path_, options.map);
+  }
+}
+
+void RunMap::load(SlamSystem& system, const MapFile::WarningHandler& warn) const {
+  const MapFile* file = earlier_ ? earlier_.get() : written_.get();
+  if (file == nullptr || file->sessions().empty()) return;
+  const MapSession& first = file->sessions().front();
+  if (!is_like(first.camera, camera_)) {
+    warn(
+        fmt::format("the map is of another camera ({}) than the recording ({}): places may not be "
+                    "recognized",
+                    size_of(first.camera), size_of(camera_)));
+  }
+  system.restore(file->content(warn), use_);
+}
+
+bool RunMap::save(const SlamSystem& system, const RunLog& log,
+                  const MapFile::WarningHandler& warn) {
+  if (!written_) return false;
+  const GlobalMap& map = system.global_map();
+  if (map.records().empty() || map.records().back().session != map.session()) {
+    warn("no map is saved, since no frame became a keyframe");
+    written_.reset();
+    return false;
+  }
+  MapSession session;
+  session.name = name_;
+  session.program = MMS_VERSION;
+  session.settings = settings_;
+  session.frames = static_cast<std::int64_t>(log.frames().size());
+  session.begin = log.frames().front().stamp;
+  session.end = log.frames().back().stamp;
+  session.voxel_size = system.static_map().voxel_size();
+  session.camera = camera_;
+  written_->add_session(session, {system.static_map().cloud(), system.static_map().stamps()},
+                        map.records());
+  written_->set_graph(map.poses(), map.loops());
+  std::exchange(written_, nullptr)->commit();
+  return true;
+}
+
+}  // namespace mms

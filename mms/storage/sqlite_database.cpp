@@ -1,0 +1,143 @@
+#include "mms/storage/sqlite_database.hpp"
+
+#include <sqlite3.h>
+
+#include "mms/core/error.hpp"
+
+namespace mms {
+namespace {
+
+/// [B]: largest value that is read or written.
+constexpr int kMaxValue = 128 << 20U;
+
+/// A reader may have to undo what a killed writer began. Files that cannot be written are opened
+/// for reading by SQLite.
+int flags_of(SqliteDatabase::Access access) {
+  const bool creates = access == SqliteDatabase::Access::kCreate;
+  return SQLITE_OPEN_READWRITE | (creates ? SQLITE_OPEN_CREATE : 0);
+}
+
+}  // namespace
+
+void SqliteStatement::Finalize::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
+
+void SqliteDatabase::Close::operator()(sqlite3* database) const {
+  sqlite3_close(database);
+}
+
+SqliteStatement& SqliteStatement::bind(int parameter, std::int64_t value) {
+  if (sqlite3_bind_int64(statement_.get(), parameter, value) != SQLITE_OK) database_->fail();
+  return *this;
+}
+
+SqliteStatement& SqliteStatement::bind(int parameter, double value) {
+  if (sqlite3_bind_double(statement_.get(), parameter, value) != SQLITE_OK) database_->fail();
+  return *this;
+}
+
+SqliteStatement& SqliteStatement::bind_text(int parameter, std::string_view value) {
+  if (sqlite3_bind_text(statement_.get(), parameter, value.data(), static_cast<int>(value.size()),
+                        SQLITE_TRANSIENT) != SQLITE_OK) {
+    database_->fail();
+  }
+  return *this;
+}
+
+SqliteStatement& SqliteStatement::bind_blob(int parameter, std::string_view value) {
+  if (sqlite3_bind_blob64(statement_.get(), parameter, value.data(), value.size(),
+                          SQLITE_TRANSIENT) != SQLITE_OK) {
+    database_->fail();
+  }
+  return *this;
+}
+
+bool SqliteStatement::next() {
+  const int result = sqlite3_step(statement_.get());
+  if (result != SQLITE_ROW && result != SQLITE_DONE) database_->fail();
+  return result == SQLITE_ROW;
+}
+
+void SqliteStatement::run() {
+  next();
+  reset();
+}
+
+void SqliteStatement::reset() {
+  sqlite3_reset(statement_.get());
+}
+
+std::int64_t SqliteStatement::integer(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+
+double SqliteStatement::real(int column) const {
+  return sqlite3_column_double(statement_.get(), column);
+}
+
+std::string_view SqliteStatement::text(int column) const {
+  const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
+  if (text == nullptr) return {};
+  return {text, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+std::string_view SqliteStatement::blob(int column) const {
+  const auto* data = static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
+  if (data == nullptr) return {};
+  return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, Access access)
+    : name_(path.string()) {
+  sqlite3* opened = nullptr;
+  const int result = sqlite3_open_v2(name_.c_str(), &opened, flags_of(access), nullptr);
+  database_.reset(opened);
+  if (result != SQLITE_OK) fail();
+  // The file is untrusted: no functions in its definitions, no values beyond our limit.
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kMaxValue);
+  constexpr int kWait = 2000;  // for a reader or writer to finish a step [ms]
+  sqlite3_busy_timeout(opened, access == Access::kRead ? kWait : 0);
+  execute(access == Access::kRead ? "PRAGMA query_only = 1; SELECT count(*) FROM sqlite_schema"
+                                  : "BEGIN IMMEDIATE");
+  if (access != Access::kRead) sqlite3_busy_timeout(opened, kWait);
+}
+
+SqliteStatement SqliteDatabase::prepare(std::string_view sql) const {
+  sqlite3_stmt* statement = nullptr;
+  if (sqlite3_prepare_v2(database_.get(), sql.data(), static_cast<int>(sql.size()), &statement,
+                         nullptr) != SQLITE_OK) {
+    fail();
+  }
+  return SqliteStatement(*this, statement);
+}
+
+void SqliteDatabase::execute(const std::string& sql) const {
+  if (sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+}
+
+void SqliteDatabase::fail() const {
+  const std::string message = sqlite3_errmsg(database_.get());
+  switch (sqlite3_errcode(database_.get()) & 0xFF) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      throw FileError(name_, "is being written by another process",
+                      "wait until that run ends, or choose another file");
+    case SQLITE_FULL:
+      throw FileError(name_, "cannot be written: the disk is full");
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+    case SQLITE_READONLY:
+    case SQLITE_IOERR:
+      throw FileError(name_, "cannot be opened or written: " + message,
+                      "check that it exists, and its permissions");
+    case SQLITE_NOMEM:
+      throw std::bad_alloc();
+    default:
+      throw DataError(name_, "is damaged: " + message);
+  }
+}
+
+}  // namespace mms

@@ -1,0 +1,222 @@
+// Sessions of one map: a later run finds its place in the map of an earlier one, and maps are
+// merged.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "mms/core/error.hpp"
+#include "mms/map_file/map_composition.hpp"
+#include "mms/map_file/map_merge.hpp"
+#include "mms/map_file/session_changes.hpp"
+#include "tests/map_file/stored_visit.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;
+
+double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return (a.translation() - b.translation()).norm();
+}
+
+GlobalMapContent first_session() {
+  GlobalMap map = empty_map();
+  drive(map, 0, kSteps, Eigen::Isometry3d::Identity());
+  return {map.records(), map.poses(), map.loops()};
+}
+
+TEST(Sessions, ALaterRunFindsItsPlaceInTheMap) {
+  for (const MapUse use : {MapUse::kExtend, MapUse::kLocalizeOnly}) {
+    GlobalMap map = empty_map();
+    map.restore(first_session(), use);
+    EXPECT_EQ(map.session(), 1U);
+    drive(map, 4, 16, other_world());
+    ASSERT_TRUE(map.is_joined(1));
+    for (std::size_t i = 0; i < 12; ++i) {
+      const Eigen::Isometry3d truth = views()[4 + i].T_world_sensor.isometry();
+      EXPECT_LT(distance(map.poses()[kSteps + i], truth), 0.03) << i;
+    }
+    const Eigen::Isometry3d corrected = map.correction().at(map.records().back().stamp).isometry() *
+                                        map.records().back().T_world_sensor.isometry();
+    EXPECT_LT(distance(corrected, views()[15].T_world_sensor.isometry()), 0.03);
+  }
+}
+
+TEST(Sessions, LocalizationChangesNoPoseOfTheMapAndKeepsNoKnownPlace) {
+  const GlobalMapContent before = first_session();
+  GlobalMap map = empty_map();
+  map.restore(before, MapUse::kLocalizeOnly);
+  drive(map, 4, 16, other_world());
+  for (std::size_t i = 0; i < before.poses.size(); ++i) {
+    EXPECT_EQ(map.poses()[i].matrix(), before.poses[i].matrix());
+  }
+  const auto kept = std::count_if(map.records().begin() + kSteps, map.records().end(),
+                                  [](const KeyframeRecord& r) { return !r.is_pose_only(); });
+  EXPECT_LE(kept, 6);
+}
+
+TEST(Sessions, APlaceThatIsNotInTheMapIsNotFound) {
+  GlobalMap map = empty_map();
+  map.restore(first_session(), MapUse::kExtend);
+  for (const GlobalKeyframe& view : views_of(2)) map.add(view);
+  EXPECT_FALSE(map.is_joined(1));
+  EXPECT_TRUE(map.correction().empty());
+}
+
+TEST(Sessions, RestoredMapIsEqualToTheOneThatWasSaved) {
+  GlobalMap through_file = empty_map();
+  const TempFolder folder;
+  write_first_session(folder.path() / "a.mmsmap");
+  through_file.restore(MapFile(folder.path() / "a.mmsmap", MapFile::Mode::kRead).content(refuse),
+                       MapUse::kExtend);
+  GlobalMap in_memory = empty_map();
+  in_memory.restore(first_session(), MapUse::kExtend);
+  for (GlobalMap* map : {&through_file, &in_memory}) drive(*map, 2, 12, other_world());
+  ASSERT_EQ(through_file.poses().size(), in_memory.poses().size());
+  for (std::size_t i = 0; i < in_memory.poses().size(); ++i) {
+    EXPECT_LT(distance(through_file.poses()[i], in_memory.poses()[i]), 1e-6);
+  }
+  EXPECT_EQ(through_file.loops().size(), in_memory.loops().size());
+}
+
+/// The wall of a room at 4 m, with a box of 1 m before it.
+KeyframeRecord seen_room(std::uint32_t session, double x, bool with_box, Timestamp stamp) {
+  KeyframeRecord record;
+  record.session = session;
+  record.stamp = stamp;
+  record.features.planes.emplace_back();
+  record.T_world_sensor =
+      Transform<World, Sensor>(Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)));
+  record.view.camera = {80.0, 80.0, 39.5, 29.5, 80, 60, {}};
+  record.view.depth_mm = Image<std::uint16_t>(80, 60);
+  record.view.is_static = Image<std::uint8_t>(80, 60);
+  for (int v = 0; v < 60; ++v) {
+    for (int u = 0; u < 80; ++u) {
+      const double at_box_x = x + 2.0 * (u - 39.5) / 80.0;
+      const double at_box_y = 2.0 * (v - 29.5) / 80.0;
+      const bool box = with_box && std::abs(at_box_x) < 0.5 && std::abs(at_box_y) < 0.5;
+      record.view.depth_mm(u, v) = box ? 2000 : 4000;
+      record.view.is_static(u, v) = 1;
+    }
+  }
+  return record;
+}
+
+/// Two sessions of a room; the box comes first in their spatial order.
+std::vector<Change> changes_of(bool box_first, bool box_later, const std::string& name) {
+  const TempFolder folder;
+  GlobalMapContent content;
+  const auto surfaces = [&](bool with_box) {
+    SessionSurfaces result;
+    const auto add = [&](float x, float z) {
+      result.cloud.points.emplace_back(x, 0.0F, z);
+      result.cloud.normals.emplace_back(0.0F, 0.0F, -1.0F);
+      result.cloud.colors.push_back({});
+      result.cloud.observations.push_back(3);
+      result.stamps.push_back(Timestamp(1));
+    };
+    add(-1.5F, 4.0F);  // wall that every view shows
+    add(9.0F, 4.0F);   // out of every view
+    if (with_box) add(0.0F, 2.0F);
+    return result;
+  };
+  MapFile file(folder.path() / name, MapFile::Mode::kCreate);
+  for (std::uint32_t session = 0; session < 2; ++session) {
+    const bool with_box = session == 0 ? box_first : box_later;
+    for (const double x : {0.0, 0.1, 0.2}) {
+      content.records.push_back(seen_room(session, x, with_box, Timestamp(1)));
+      content.poses.push_back(content.records.back().T_world_sensor.isometry());
+    }
+    file.add_session(some_session(name), surfaces(with_box), content.records);
+  }
+  Loop loop;
+  loop.candidate = 0;
+  loop.query = 3;
+  loop.outcome = LoopOutcome::kAccepted;
+  content.loops = {loop};
+  file.set_graph(content.poses, content.loops);
+  return find_changes(file, content, DepthNoise{}, refuse).changes;
+}
+
+TEST(MapChanges, AreFoundByFreeSpace) {
+  using enum Change;
+  EXPECT_EQ(changes_of(true, false, "gone"),
+            (std::vector{kGone, kUnchanged, kUnknown, kUnchanged, kUnknown}));
+  EXPECT_EQ(changes_of(false, true, "new"),
+            (std::vector{kUnchanged, kUnknown, kNew, kUnchanged, kUnknown}));
+  EXPECT_EQ(changes_of(true, true, "same"),
+            (std::vector{kUnchanged, kUnchanged, kUnknown, kUnchanged, kUnchanged, kUnknown}));
+}
+
+void write_part(const std::filesystem::path& path, int first, int end, std::uint64_t seed,
+                const Eigen::Isometry3d& world) {
+  GlobalMap map = empty_map();
+  drive(map, first, end, world);
+  MapFile file(path, MapFile::Mode::kCreate);
+  file.add_session(some_session(path.filename()), some_surfaces(map, 2000, seed), map.records());
+  file.set_graph(map.poses(), map.loops());
+  file.commit();
+}
+
+MapCloud merged_map(const std::vector<std::filesystem::path>& maps,
+                    const std::filesystem::path& path) {
+  MapMerge merge(maps, refuse);
+  GlobalMap map = empty_map();
+  EXPECT_EQ(merge.join(map, [](std::size_t, std::size_t) {}), maps.size());
+  merge.write(path, map, refuse);
+  const MapFile file(path, MapFile::Mode::kRead);
+  EXPECT_TRUE(file.check().empty());
+  return composed_map(file, file.content(refuse), refuse);
+}
+
+TEST(MapMerge, OrderOfTheMapsDoesNotMatter) {
+  const TempFolder folder;
+  write_part(folder.path() / "a", 0, 12, 1, Eigen::Isometry3d::Identity());
+  write_part(folder.path() / "b", 6, 18, 2, other_world());
+  write_part(folder.path() / "c", 16, 3, 3, other_world().inverse());
+  const MapCloud one = merged_map({folder.path() / "a", folder.path() / "b", folder.path() / "c"},
+                                  folder.path() / "abc");
+  const MapCloud two = merged_map({folder.path() / "c", folder.path() / "a", folder.path() / "b"},
+                                  folder.path() / "cab");
+  ASSERT_EQ(one.size(), two.size());
+  ASSERT_GT(one.size(), 3000U);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    ASSERT_EQ(one.points[i], two.points[i]);
+    ASSERT_EQ(one.observations[i], two.observations[i]);
+  }
+}
+
+TEST(MapMerge, JoinsWorldsThatWereUnrelated) {
+  const TempFolder folder;
+  write_part(folder.path() / "a", 0, 12, 1, Eigen::Isometry3d::Identity());
+  write_part(folder.path() / "b", 6, 18, 2, other_world());
+  merged_map({folder.path() / "a", folder.path() / "b"}, folder.path() / "ab");
+  const GlobalMapContent content =
+      MapFile(folder.path() / "ab", MapFile::Mode::kRead).content(refuse);
+  ASSERT_EQ(content.records.size(), 24U);
+  // Either may be the first one; their relative poses are those of the scene.
+  const bool a_first = (content.records[0].T_world_sensor.isometry().matrix() -
+                        views()[0].T_world_sensor.isometry().matrix())
+                           .norm() < 1e-6;
+  const auto view = [&](std::size_t i) {
+    const bool of_a = (i < 12) == a_first;
+    return views()[i % 12 + (of_a ? 0 : 6)].T_world_sensor.isometry();
+  };
+  const Eigen::Isometry3d T = content.poses[0] * view(0).inverse();
+  for (std::size_t i = 0; i < 24; ++i) {
+    EXPECT_LT(distance(content.poses[i], T * view(i)), 0.03) << i;
+  }
+}
+
+TEST(MapMerge, RefusesACopy) {
+  const TempFolder folder;
+  write_first_session(folder.path() / "a");
+  std::filesystem::copy_file(folder.path() / "a", folder.path() / "b");
+  EXPECT_THROW(MapMerge({folder.path() / "a", folder.path() / "b"}, refuse), DataError);
+}
+
+}  // namespace
+}  // namespace mms

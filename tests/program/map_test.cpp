@@ -1,0 +1,102 @@
+// Map files by the commands of the program.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/files.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/program/program.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+
+constexpr const char* kFirstDay = "sim:rack_aisle?width=320&hz=3&frames=12";
+constexpr const char* kSecondDay = "sim:rack_aisle?width=320&hz=3&frames=12&day=1";
+
+/// A run with exact masks and more arguments.
+Outcome run_day(const TempFolder& folder, const std::string& day, const std::string& output,
+                const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"run", day, "-o", output};
+  if (std::find(more.begin(), more.end(), "--segmenter") == more.end()) {
+    arguments.insert(arguments.end(), {"--segmenter", "masks"});
+  }
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_mms(folder.path(), arguments);
+}
+
+nlohmann::json loops_of(const TempFolder& folder, const std::string& output) {
+  return nlohmann::json::parse(read_file(folder.path() / output / "metrics.json"))["loops"];
+}
+
+TEST(Map, IsSavedLocalizedInExtendedAndExported) {
+  const TempFolder folder;
+  const Outcome first = run_day(folder, kFirstDay, "first", {"--save-map", "a.mmsmap"});
+  expect_success(first);
+  EXPECT_NE(first.out.find("saved:  a.mmsmap"), std::string::npos) << first.out;
+  const std::string map = read_file(folder.path() / "a.mmsmap");
+
+  expect_success(run_day(folder, kSecondDay, "second", {"--map", "a.mmsmap", "--localise"}));
+  EXPECT_EQ(read_file(folder.path() / "a.mmsmap"), map);
+  const nlohmann::json loops = loops_of(folder, "second");
+  EXPECT_EQ(loops["earlier_map"]["sessions"], 1);
+  EXPECT_GT(loops["earlier_map"]["closed"], 1);
+  ASSERT_TRUE(loops["earlier_map"]["localized_s"].is_number());
+
+  expect_success(run_day(folder, kSecondDay, "third", {"--map", "a.mmsmap"}));
+  const Outcome info = run_mms(folder.path(), {"info", "a.mmsmap"});
+  expect_success(info);
+  EXPECT_NE(info.out.find("2 sessions"), std::string::npos) << info.out;
+  expect_success(run_mms(folder.path(), {"map", "check", "a.mmsmap"}));
+  expect_success(run_mms(folder.path(), {"map", "compact", "a.mmsmap"}));
+  expect_success(run_mms(folder.path(), {"map", "export", "a.mmsmap", "-o", "export"}));
+  EXPECT_GT(read_ply(folder.path() / "export/static_map.ply").points.size(), 5000U);
+  EXPECT_GT(read_ply(folder.path() / "export/changes.ply").points.size(), 5000U);
+  EXPECT_GT(read_trajectory_tum(folder.path() / "export/session_1.tum").size(), 3U);
+}
+
+TEST(Map, MergeTakesTheMapsInAnyOrder) {
+  const TempFolder folder;
+  expect_success(run_day(folder, kFirstDay, "first", {"--save-map", "a.mmsmap"}));
+  expect_success(run_day(folder, kSecondDay, "second", {"--save-map", "b.mmsmap"}));
+  for (const std::vector<std::string>& order :
+       {std::vector<std::string>{"a.mmsmap", "b.mmsmap"}, {"b.mmsmap", "a.mmsmap"}}) {
+    const std::string name = order[0].substr(0, 1);
+    const Outcome merged =
+        run_mms(folder.path(), {"merge", order[0], order[1], "-o", name + "_merged.mmsmap"});
+    expect_success(merged);
+    EXPECT_NE(merged.out.find("2 of 2 sessions joined"), std::string::npos) << merged.out;
+    expect_success(
+        run_mms(folder.path(), {"map", "export", name + "_merged.mmsmap", "-o", name + "_out"}));
+  }
+  EXPECT_EQ(read_file(folder.path() / "a_out/static_map.ply"),
+            read_file(folder.path() / "b_out/static_map.ply"));
+}
+
+TEST(Map, WrongOptionsAndFilesAreRefused) {
+  const TempFolder folder;
+  expect_success(run_day(folder, kFirstDay, "first", {"--save-map", "a.mmsmap"}));
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& words,
+                           const std::string& day = kFirstDay) {
+    const Outcome outcome = run_day(folder, day, "refused", more);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  };
+  refused({"--save-map", "a.mmsmap"}, "--map FILE goes on in it");
+  refused({"--localise"}, "needs a map");
+  refused({"--map", "missing.mmsmap"}, "does not exist");
+  refused({"--map", "first/metrics.json"}, "is no map");
+  refused({"--map", "a.mmsmap", "--loops", "off"}, "needs loop closure");
+  refused({"--map", "a.mmsmap", "--localise", "--save-map", "b.mmsmap"}, "does not go with");
+  refused({"--save-map", "missing/b.mmsmap"}, "folder does not exist");
+  refused({"--save-map", "b.mmsmap", "--segmenter", "none"}, "needs depth images",
+          "sim:static?sensor=lidar16&frames=3");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.mmsmap.partial"));
+}
+
+}  // namespace
+}  // namespace mms
