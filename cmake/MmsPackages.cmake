@@ -36,7 +36,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
        "libeigen3-dev (>= 3.4), libtbb-dev, robin-map-dev, libopencv-core-dev, "
        "libopencv-imgproc-dev, libopencv-imgcodecs-dev, libopencv-dnn-dev, "
-       "libopencv-features2d-dev, libceres-dev, libdnnl-dev, "
+       "libopencv-features2d-dev, libpng-dev, libceres-dev, libdnnl-dev, "
        "ocl-icd-opencl-dev, libembree-dev, libyaml-cpp-dev, nlohmann-json3-dev, liboctomap-dev, "
        "libsqlite3-dev, libzstd-dev, liblz4-dev, libbz2-dev, libfmt-dev, libboost-dev (>= 1.74)")
 if(Libav_FOUND)

@@ -144,5 +144,37 @@ TEST(ImageFormats, RejectsHugeSizesBeforeDecoding) {
             }));
 }
 
+TEST(ImageFormats, RejectsTooManyPixelsBeforeDecoding) {
+  const TempFolder folder;
+  const auto error = [&](const std::string& name, const std::string& bytes) {
+    return message_of<DataError>([&] { read_color(folder.write(name, bytes)); });
+  };
+  const std::string side("\0\0\x40\0", 4);  // 16384
+  std::string png = changed(encoded(".png", pattern(CV_16UC3)), 16, side + side);
+  expect_in("is 16384x16384 pixels of up to 8 bytes, allowed: up to 67108864 pixels and 512 MiB",
+            error("a.png", png));
+  const std::string jpeg = encoded(".jpg", pattern(CV_8UC3));
+  const std::size_t frame = jpeg.find("\xFF\xC0");
+  ASSERT_NE(frame, std::string::npos);
+  expect_in("is 16384x16384 pixels", error("a.jpg", changed(jpeg, frame + 5, {"\x40\0\x40\0", 4})));
+  const std::string webp = encoded(".webp", pattern(CV_8UC3), {cv::IMWRITE_WEBP_QUALITY, 90});
+  ASSERT_EQ(webp.substr(12, 4), "VP8 ");
+  expect_in("is 16383x16383 pixels", error("a.webp", changed(webp, 26, {"\xFF\x3F\xFF\x3F", 4})));
+  const std::string lossless = encoded(".webp", pattern(CV_8UC3), {cv::IMWRITE_WEBP_QUALITY, 101});
+  ASSERT_EQ(lossless.substr(12, 4), "VP8L");
+  expect_in("is 16384x16384 pixels",
+            error("b.webp", changed(lossless, 21, {"\xFF\xFF\xFF\x0F", 4})));
+}
+
+TEST(ImageFormats, RejectsTooMuchMemoryBeforeDecoding) {
+  const TempFolder folder;
+  std::string exr(8, '\0');
+  exr.replace(0, 4, "\x76\x2F\x31\x01");
+  exr += std::string("dataWindow\0box2i\0\x10\0\0\0", 21) + std::string(8, '\0') +
+         std::string("\xFF\x1F\0\0\xFF\x1F\0\0\0", 9);
+  expect_in("is 8192x8192 pixels of up to 16 bytes, allowed: up to 67108864 pixels and 512 MiB",
+            message_of<DataError>([&] { read_stored_depth(folder.write("a.exr", exr)); }));
+}
+
 }  // namespace
 }  // namespace mms

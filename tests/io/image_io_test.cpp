@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
 #include "mms/core/error.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
@@ -13,6 +16,7 @@ namespace {
 using testing::expect_in;
 using testing::message_of;
 using testing::TempFolder;
+namespace fs = std::filesystem;
 
 Image<Rgb> color_pattern() {
   Image<Rgb> image(37, 21);
@@ -117,6 +121,43 @@ TEST(ImageIo, RejectsDamagedImages) {
   huge[16] = 0x7f;
   const auto too_large = folder.write("b.png", huge);
   expect_in("allowed: up to 16384x16384", message_of<DataError>([&] { read_color(too_large); }));
+}
+
+/// libpng's own messages would be between those of the program.
+TEST(ImageIo, DamagedPngPrintsNothing) {
+  const TempFolder folder;
+  const auto png = encode_png(color_pattern());
+  ::testing::internal::CaptureStderr();
+  for (std::size_t at = 8; at < png.size(); at += 7) {
+    std::string damaged(png.begin(), png.end());
+    damaged[at] = static_cast<char>(~damaged[at]);
+    try {
+      read_color(folder.write("a.png", damaged));
+    } catch (const DataError&) {  // most of them
+    }
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+/// Pixels of all kinds of PNG are those that OpenCV decodes.
+TEST(ImageIo, DecodesPngAsOpencv) {
+  const TempFolder folder;
+  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC3, CV_16UC4}) {
+    cv::Mat stored(7, 9, type);
+    cv::randu(stored, 0, CV_MAT_DEPTH(type) == CV_8U ? 256 : 65536);
+    const fs::path file = folder.path() / "a.png";
+    cv::imwrite(file.string(), stored);
+    const cv::Mat expected = cv::imread(file.string(), cv::IMREAD_COLOR);
+    const Image<Rgb> color = read_color(file);
+    for (int y = 0; y < expected.rows; ++y) {
+      for (int x = 0; x < expected.cols; ++x) {
+        const auto& bgr = expected.at<cv::Vec3b>(y, x);
+        ASSERT_EQ(color(x, y), (Rgb{bgr[2], bgr[1], bgr[0]})) << type << " at " << x << ", " << y;
+      }
+    }
+    if (type != CV_16UC1) continue;
+    EXPECT_EQ(read_depth16(file)(3, 2), stored.at<std::uint16_t>(2, 3));
+  }
 }
 
 TEST(ImageIo, RejectsOtherFiles) {

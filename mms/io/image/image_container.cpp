@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -14,8 +15,12 @@ namespace {
 
 using Bytes = std::string_view;
 
-/// Width and height [px] as a file's header says.
-using Size = std::pair<std::uint64_t, std::uint64_t>;
+/// What a file's header says.
+struct Size {
+  std::uint64_t width = 0;        ///< [px]
+  std::uint64_t height = 0;       ///< [px]
+  std::uint64_t pixel_bytes = 4;  ///< of a decoded pixel, at most [B]
+};
 
 /// A whole number of `count` bytes; the caller checks that they are there.
 std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t count) {
@@ -51,8 +56,9 @@ bool png_is_whole(Bytes bytes) {
 
 std::optional<Size> png_size(Bytes bytes) {
   constexpr std::size_t kWidthAt = 16;
-  if (bytes.size() < kWidthAt + 8) return std::nullopt;
-  return Size(big_endian(bytes, kWidthAt, 4), big_endian(bytes, kWidthAt + 4, 4));
+  if (bytes.size() < kWidthAt + 9) return std::nullopt;
+  const std::uint64_t pixel_bytes = bytes[kWidthAt + 8] == 16 ? 8 : 4;  // up to four channels
+  return Size{big_endian(bytes, kWidthAt, 4), big_endian(bytes, kWidthAt + 4, 4), pixel_bytes};
 }
 
 /// Scan data contain neither FF D9 nor FF DA, so the file is complete if the end marker is last.
@@ -70,7 +76,7 @@ std::optional<Size> jpeg_size(Bytes bytes) {
     const auto marker = static_cast<std::uint8_t>(bytes[at + 1]);
     const bool table = marker == 0xC4 || marker == 0xC8 || marker == 0xCC;
     if (marker >= 0xC0 && marker <= 0xCF && !table) {
-      return Size(big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2));
+      return Size{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
     }
     at += marker == 0xFF ? 1 : 2 + big_endian(bytes, at + 2, 2);  // FF may fill
   }
@@ -88,14 +94,28 @@ std::optional<Size> bmp_size(Bytes bytes) {
   constexpr std::uint64_t kRange = 0x100000000U;
   if (bytes.size() < 26) return std::nullopt;
   const std::uint64_t height = little_endian(bytes, 22, 4);
-  return Size(little_endian(bytes, 18, 4), height >= kSign ? kRange - height : height);
+  return Size{little_endian(bytes, 18, 4), height >= kSign ? kRange - height : height};
 }
 
 bool webp_is_whole(Bytes bytes) {
   return little_endian(bytes, 4, 4) + 8 <= bytes.size();
 }
 
-/// Width (tag 256) and height (257) in the first directory.
+/// Size of the canvas (VP8X), or of the only image, lossless (VP8L) or not (VP8).
+std::optional<Size> webp_size(Bytes bytes) {
+  if (bytes.size() < 30) return std::nullopt;
+  const Bytes kind = bytes.substr(12, 4);
+  if (kind == "VP8X") {
+    return Size{1 + little_endian(bytes, 24, 3), 1 + little_endian(bytes, 27, 3)};
+  }
+  constexpr std::uint64_t kSideMask = 0x3FFF;
+  const std::uint64_t sides = little_endian(bytes, 21, 4);
+  if (kind == "VP8L") return Size{1 + (sides & kSideMask), 1 + (sides >> 14 & kSideMask)};
+  return Size{little_endian(bytes, 26, 2) & kSideMask, little_endian(bytes, 28, 2) & kSideMask};
+}
+
+/// Width (tag 256) and height (257) in the first directory, or of its tiles (322, 323) if they are
+/// larger. A pixel has `SamplesPerPixel` (277) numbers of `BitsPerSample` (258).
 std::optional<Size> tiff_size(Bytes bytes) {
   constexpr std::size_t kEntry = 12;
   const bool little = bytes[0] == 'I';
@@ -106,15 +126,24 @@ std::optional<Size> tiff_size(Bytes bytes) {
   const std::size_t directory = number(4, 4);
   if (directory + 2 > bytes.size()) return std::nullopt;
   const std::size_t entries = number(directory, 2);
-  Size size{0, 0};
+  Size size{0, 0, 1};
+  std::uint64_t samples = 1;
+  std::uint64_t bits = 8;
   for (std::size_t i = 0; i < entries; ++i) {
     const std::size_t at = directory + 2 + i * kEntry;
     if (at + kEntry > bytes.size()) return std::nullopt;
     const std::uint64_t tag = number(at, 2);
     const std::uint64_t value = number(at + 8, number(at + 2, 2) == 3 ? 2 : 4);
-    if (tag == 256) size.first = value;
-    if (tag == 257) size.second = value;
+    if (tag == 256 || tag == 322) size.width = std::max(size.width, value);
+    if (tag == 257 || tag == 323) size.height = std::max(size.height, value);
+    if (tag == 277) samples = std::min<std::uint64_t>(value, UINT16_MAX);
+    if (tag != 258) continue;
+    constexpr std::uint64_t kInPlace = 2;  // more numbers are elsewhere
+    const std::uint64_t place = number(at + 4, 4) > kInPlace ? number(at + 8, 4) : at + 8;
+    if (place + 2 > bytes.size()) return std::nullopt;
+    bits = std::max(bits, number(place, 2));
   }
+  size.pixel_bytes = std::max<std::uint64_t>(samples * ((bits + 7) / 8), 1);
   return size;
 }
 
@@ -131,8 +160,10 @@ std::optional<std::pair<Size, std::size_t>> pfm_header(Bytes bytes) {
   const auto width = parse_integer(size.substr(0, space));
   const auto height = parse_integer(size.substr(space + 1));
   if (!width || !height || *width <= 0 || *height <= 0) return std::nullopt;
-  return {{Size(static_cast<std::uint64_t>(*width), static_cast<std::uint64_t>(*height)),
-           scale_end + 1}};
+  const std::uint64_t pixel_bytes = bytes.starts_with("PF") ? 3 * sizeof(float) : sizeof(float);
+  return {
+      {Size{static_cast<std::uint64_t>(*width), static_cast<std::uint64_t>(*height), pixel_bytes},
+       scale_end + 1}};
 }
 
 std::optional<Size> pfm_size(Bytes bytes) {
@@ -143,8 +174,7 @@ std::optional<Size> pfm_size(Bytes bytes) {
 bool pfm_is_whole(Bytes bytes) {
   const auto header = pfm_header(bytes);
   if (!header) return false;
-  const auto& [width, height] = header->first;
-  const std::uint64_t pixel = bytes.starts_with("PF") ? 3 * sizeof(float) : sizeof(float);
+  const auto& [width, height, pixel] = header->first;
   if (width > kMaxImageSide || height > kMaxImageSide) return true;  // refused for its size
   return bytes.size() - header->second >= width * height * pixel;
 }
@@ -170,7 +200,7 @@ std::optional<Size> exr_size(Bytes bytes) {
         return static_cast<std::uint64_t>(
             std::max<std::int64_t>(0, number(low + 8) - number(low) + 1));
       };
-      return Size(side(0), side(4));
+      return Size{side(0), side(4), 4 * sizeof(float)};
     }
     at = value + length;
   }
@@ -179,10 +209,6 @@ std::optional<Size> exr_size(Bytes bytes) {
 
 bool is_whole(Bytes) {
   return true;
-}
-
-std::optional<Size> unknown_size(Bytes) {
-  return std::nullopt;
 }
 
 struct Container {
@@ -200,7 +226,7 @@ constexpr Container kContainers[] = {{"PNG", kPngSignature, png_is_whole, png_si
                                      {"EXR", "\x76\x2F\x31\x01", is_whole, exr_size},
                                      {"PFM", "Pf\n", pfm_is_whole, pfm_size},
                                      {"PFM", "PF\n", pfm_is_whole, pfm_size},
-                                     {"WebP", "RIFF", webp_is_whole, unknown_size}};
+                                     {"WebP", "RIFF", webp_is_whole, webp_size}};
 
 const Container* container_of(Bytes bytes) {
   constexpr std::size_t kWebpAt = 8;
@@ -211,6 +237,38 @@ const Container* container_of(Bytes bytes) {
                (!riff || (bytes.size() >= kWebpAt + 4 && bytes.substr(kWebpAt, 4) == "WEBP"));
       });
   return found == std::end(kContainers) ? nullptr : found;
+}
+
+/// The largest number of pixels of an image.
+std::uint64_t pixel_limit() {
+  static const std::uint64_t limit = [] {
+    constexpr std::uint64_t kDefault = std::uint64_t{1} << 26U;
+    const char* given = std::getenv("MMS_MAX_IMAGE_PIXELS");
+    if (given == nullptr) return kDefault;
+    const auto number = parse_integer(given);
+    if (number && *number > 0) return static_cast<std::uint64_t>(*number);
+    throw ConfigError("MMS_MAX_IMAGE_PIXELS",
+                      "is '" + std::string(given) + "', allowed: 1 or more");
+  }();
+  return limit;
+}
+
+void check_size(const Size& size, const std::string& where) {
+  constexpr std::uint64_t kLimit = kMaxImageSide;
+  const std::string pixels =
+      "is " + std::to_string(size.width) + "x" + std::to_string(size.height) + " pixels";
+  if (size.width > kLimit || size.height > kLimit) {
+    throw DataError(where, pixels + ", allowed: up to 16384x16384", "the header may be damaged");
+  }
+  constexpr std::uint64_t kPixelBytes = 8;  // of the largest image allowed
+  const std::uint64_t count = size.width * size.height;
+  const std::uint64_t most = pixel_limit();
+  if (count <= most && count <= kPixelBytes * most / size.pixel_bytes) return;
+  throw DataError(where,
+                  pixels + " of up to " + std::to_string(size.pixel_bytes) +
+                      " bytes, allowed: up to " + std::to_string(most) + " pixels and " +
+                      std::to_string((kPixelBytes * most) >> 20U) + " MiB",
+                  "the environment variable MMS_MAX_IMAGE_PIXELS sets the limit");
 }
 
 }  // namespace
@@ -227,12 +285,7 @@ void check_whole_image(std::string_view bytes, const std::string& where) {
                                std::to_string(bytes.size()) + " bytes");
   }
   const std::optional<Size> size = container->size(bytes);
-  constexpr std::uint64_t kLimit = kMaxImageSide;
-  if (!size || (size->first <= kLimit && size->second <= kLimit)) return;
-  throw DataError(where,
-                  "is " + std::to_string(size->first) + "x" + std::to_string(size->second) +
-                      " pixels, allowed: up to 16384x16384",
-                  "the header may be damaged");
+  if (size) check_size(*size, where);
 }
 
 }  // namespace mms

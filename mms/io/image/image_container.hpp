@@ -6,9 +6,10 @@
 namespace mms {
 
 /// Checks that the bytes are an image file: PNG, JPEG, BMP, WebP, TIFF, EXR or PFM, and except for
-/// TIFF and EXR that it is complete. Decoders fill missing parts of truncated files with gray
-/// and only print a warning. Files other than WebP and EXR with
-/// more than 16384 pixels a side are refused before memory is allocated.
+/// TIFF and EXR that it is complete. Decoders fill missing parts of truncated files with gray and
+/// only print a warning. Refused before memory is allocated are files with more than 16384 pixels a
+/// side, more than 2^26 pixels, or pixels that need more than 512 MiB; the environment variable
+/// MMS_MAX_IMAGE_PIXELS sets the number of pixels, and with it the memory, 8 bytes a pixel.
 /// @throws DataError at `where` for such files and other formats.
 void check_whole_image(std::string_view bytes, const std::string& where);
 

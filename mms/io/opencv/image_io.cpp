@@ -9,6 +9,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/io/image/image_container.hpp"
+#include "mms/io/opencv/png_decoder.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
 
@@ -31,9 +32,18 @@ void prepare_opencv() {
   static_cast<void>(done);
 }
 
+[[noreturn]] void fail_damaged(const std::string& where) {
+  throw DataError(where, "is a damaged image that cannot be decoded");
+}
+
 cv::Mat decode(std::string_view bytes, int flags, const std::string& where) {
   prepare_opencv();
   check_whole_image(bytes, where);
+  if (bytes.starts_with("\x89PNG")) {
+    const cv::Mat pixels = decode_png(bytes, flags != cv::IMREAD_UNCHANGED);
+    if (pixels.empty()) fail_damaged(where);
+    return pixels;
+  }
   cv::Mat decoded;
   try {  // the matrix refers to the bytes, which the decoder only reads
     const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
@@ -42,7 +52,7 @@ cv::Mat decode(std::string_view bytes, int flags, const std::string& where) {
   } catch (const cv::Exception&) {
     decoded.release();
   }
-  if (decoded.empty()) throw DataError(where, "is a damaged image that cannot be decoded");
+  if (decoded.empty()) fail_damaged(where);
   return decoded;
 }
 
