@@ -2,24 +2,12 @@
 
 #include <algorithm>
 
+#include "mms/core/utf8.hpp"
+
 namespace mms {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
-
-/// Length of the UTF-8 character at the start of `text` [bytes]; 0 if invalid.
-std::size_t utf8_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t length = first < 0x80                     ? 1
-                             : first >= 0xC2 && first <= 0xDF ? 2
-                             : first >= 0xE0 && first <= 0xEF ? 3
-                             : first >= 0xF0 && first <= 0xF4 ? 4
-                                                              : 0;
-  if (length == 0 || length > text.size()) return 0;
-  const bool continued = std::all_of(text.begin() + 1, text.begin() + static_cast<long>(length),
-                                     [](char c) { return (c & 0xC0) == 0x80; });
-  return continued ? length : 0;
-}
 
 std::string_view escaped(std::string_view character) {
   switch (character.front()) {

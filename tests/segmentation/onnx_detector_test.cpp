@@ -116,6 +116,18 @@ TEST(OnnxDetector, ConfiguredClassesOverrideFile) {
             message_of<DataError>([&] { detector_of(folder, {}, {.classes = "person,"}); }));
 }
 
+TEST(OnnxDetector, RejectsNamesThatJsonCannotHold) {
+  const TempFolder folder;
+  const TinyOnnx model{.names = "{0: 'r', 1: 'b\xff'}"};
+  expect_in("the name of class 1 is not UTF-8 (name the classes by the setting",
+            message_of<DataError>([&] { detector_of(folder, model); }));
+  EXPECT_EQ(detector_of(folder, model, {.classes = "person, agv"}).classes(),
+            (Names{"person", "agv"}));
+  expect_in("classes: the name of class 0 is not UTF-8", message_of<DataError>([&] {
+              detector_of(folder, {}, {.classes = "\xed\xa0\x80, agv"});
+            }));
+}
+
 TEST(OnnxDetector, UsesConfiguredSideForOpenInput) {
   const TempFolder folder;
   Image<Rgb> image(64, 64);

@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "mms/core/error.hpp"
+#include "mms/core/utf8.hpp"
 #include "mms/segmentation/detection/coco_classes.hpp"
 #include "mms/segmentation/onnx/class_names.hpp"
 #include "mms/segmentation/onnx/letterbox.hpp"
@@ -29,10 +30,22 @@ std::string bytes_of(const fs::path& path) {
   return bytes;
 }
 
+/// @throws DataError if a name cannot be written to JSON.
+void check_names(const std::vector<std::string>& names, const std::string& where) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (is_utf8(names[i])) continue;
+    throw DataError(where, "the name of class " + std::to_string(i) + " is not UTF-8",
+                    "name the classes by the setting segmentation.onnx.classes");
+  }
+}
+
 /// Classes of the settings, else of the model, else of COCO.
-std::vector<std::string> classes_of(const OnnxConfig& config, const onnx::ModelHeader& header) {
+std::vector<std::string> classes_of(const OnnxConfig& config, const onnx::ModelHeader& header,
+                                    const std::string& where) {
   std::vector<std::string> given = onnx::listed_names(config.classes, "classes");
+  check_names(given, "classes");
   if (!given.empty()) return given;
+  check_names(header.classes, where);
   return header.classes.empty() ? coco_classes() : header.classes;
 }
 
@@ -65,7 +78,7 @@ OnnxDetector::OnnxDetector(const fs::path& model, const OnnxConfig& config, int 
   const onnx::ModelHeader header = onnx::read_model_header(bytes, where_);
   width_ = header.width > 0 ? header.width : config.input_side;
   height_ = header.height > 0 ? header.height : config.input_side;
-  classes_ = classes_of(config, header);
+  classes_ = classes_of(config, header, where_);
   const onnx::QuietLog quiet;
   cv::setNumThreads(threads > 0 ? threads : -1);
   network_ = std::make_unique<onnx::OpencvNetwork>(bytes, where_, width_, height_);
