@@ -33,6 +33,19 @@ void expect_same(const Trajectory& a, const Trajectory& b) {
   }
 }
 
+TEST(Convert, LeavesOutPointsThatAreNotFinite) {
+  const TempFolder folder;
+  folder.write("a.pcd",
+               "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 1\n"
+               "POINTS 3\nDATA ascii\n1 2 3\nnan 0 0\n1e99 2 3\n");
+  const Outcome outcome = run_mms(folder.path(), {"convert", "a.pcd"});
+  expect_success(outcome);
+  expect_in("a.ply: 1 points, without 2 that are not finite", outcome.out);
+  const auto points = read_ply(folder.path() / "a.ply").points;
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_EQ(points[0], Eigen::Vector3f(1, 2, 3));
+}
+
 TEST(Convert, ConvertsTrajectoriesBothDirections) {
   const TempFolder folder;
   write_trajectory_tum(folder.path() / "a.tum", sample_poses());

@@ -87,6 +87,7 @@ Transform<Map, World> level_transform(const fs::path& input) {
 void convert_cloud(const fs::path& input, Format from, const fs::path& output, Format to,
                    bool level) {
   PointCloudFile cloud = from == Format::kPly ? read_ply(input) : read_pcd(input);
+  const std::size_t invalid = remove_invalid_points(cloud);
   std::vector<std::string> comments;
   if (level) {
     const Eigen::Isometry3f T_map_world = level_transform(input).isometry().cast<float>();
@@ -95,7 +96,8 @@ void convert_cloud(const fs::path& input, Format from, const fs::path& output, F
     comments = {"units: m", "frame: map, level, x forward at the start, y left, z up"};
   }
   to == Format::kPly ? write_ply(output, cloud, comments) : write_pcd(output, cloud);
-  fmt::print("{}: {} points\n", output.string(), cloud.points.size());
+  fmt::print("{}: {} points{}\n", output.string(), cloud.points.size(),
+             invalid == 0 ? "" : fmt::format(", without {} that are not finite", invalid));
 }
 
 Trajectory read_poses(const fs::path& input, Format from, const fs::path& stamps) {

@@ -57,6 +57,7 @@ std::optional<TruthCloud> RecordedSource::map_truth() const {
   const bool all = position_ >= size() && !passed_over_;
   if (!all || map_truth_.empty() || !std::filesystem::exists(map_truth_)) return std::nullopt;
   PointCloudFile file = read_ply(map_truth_);
+  remove_invalid_points(file);
   if (file.labels.empty() && !file.points.empty()) {
     throw DataError(map_truth_.string(), "has no property 'label'",
                     "expected a label per point: 0 static, else 1 + id of the object");

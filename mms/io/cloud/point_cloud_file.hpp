@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,5 +19,10 @@ struct PointCloudFile {
   std::vector<std::int32_t>
       observations;  ///< property observations: frames that observed the point
 };
+
+/// Removes points whose position is not finite, as PCL marks missing returns, and sets normals that
+/// are not finite to zero, which means none.
+/// @returns the number of removed points
+std::size_t remove_invalid_points(PointCloudFile& cloud);
 
 }  // namespace mms

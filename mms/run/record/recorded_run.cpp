@@ -42,6 +42,7 @@ std::map<Timestamp, std::vector<float>> read_times(const fs::path& file) {
 
 MapCloud read_map(const fs::path& file) {
   PointCloudFile cloud = read_ply(file);
+  remove_invalid_points(cloud);
   MapCloud map;
   map.points = std::move(cloud.points);
   map.colors = std::move(cloud.colors);

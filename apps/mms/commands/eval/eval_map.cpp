@@ -25,8 +25,17 @@ struct MapArguments {
   CameraOptions camera;  ///< in place of the recording's
 };
 
+PointCloudFile read_finite(const std::string& file) {
+  PointCloudFile cloud = read_ply(file);
+  const std::size_t invalid = remove_invalid_points(cloud);
+  if (invalid > 0) {
+    fmt::print(stderr, "warning: {}: {} points are not finite and left out\n", file, invalid);
+  }
+  return cloud;
+}
+
 void evaluate_cleanness(const MapArguments& arguments) {
-  const PointCloudFile truth = read_ply(arguments.truth);
+  const PointCloudFile truth = read_finite(arguments.truth);
   if (truth.labels.empty() && !truth.points.empty()) {
     throw DataError(arguments.truth, "has no property 'label'",
                     "expected a label per point: 0 static, else the object's id");
@@ -36,7 +45,7 @@ void evaluate_cleanness(const MapArguments& arguments) {
   for (std::size_t i = 0; i < truth.points.size(); ++i) {
     (truth.labels[i] == 0 ? fixed : dynamic).push_back(truth.points[i]);
   }
-  const MapError error = evaluate_map(fixed, dynamic, read_ply(arguments.map).points);
+  const MapError error = evaluate_map(fixed, dynamic, read_finite(arguments.map).points);
   if (!arguments.json) {
     fmt::print(
         "ground truth: {} static and {} dynamic points; {} dynamic ones within 5 cm of a static "
@@ -62,7 +71,7 @@ void evaluate_ghost_points_of(const MapArguments& arguments) {
     camera = frame->calibration->camera;
   }
   if (!camera) throw DataError(arguments.truth, "has no readable frame");
-  const auto map = read_ply(arguments.map).points;
+  const auto map = read_finite(arguments.map).points;
   print_metrics(metric_values(evaluate_ghost_points(map, room.far_mode(), *camera)),
                 arguments.json);
 }
