@@ -1,6 +1,10 @@
 #include "mms/io/text/atomic_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cerrno>
+#include <csignal>
 
 #include "mms/core/error.hpp"
 #include "mms/io/text/files.hpp"
@@ -42,6 +46,40 @@ TEST(AtomicFile, FollowsLinks) {
   write_file(link, "new");
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   EXPECT_EQ(read_file(target), "new");
+}
+
+TEST(AtomicFile, SignalsRemoveTemporaryFiles) {
+  const TempFolder folder;
+  AtomicFile file(folder.path() / "a.txt");
+  const TemporaryPath below(folder.path() / "below");
+  std::filesystem::create_directory(below.path());
+  const TemporaryPath inner(below.path() / "b.txt");
+  folder.write("below/b.txt", "half");
+  write_file(folder.path() / "c.txt", "whole");
+  EXPECT_EQ(list_folder(folder.path()).size(), 3U);
+  remove_temporary_paths();
+  EXPECT_EQ(list_folder(folder.path()), std::vector<std::string>{"c.txt"});
+}
+
+/// A disk that is full is noticed while the stream is written, before `commit`.
+TEST(AtomicFile, ErrorsNameCauseOfEarlierWrites) {
+  const TempFolder folder;
+  void (*handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit small = before;
+  small.rlim_cur = 100;
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = message_of<FileError>([&] {
+    AtomicFile file(folder.path() / "a.txt");
+    file.stream() << std::string(100000, 'x');
+    errno = 0;
+    file.commit();
+  });
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  expect_in("a.txt: cannot be written: File too large", message);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(AtomicFile, ErrorsNameFile) {

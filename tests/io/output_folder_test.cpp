@@ -60,11 +60,43 @@ TEST(OutputFolder, NeverTouchesFilesThatOnlyHaveTheSameName) {
   EXPECT_EQ(read_file(folder.path() / "pictures/holiday.jpg"), "mine");
 }
 
+TEST(OutputFolder, NeverTouchesFileInPlaceOfFolder) {
+  const TempFolder folder;
+  folder.write("run.json", "{}");
+  folder.write("pictures", "mine");
+  expect_in("has a file that this command did not write, as pictures",
+            message_of<FileError>([&] { take_output_folder(folder.path(), kOwn, kMarks, true); }));
+  EXPECT_EQ(read_file(folder.path() / "pictures"), "mine");
+}
+
 TEST(OutputFolder, LeavesDevicesAlone) {
   const TempFolder folder;
   fs::create_symlink("/dev/null", folder.path() / "map.ply");
   EXPECT_FALSE(take_output_folder(folder.path(), kOwn, kMarks, true));
   EXPECT_TRUE(fs::is_symlink(folder.path() / "map.ply"));
+}
+
+TEST(FolderLock, KeepsOthersAway) {
+  const TempFolder folder;
+  const fs::path path = folder.path() / "a/b";
+  {
+    const FolderLock lock(path);
+    EXPECT_TRUE(lock.made());
+    expect_in("is in use by another mms", message_of<FileError>([&] { FolderLock second(path); }));
+  }
+  EXPECT_FALSE(FolderLock(path).made());
+}
+
+TEST(FolderLock, NoticesReplacedFolder) {
+  const TempFolder folder;
+  const fs::path path = folder.path() / "a";
+  const FolderLock lock(path);
+  EXPECT_TRUE(lock.holds(path));
+  fs::rename(path, folder.path() / "b");
+  EXPECT_FALSE(lock.holds(path));
+  EXPECT_TRUE(lock.holds(folder.path() / "b"));
+  fs::create_directory(path);
+  EXPECT_FALSE(lock.holds(path));
 }
 
 TEST(OutputFolder, RejectsFile) {

@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "mms/io/text/files.hpp"
@@ -83,15 +82,6 @@ RunningMms::~RunningMms() {
 
 void RunningMms::send(int signal) const {
   EXPECT_EQ(kill(child_, signal), 0) << "the program has ended";
-}
-
-bool RunningMms::handles(int signal) const {
-  std::ifstream status("/proc/" + std::to_string(child_) + "/status");
-  for (std::string word; status >> word;) {
-    unsigned long long caught = 0;
-    if (word == "SigCgt:" && status >> std::hex >> caught) return (caught >> (signal - 1) & 1) != 0;
-  }
-  return false;
 }
 
 Outcome RunningMms::wait() {

@@ -26,9 +26,6 @@ class RunningMms {
 
   void send(int signal) const;
 
-  /// Whether the program has a handler for `signal`.
-  bool handles(int signal) const;
-
   /// Waits for its end. A sanitizer finding fails the test.
   Outcome wait();
 

@@ -299,6 +299,37 @@ TEST(Run, WritesOtherResultsWhenPicturesFail) {
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/static_map.ply"));
 }
 
+TEST(Run, RestoresRemovedFolder) {
+  const TempFolder folder;
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome = run_interrupted_after(folder, [&] { fs::remove_all(out); });
+  expect_success(outcome);
+  expect_in("warning: out was removed during the run; the results are written to out", outcome.err);
+  EXPECT_TRUE(fs::is_regular_file(out / "trajectory.tum"));
+  EXPECT_TRUE(fs::is_regular_file(out / "run.json"));
+}
+
+TEST(Run, KeepsFileInPlaceOfRemovedFolder) {
+  const TempFolder folder;
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome = run_interrupted_after(folder, [&] {
+    fs::remove_all(out);
+    folder.write("out", "mine");
+  });
+  expect_success(outcome);
+  expect_in("the results are written to out_2", outcome.err);
+  EXPECT_EQ(read_file(out), "mine");
+  EXPECT_TRUE(fs::is_regular_file(folder.path() / "out_2/trajectory.tum"));
+}
+
+TEST(Run, KeepsFileInPlaceOfLink) {
+  const TempFolder folder;
+  folder.write("results/latest", "mine");
+  expect_success(
+      run_mms(folder.path(), {"run", "sim:still_walker?frames=3", "--segmenter", "none"}));
+  EXPECT_EQ(read_file(folder.path() / "results/latest"), "mine");
+}
+
 TEST(Run, NamesResultThatCannotBeWritten) {
   const TempFolder folder;
   const Outcome outcome = run_interrupted_after(

@@ -84,11 +84,47 @@ TEST(Signals, InterruptedCommandsSaySo) {
       interrupted(folder, {"segment", "sim:still_walker", "-o", "found"}, "found/overlays");
   EXPECT_EQ(segment.exit_code, 130) << segment.err;
   const Outcome convert =
-      interrupted(folder, {"convert", "sim:still_walker", "-o", "x.bag"}, "x.bag.tmp");
+      interrupted(folder, {"convert", "sim:still_walker", "-o", "x.bag"}, "x.partial.bag.tmp");
   EXPECT_EQ(convert.exit_code, 130) << convert.err;
   expect_in("of 300 frames are in x.partial.bag", convert.err);
   EXPECT_TRUE(fs::exists(folder.path() / "x.partial.bag"));
   EXPECT_FALSE(fs::exists(folder.path() / "x.bag"));
+}
+
+TEST(Signals, InterruptedConversionKeepsEarlierFiles) {
+  const TempFolder folder;
+  folder.write("x.bag", "earlier");
+  folder.write("x.partial.bag", "mine");
+  const Outcome convert = interrupted(
+      folder, {"convert", "sim:still_walker", "-o", "x.bag", "--overwrite"}, "x.partial2.bag.tmp");
+  EXPECT_EQ(convert.exit_code, 130) << convert.err;
+  EXPECT_EQ(read_file(folder.path() / "x.bag"), "earlier");
+  EXPECT_EQ(read_file(folder.path() / "x.partial.bag"), "mine");
+  EXPECT_TRUE(fs::exists(folder.path() / "x.partial2.bag"));
+}
+
+TEST(Signals, SecondSignalRemovesTemporaryFiles) {
+  const TempFolder folder;
+  RunningMms convert(folder.path(), {"convert", "sim:still_walker", "-o", "x.bag"});
+  ASSERT_TRUE(appears(folder.path() / "x.partial.bag.tmp"));
+  convert.send(SIGINT);
+  convert.send(SIGTERM);
+  const int code = convert.wait().exit_code;
+  EXPECT_TRUE(code == 128 + SIGTERM || code == 128 + SIGINT) << code;
+  EXPECT_EQ(list_folder(folder.path()), (std::vector<std::string>{".stderr", ".stdout"}));
+}
+
+TEST(Signals, RunFinishesWritingItsResults) {
+  const TempFolder folder;
+  RunningMms run(folder.path(),
+                 {"run", "sim:still_walker?frames=12", "--segmenter", "none", "-o", "out"});
+  ASSERT_TRUE(appears(folder.path() / "out/trajectory.tum"));  // the first result
+  run.send(SIGTERM);
+  expect_success(run.wait());
+  for (const char* file : {"metrics.json", "report.html", "run.json"}) {
+    EXPECT_TRUE(fs::exists(folder.path() / "out" / file)) << file;
+  }
+  EXPECT_FALSE(has_file(folder.path() / "out/journal.bin"));
 }
 
 TEST(Signals, IgnoredSignalStaysIgnored) {

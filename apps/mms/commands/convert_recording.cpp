@@ -27,12 +27,42 @@ fs::path other_recording(const RecordingConversion& conversion) {
   throw DataError(conversion.input, "has no default output name", "use -o x.bag or x.mcap");
 }
 
-/// "x.partial.bag", "x.partial.mcap", "x.partial" of a folder.
+/// Without trailing slash.
+fs::path plain_path(const fs::path& output) {
+  const fs::path path = output.lexically_normal();
+  if (!path.has_filename()) return path.parent_path();
+  return path.filename() == "." || path.filename() == ".."
+             ? fs::absolute(path).lexically_normal().parent_path()
+             : path;
+}
+
+/// "x.partial.bag", "x.partial.mcap", "x.partial" of a folder, or "x.partial2" if that exists.
 fs::path partial_name(const fs::path& output) {
-  fs::path partial = output;
-  const std::string ending = output.extension().string();
-  if (is_bag_name(output)) return partial.replace_extension(".partial" + ending);
-  return partial += ".partial";
+  for (int i = 1;; ++i) {
+    const std::string mark = ".partial" + (i == 1 ? "" : std::to_string(i));
+    fs::path partial = plain_path(output);
+    if (is_bag_name(output)) {
+      partial.replace_extension(mark + output.extension().string());
+    } else {
+      partial += mark;
+    }
+    if (!fs::exists(partial)) return partial;
+  }
+}
+
+/// @throws FileError if the output exists, and is not a file to overwrite or an empty folder.
+void refuse_existing(const fs::path& output, bool overwrite) {
+  refuse_existing_file(output, overwrite);
+  const bool bag = is_bag_name(output);
+  if (!fs::exists(output) || (bag && fs::is_regular_file(output))) return;
+  if (bag || !fs::is_directory(output)) {
+    throw FileError(output.string(), bag ? "is not a regular file" : "is a file",
+                    "choose another name with -o");
+  }
+  const auto names = list_folder(output);
+  if (names.empty()) return;
+  throw FileError(output.string(), "is not empty (it has " + names.front() + ")",
+                  "choose a new folder with -o");
 }
 
 std::unique_ptr<FrameRecorder> open_recorder(const fs::path& output, bool compressed) {
@@ -53,8 +83,9 @@ void convert_recording(const RecordingConversion& conversion) {
   const auto source =
       open_dataset(conversion.input,
                    {.map_truth = false, .topics = conversion.topics, .camera = conversion.camera});
-  refuse_existing_file(output, conversion.overwrite);
-  const auto recorder = open_recorder(output, conversion.compressed);
+  refuse_existing(output, conversion.overwrite);
+  const fs::path partial = partial_name(output);
+  auto recorder = open_recorder(partial, conversion.compressed);
   RateProgress progress("frame");
   source->on_warning([&](const std::string& message) { progress.warn(message); });
   const InterruptGuard interrupt;
@@ -66,13 +97,22 @@ void convert_recording(const RecordingConversion& conversion) {
     progress.show(++done, static_cast<int>(source->size()));
   }
   progress.finish();
-  if (done == 0) throw DataError(conversion.input, "none of its frames could be read");
+  if (done == 0) {
+    recorder.reset();
+    std::error_code ignored;
+    fs::remove(partial, ignored);  // an empty folder
+    throw DataError(conversion.input, "none of its frames could be read");
+  }
   recorder->finish(source->ground_truth());
   if (InterruptGuard::requested()) {
-    const fs::path partial = partial_name(output);
-    fs::rename(output, partial);
     throw Interrupted(
         fmt::format("{} of {} frames are in {}", done, source->size(), partial.string()));
+  }
+  std::error_code error;
+  fs::rename(partial, plain_path(output), error);
+  if (error) {
+    throw FileError(output.string(), "cannot be written: " + error.message(),
+                    "the recording is in " + partial.string());
   }
   fmt::print("{}: {} frames, {} ground-truth poses\nplay it: mms run {}\n", output.string(), done,
              source->ground_truth().size(), output.string());

@@ -12,6 +12,7 @@
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/progress.hpp"
 #include "apps/mms/console/viewing.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/run/record/run_options.hpp"
@@ -58,9 +59,14 @@ void run(const RunOptions& options, const ConsoleOptions& console) {
   SlamRun run(options);
   if (run.view() != nullptr) announce(run.view()->server(), *options.view);
   const InterruptGuard interrupt;  // also while the results are written
-  const ResultFolder folder(options.output, options.data, options.overwrite);
+  ResultFolder folder(options.output, options.data, options.overwrite);
+  const std::string place = folder.path().string();
   Progress progress(console.quiet);
   run.play(folder.path(), progress);
+  if (folder.restore()) {
+    print_warnings({place + " was removed during the run; the results are written to " +
+                    folder.path().string()});
+  }
   run.write(folder.path());
   folder.make_latest();
   print_summary(folder.path(), run.log().metrics(), console);

@@ -1,39 +1,44 @@
 #include "apps/mms/console/interrupt.hpp"
 
+#include <atomic>
+#include <csignal>
+
+#include "mms/io/text/temporary_path.hpp"
+
 namespace mms {
 namespace {
 
-volatile std::sig_atomic_t requested_flag = 0;
-int guards = 0;  // only changed by the main thread
+std::atomic<bool> interrupt_requested = false;
+std::atomic<int> interrupt_guards = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "signal handlers must not lock");
 
-/// A second signal ends the program.
-void on_signal(int) {
-  requested_flag = 1;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction now {};
-    sigaction(signal, nullptr, &now);
-    if (now.sa_handler == on_signal) std::signal(signal, SIG_DFL);
-  }
+void on_interrupt(int signal) {
+  if (interrupt_guards > 0 && !interrupt_requested.exchange(true)) return;
+  remove_temporary_paths();
+  std::signal(signal, SIG_DFL);
+  static_cast<void>(std::raise(signal));  // ends the program when the handler returns
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
-  if (guards++ == 0) requested_flag = 0;
-  for (std::size_t i = 0; i < kSignals.size(); ++i) {
-    sigaction(kSignals[i], nullptr, &before_[i]);
-    if (before_[i].sa_handler != SIG_IGN && !requested()) std::signal(kSignals[i], on_signal);
+void handle_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (std::signal(signal, on_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }
 
+InterruptGuard::InterruptGuard() {
+  if (interrupt_guards == 0) interrupt_requested = false;
+  ++interrupt_guards;
+}
+
 InterruptGuard::~InterruptGuard() {
-  --guards;
-  if (requested()) return;  // the second signal ends the program
-  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  --interrupt_guards;
 }
 
 bool InterruptGuard::requested() {
-  return requested_flag != 0;
+  return interrupt_requested;
 }
 
 }  // namespace mms

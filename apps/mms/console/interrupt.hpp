@@ -1,15 +1,17 @@
 #pragma once
 
-#include <array>
-#include <csignal>
 #include <stdexcept>
 #include <string>
 
 namespace mms {
 
-/// During its lifetime the first Ctrl-C (SIGINT), SIGTERM or SIGHUP only requests an end, so that
-/// results are written; the second one ends the program immediately. Signals that are ignored, as
-/// SIGHUP by nohup, stay so. Guards may be nested.
+/// Lets Ctrl-C (SIGINT), SIGTERM and SIGHUP remove temporary files before they end the program, if
+/// no `InterruptGuard` prevents it. Signals that are ignored, as SIGHUP by nohup, stay so. To be
+/// called once.
+void handle_interrupts();
+
+/// During its lifetime the first of these signals only requests an end, so that results are
+/// written; the second one ends the program immediately. Guards may be nested.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -19,11 +21,6 @@ class InterruptGuard {
 
   /// Whether an end was requested since the outermost guard was created.
   static bool requested();
-
- private:
-  static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
-
-  std::array<struct sigaction, kSignals.size()> before_{};
 };
 
 /// A command was interrupted and its output is not complete; the program ends with status 130, as

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 
@@ -29,6 +30,8 @@ int fail(const std::string& what, int exit_code = kFault) {
 }  // namespace
 
 int run_app(CLI::App& app, int argc, char** argv) {
+  handle_interrupts();
+  std::cerr.rdbuf(nullptr);  // OpenCV prints the faults of images there, which we report
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -11,6 +11,7 @@
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
+#include "mms/io/text/output_folder.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -45,8 +46,7 @@ void add_line(std::string& list, Timestamp stamp, const std::string& file) {
 
 class FolderRecorder final : public FrameRecorder {
  public:
-  explicit FolderRecorder(fs::path folder) : folder_(std::move(folder)) {
-    make_folder(folder_);
+  explicit FolderRecorder(const fs::path& folder) : folder_(folder), lock_(folder) {
     const auto names = list_folder(folder_);
     if (names.empty()) return;
     throw FileError(folder_.string(), "is not empty (it has " + names.front() + ")",
@@ -127,6 +127,7 @@ class FolderRecorder final : public FrameRecorder {
   }
 
   fs::path folder_;
+  FolderLock lock_;
   Calibration calibration_;
   bool lidar_ = false;
   std::size_t count_ = 0;

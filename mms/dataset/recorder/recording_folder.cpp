@@ -4,6 +4,7 @@
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
+#include "mms/io/text/output_folder.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -41,6 +42,11 @@ bool is_simulation(const fs::path& folder) {
 }
 
 void remove_simulation(const fs::path& folder) {
+  for (const std::string_view entry : kEntries) {
+    if (!fs::exists(folder / entry) || is_as_named(folder / entry)) continue;
+    throw FileError((folder / entry).string(), "is not of an earlier simulation",
+                    "choose a new folder with -o");
+  }
   for (const std::string_view entry : kEntries) {
     std::error_code error;
     fs::remove_all(folder / entry, error);

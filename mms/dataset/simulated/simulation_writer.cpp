@@ -35,7 +35,7 @@ Trajectory dense_poses(const SimulatedScene& scene, int frames, double rate) {
 
 SimulationWriter::SimulationWriter(const fs::path& folder, const SceneConfig& config,
                                    const SensorPreset& sensor)
-    : folder_(folder) {
+    : folder_(folder), lock_(folder) {
   prepare_recording_folder(folder, config);
   layout_ = layout_for(folder, config, sensor);
 }

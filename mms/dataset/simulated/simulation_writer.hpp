@@ -9,6 +9,7 @@
 #include "mms/dataset/simulated/instance_annotations.hpp"
 #include "mms/dataset/simulated/map_truth.hpp"
 #include "mms/dataset/simulated/objects_truth.hpp"
+#include "mms/io/text/output_folder.hpp"
 
 namespace mms {
 
@@ -35,6 +36,7 @@ class SimulationWriter {
 
  private:
   std::filesystem::path folder_;
+  FolderLock lock_;
   std::unique_ptr<RecordingLayout> layout_;
   Trajectory truth_;
   ObjectsTruth objects_;

@@ -9,6 +9,7 @@
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
+#include "mms/io/text/output_folder.hpp"
 #include "mms/simulation/training_view.hpp"
 
 namespace mms {
@@ -35,7 +36,6 @@ void check_seed(const fs::path& file, std::uint64_t seed) {
 
 /// Creates the folder, or checks that the existing one can be continued.
 void prepare(const fs::path& folder, std::uint64_t seed) {
-  make_folder(folder);
   const std::vector<std::string> names = list_folder(folder);
   if (fs::exists(folder / kSetFile)) {
     check_seed(folder / kSetFile, seed);
@@ -94,6 +94,7 @@ class TrainingSet {
 }  // namespace
 
 WrittenTrainingSet write_training_set(const fs::path& folder, const TrainingSetOptions& options) {
+  const FolderLock lock(folder);
   prepare(folder, options.seed);
   TrainingSet set(folder, options);
   WrittenTrainingSet written;

@@ -1,6 +1,7 @@
 #include "mms/io/journal/journal_writer.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -30,6 +31,14 @@ JournalWriter::~JournalWriter() {
 
 void JournalWriter::append(const JournalFrame& frame) {
   write(encode_frame(frame));
+}
+
+void JournalWriter::remove() noexcept {
+  struct stat own {};
+  struct stat there {};
+  const bool same = ::fstat(descriptor_, &own) == 0 && ::stat(path_.c_str(), &there) == 0 &&
+                    own.st_dev == there.st_dev && own.st_ino == there.st_ino;
+  if (same) ::unlink(path_.c_str());
 }
 
 void JournalWriter::write(std::string_view bytes) {

@@ -22,6 +22,9 @@ class JournalWriter {
   /// further.
   void append(const JournalFrame& frame);
 
+  /// Removes the file, unless its path leads to another file by now.
+  void remove() noexcept;
+
  private:
   void write(std::string_view bytes);
   [[noreturn]] void fail(int error_number) const;

@@ -31,34 +31,43 @@ fs::path neighbour(const fs::path& path) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& path)
-    : path_(destination(path)), temporary_(neighbour(path_)) {
+WrittenBuffer::int_type WrittenBuffer::overflow(int_type c) {
   errno = 0;
-  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!stream_) fail(errno);
+  const int_type written = std::filebuf::overflow(c);
+  const bool failed = traits_type::eq_int_type(written, traits_type::eof());
+  if (failed && error_ == 0) error_ = errno;
+  return written;
 }
 
-AtomicFile::~AtomicFile() {
-  if (temporary_.empty()) return;
-  stream_.close();
-  std::error_code ignored;
-  fs::remove(temporary_, ignored);
+std::streamsize WrittenBuffer::xsputn(const char* bytes, std::streamsize size) {
+  errno = 0;
+  const std::streamsize written = std::filebuf::xsputn(bytes, size);
+  if (written < size && error_ == 0) error_ = errno;
+  return written;
+}
+
+AtomicFile::AtomicFile(const fs::path& path)
+    : path_(destination(path)), temporary_(neighbour(path_)), stream_(&buffer_) {
+  errno = 0;
+  if (buffer_.open(temporary_.path(), std::ios::out | std::ios::binary | std::ios::trunc) ==
+      nullptr) {
+    fail(errno);
+  }
 }
 
 void AtomicFile::write(std::string_view bytes) {
-  errno = 0;
   stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream_) fail(errno);
+  if (!stream_) fail(buffer_.error());
 }
 
 void AtomicFile::commit() {
   errno = 0;
-  stream_.close();
-  if (!stream_) fail(errno);
+  const bool closed = buffer_.close() != nullptr;
+  if (!closed || !stream_) fail(buffer_.error() != 0 ? buffer_.error() : errno);
   std::error_code error;
-  fs::rename(temporary_, path_, error);
+  fs::rename(temporary_.path(), path_, error);
   if (error) fail(error.value());
-  temporary_.clear();
+  temporary_.release();
 }
 
 void AtomicFile::fail(int error_number) const {

@@ -6,16 +6,31 @@
 #include <span>
 #include <string_view>
 
+#include "mms/io/text/temporary_path.hpp"
+
 namespace mms {
 
+/// The buffer of a file that is written, which keeps the number of the first error.
+class WrittenBuffer : public std::filebuf {
+ public:
+  /// errno of the first write that failed; 0 if none did.
+  int error() const { return error_; }
+
+ protected:
+  int_type overflow(int_type c) override;
+  std::streamsize xsputn(const char* bytes, std::streamsize size) override;
+
+ private:
+  int error_ = 0;
+};
+
 /// A file that is written completely or not at all: the bytes go to a temporary file next to it,
-/// which `commit` renames. Without `commit` (after an exception) the temporary file is removed and
-/// an existing file is unchanged.
+/// which `commit` renames. Without `commit` (after an exception or a signal) the temporary file is
+/// removed and an existing file is unchanged.
 class AtomicFile {
  public:
   /// @throws FileError if the folder is missing or not writable, or `path` is not a regular file.
   explicit AtomicFile(const std::filesystem::path& path);
-  ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
@@ -32,8 +47,9 @@ class AtomicFile {
   [[noreturn]] void fail(int error_number) const;
 
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
-  std::ofstream stream_;
+  TemporaryPath temporary_;
+  WrittenBuffer buffer_;
+  std::ostream stream_;
 };
 
 /// Writes a whole file through an AtomicFile.

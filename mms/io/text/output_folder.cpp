@@ -1,6 +1,12 @@
 #include "mms/io/text/output_folder.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <string>
 #include <vector>
 
@@ -20,6 +26,31 @@ bool is_special(const fs::path& path) {
 
 }  // namespace
 
+FolderLock::FolderLock(const fs::path& folder)
+    : made_(make_folder(folder)),
+      descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0) throw FileError(folder.string(), "cannot be opened");
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(descriptor_);
+  throw FileError(folder.string(), "is in use by another mms", "choose another folder with -o");
+}
+
+FolderLock::~FolderLock() {
+  close(descriptor_);
+}
+
+bool FolderLock::holds(const fs::path& path) const {
+  struct stat locked {};
+  struct stat there {};
+  return fstat(descriptor_, &locked) == 0 && stat(path.c_str(), &there) == 0 &&
+         locked.st_dev == there.st_dev && locked.st_ino == there.st_ino;
+}
+
+bool is_as_named(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error) != path.has_extension();
+}
+
 bool take_output_folder(const fs::path& folder, std::span<const std::string_view> own,
                         std::span<const std::string_view> marks, bool overwrite) {
   const bool made = make_folder(folder);
@@ -31,8 +62,9 @@ bool take_output_folder(const fs::path& folder, std::span<const std::string_view
   const bool marked = std::any_of(names.begin(), names.end(),
                                   [&](const std::string& name) { return is_in(marks, name); });
   const auto others =
-      std::stable_partition(names.begin(), names.end(),
-                            [&](const std::string& name) { return marked && is_in(own, name); });
+      std::stable_partition(names.begin(), names.end(), [&](const std::string& name) {
+        return marked && is_in(own, name) && is_as_named(folder / name);
+      });
   if (others != names.end()) {
     const auto count = names.end() - others;
     throw FileError(folder.string(),

@@ -9,6 +9,7 @@
 #include "mms/core/error.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/io/text/numbers.hpp"
+#include "mms/io/text/temporary_path.hpp"
 #include "mms/ros/storage/mcap_file.hpp"
 #include "mms/ros/storage/mcap_writer.hpp"
 #include "mms/ros/storage/ros1_bag.hpp"
@@ -77,16 +78,24 @@ std::vector<std::string> by_number(std::vector<std::string> files, const fs::pat
   return files;
 }
 
+/// Opens the file `path`, whose format is that of the name `original`.
+/// @param shown  name in messages
+std::unique_ptr<BagStorage> open_plain(const fs::path& path, const std::string& original,
+                                       const std::string& shown) {
+  if (original.ends_with(".mcap")) return std::make_unique<McapFile>(path, shown);
+  if (original.ends_with(".db3")) return std::make_unique<SqliteBag>(path, shown);
+  return std::make_unique<Ros1Bag>(path, shown);
+}
+
 /// Opens a file that is decompressed first, and removes it at the end.
 class UnpackedStorage final : public BagStorage {
  public:
-  explicit UnpackedStorage(const fs::path& packed);
-  ~UnpackedStorage() override {
-    std::error_code ignored;
-    fs::remove(file_, ignored);
+  explicit UnpackedStorage(const fs::path& packed) {
+    decompress_zstd_file(packed, file_.path());
+    std::string name = packed.filename().string();
+    name.resize(name.size() - kZstd.size());
+    storage_ = open_plain(file_.path(), name, packed.string());
   }
-  UnpackedStorage(const UnpackedStorage&) = delete;
-  UnpackedStorage& operator=(const UnpackedStorage&) = delete;
 
   const BagContents& contents() const override { return storage_->contents(); }
   std::string_view read(const StoredMessage& message, const std::string& where) override {
@@ -100,31 +109,9 @@ class UnpackedStorage final : public BagStorage {
            ("mms_" + std::to_string(::getpid()) + "_" + std::to_string(counter++) + ".unpacked");
   }
 
-  fs::path file_ = temporary_file();
+  TemporaryPath file_{temporary_file()};
   std::unique_ptr<BagStorage> storage_;
 };
-
-/// Opens the file `path`, whose format is that of the name `original`.
-/// @param shown  name in messages
-std::unique_ptr<BagStorage> open_plain(const fs::path& path, const std::string& original,
-                                       const std::string& shown) {
-  if (original.ends_with(".mcap")) return std::make_unique<McapFile>(path, shown);
-  if (original.ends_with(".db3")) return std::make_unique<SqliteBag>(path, shown);
-  return std::make_unique<Ros1Bag>(path, shown);
-}
-
-UnpackedStorage::UnpackedStorage(const fs::path& packed) {
-  decompress_zstd_file(packed, file_);
-  try {
-    std::string name = packed.filename().string();
-    name.resize(name.size() - kZstd.size());
-    storage_ = open_plain(file_, name, packed.string());
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(file_, ignored);
-    throw;
-  }
-}
 
 /// The list of files in metadata.yaml; empty if it has none.
 std::vector<std::string> listed_files(const fs::path& metadata) {

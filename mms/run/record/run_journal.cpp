@@ -24,10 +24,10 @@ void warn_of(const std::exception& error, const RunJournal::WarningHandler& warn
 
 RunJournal::RunJournal(const std::filesystem::path& folder, const std::string& data,
                        const SystemConfig& config, WarningHandler warn)
-    : path_(folder / kJournalName), queue_(kQueueCapacity) {
+    : queue_(kQueueCapacity) {
   try {
     writer_ = std::make_unique<JournalWriter>(
-        path_,
+        folder / kJournalName,
         JournalHeader{data, config.static_map.voxel_size, config.static_map.min_observations});
   } catch (const Error& error) {
     warn_of(error, warn);
@@ -81,9 +81,7 @@ void RunJournal::finish() {
 
 void RunJournal::remove() {
   finish();
-  if (!writer_) return;
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  if (writer_) writer_->remove();
 }
 
 }  // namespace mms

@@ -48,7 +48,6 @@ class RunJournal {
   void write_frames(const WarningHandler& warn);
   void finish();
 
-  std::filesystem::path path_;
   std::unique_ptr<JournalWriter> writer_;  // null if the journal could not be created
   BoundedQueue<std::unique_ptr<const JournalFrame>> queue_;
   std::thread thread_;

@@ -1,11 +1,8 @@
 #include "mms/run/results/result_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/chrono.h>
-#include <sys/file.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <ctime>
 #include <string_view>
 
@@ -84,46 +81,46 @@ void check_writable(const fs::path& folder) {
                   "choose another folder with -o or change its permissions");
 }
 
-/// Locks a folder for this process, until it ends or the descriptor is closed.
-/// @returns the descriptor
-int lock(const fs::path& folder) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) throw FileError(folder.string(), "cannot be opened");
-  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  const bool in_use = errno == EWOULDBLOCK;
-  if (!in_use) return descriptor;  // a file system without locks
-  close(descriptor);
-  throw FileError(folder.string(), "is in use by another run", "choose another folder with -o");
-}
-
 }  // namespace
 
 ResultFolder::ResultFolder(const fs::path& output, const std::string& data, bool overwrite)
     : path_(output.empty() ? default_folder(data) : output), default_place_(output.empty()) {
-  made_ = make_folder(path_);
+  take(overwrite);
+}
+
+void ResultFolder::take(bool overwrite) {
+  lock_.emplace(path_);
   check_writable(path_);
-  lock_ = lock(path_);
-  try {
-    if (!overwrite) check_no_journal(path_);
-    take_output_folder(path_, kResults, kMarks, overwrite);
-  } catch (...) {
-    close(lock_);
-    throw;
-  }
+  if (!overwrite) check_no_journal(path_);
+  take_output_folder(path_, kResults, kMarks, overwrite);
 }
 
 ResultFolder::~ResultFolder() {
-  close(lock_);
-  if (!made_) return;
+  if (!lock_->made()) return;
   std::error_code ignored;
   fs::remove(path_, ignored);  // fails on purpose if it is not empty
+}
+
+bool ResultFolder::restore() {
+  if (lock_->holds(path_)) return false;
+  constexpr int kAttempts = 9;
+  const fs::path removed = path_;
+  for (int i = 2;; ++i) {
+    try {
+      take(false);
+      return true;
+    } catch (const FileError&) {
+      if (i > kAttempts) throw;
+      path_ = fmt::format("{}_{}", removed.string(), i);
+    }
+  }
 }
 
 void ResultFolder::make_latest() const {
   if (!default_place_) return;
   const fs::path link = path_.parent_path() / "latest";
   std::error_code error;  // optional, for file systems without links
-  fs::remove(link, error);
+  if (fs::is_symlink(link, error)) fs::remove(link, error);
   fs::create_directory_symlink(path_.filename(), link, error);
 }
 

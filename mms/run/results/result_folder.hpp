@@ -1,7 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "mms/io/text/output_folder.hpp"
 
 namespace mms {
 
@@ -22,14 +25,21 @@ class ResultFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Links results/latest to the folder, if it is in results/.
+  /// Makes the folder anew if it was removed or replaced since; under another name ("x_2") if the
+  /// place is taken.
+  /// @returns whether it was
+  /// @throws FileError if none can be made.
+  bool restore();
+
+  /// Links results/latest to the folder, if it is in results/. Anything else of that name is kept.
   void make_latest() const;
 
  private:
+  void take(bool overwrite);
+
   std::filesystem::path path_;
   bool default_place_ = false;
-  bool made_ = false;
-  int lock_ = -1;  // descriptor of the locked folder
+  std::optional<FolderLock> lock_;
 };
 
 }  // namespace mms

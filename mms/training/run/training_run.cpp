@@ -65,12 +65,16 @@ std::vector<std::string> training_classes() {
 }
 
 TrainingRun::TrainingRun(const TrainingConfig& config, const fs::path& folder, int threads)
-    : config_(config), folder_(folder), config_text_(dump_config(config)), trainer_([&] {
+    : config_(config),
+      folder_(folder),
+      config_text_(dump_config(config)),
+      trainer_([&] {
         check(config);
         at::set_num_threads(threads_or_cores(threads));
         torch::manual_seed(static_cast<std::uint64_t>(config.seed));
         return Trainer(config);
-      }()) {
+      }()),
+      lock_(folder) {
   for (const TrainingData& set : config.validation) {
     validation_.emplace_back(set, training_classes(), config.validation_images, validation_faults_);
   }
@@ -82,7 +86,6 @@ void TrainingRun::on_event(std::function<bool(const TrainingEvent&)> callback) {
 }
 
 void TrainingRun::start_or_resume() {
-  make_folder(folder_);
   const fs::path settings = folder_ / "config.yaml";
   const fs::path checkpoint = folder_ / "checkpoint.pt";
   if (fs::exists(checkpoint)) {

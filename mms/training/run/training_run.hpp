@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mms/io/text/output_folder.hpp"
 #include "mms/training/run/trainer.hpp"
 #include "mms/training/run/training_log.hpp"
 #include "mms/training/run/validation.hpp"
@@ -62,6 +63,7 @@ class TrainingRun {
   std::filesystem::path folder_;
   std::string config_text_;
   Trainer trainer_;
+  FolderLock lock_;
   TrainingLog log_;
   std::vector<ValidationSet> validation_;
   CocoFaults validation_faults_;

@@ -68,6 +68,7 @@ class SegmentOutputs {
   SegmentOutputs(const fs::path& folder, std::vector<std::string> classes, double least_score,
                  bool json_only, bool overwrite)
       : folder_(folder),
+        lock_(folder),
         classes_(std::move(classes)),
         least_score_(least_score),
         json_only_(json_only) {
@@ -108,6 +109,7 @@ class SegmentOutputs {
 
  private:
   fs::path folder_;
+  FolderLock lock_;
   std::vector<std::string> classes_;
   double least_score_;
   bool json_only_;

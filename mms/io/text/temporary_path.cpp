@@ -1,0 +1,60 @@
+#include "mms/io/text/temporary_path.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace mms {
+namespace {
+
+// Paths beyond this number are not removed by signals; a run has fewer than ten at a time.
+std::array<std::atomic<char*>, 64> temporary_paths{};
+static_assert(std::atomic<char*>::is_always_lock_free, "signal handlers must not lock");
+
+}  // namespace
+
+TemporaryPath::TemporaryPath(std::filesystem::path path) : path_(std::move(path)) {
+  char* copy = strdup(path_.c_str());
+  for (auto& place : temporary_paths) {
+    char* expected = nullptr;
+    if (!place.compare_exchange_strong(expected, copy)) continue;
+    registered_ = copy;
+    return;
+  }
+  std::free(copy);
+}
+
+TemporaryPath::~TemporaryPath() {
+  if (path_.empty()) return;
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+  release();
+}
+
+void TemporaryPath::release() {
+  for (auto& place : temporary_paths) {
+    char* expected = registered_;
+    if (registered_ == nullptr || !place.compare_exchange_strong(expected, nullptr)) continue;
+    std::free(registered_);
+    break;
+  }
+  registered_ = nullptr;
+  path_.clear();
+}
+
+void remove_temporary_paths() noexcept {
+  std::array<const char*, temporary_paths.size()> taken{};
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    taken[i] = temporary_paths[i].exchange(nullptr);
+    if (taken[i] != nullptr) unlink(taken[i]);
+  }
+  for (const char* path : taken) {
+    if (path != nullptr) rmdir(path);
+  }
+}
+
+}  // namespace mms
