@@ -69,6 +69,23 @@ std::string send_raw(std::uint16_t port, const std::string& bytes, const std::st
   return answer;
 }
 
+class SlowClient::Parts {
+ public:
+  Parts(std::uint16_t port, const std::string& bytes) : socket_(io_) {
+    socket_.connect(endpoint(port));
+    asio::write(socket_, asio::buffer(bytes));
+  }
+
+ private:
+  asio::io_context io_;
+  tcp::socket socket_;
+};
+
+SlowClient::SlowClient(std::uint16_t port, const std::string& bytes)
+    : parts_(std::make_unique<Parts>(port, bytes)) {}
+
+SlowClient::~SlowClient() = default;
+
 int upgrade_status(std::uint16_t port, const std::string& origin) {
   const std::string answer =
       send_raw(port,

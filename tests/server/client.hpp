@@ -24,6 +24,19 @@ HttpAnswer http_get(std::uint16_t port, const std::string& path, const std::stri
 /// sent `enough`.
 std::string send_raw(std::uint16_t port, const std::string& bytes, const std::string& enough = "");
 
+/// A client that sends a part of a request and nothing more.
+class SlowClient {
+ public:
+  SlowClient(std::uint16_t port, const std::string& bytes);
+  ~SlowClient();
+  SlowClient(const SlowClient&) = delete;
+  SlowClient& operator=(const SlowClient&) = delete;
+
+ private:
+  class Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
 /// The HTTP status for a viewer of that origin: 101 if it is accepted.
 int upgrade_status(std::uint16_t port, const std::string& origin);
 

@@ -66,11 +66,13 @@ TEST(LiveDownload, IsWrittenToOwnFolder) {
   const testing::TempFolder folder;
   const TemporaryFilesIn temporary(folder.path());
   for (const std::string name : {"static_map.ply", "trajectory.tum"}) {
-    const fs::path path = write_live_download(*live_scene(), name);
+    const auto download = write_live_download(*live_scene(), name);
+    const fs::path path = download->file.path();
     EXPECT_EQ(path.filename(), name);
     EXPECT_EQ(path.parent_path().parent_path(), folder.path());
     EXPECT_GT(fs::file_size(path), 0U);
   }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(LiveDownload, LeavesNoFilesOnFullDisk) {

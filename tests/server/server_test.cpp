@@ -190,6 +190,17 @@ TEST(Server, LimitsNumberOfViewers) {
   EXPECT_TRUE(wait_until([&] { return upgrade_status(server.port(), "") == 101; }));
 }
 
+TEST(Server, ServesPageBesideSlowConnections) {
+  const ViewerServer server(any_port(), finished_scene(3));
+  std::vector<std::unique_ptr<SlowClient>> slow;
+  for (int i = 0; i < 200; ++i) {
+    slow.push_back(std::make_unique<SlowClient>(server.port(), "GET / HTTP/1.1\r\nHost: loc"));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_FALSE(http_get(server.port(), "/").type.empty());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 1s);
+}
+
 TEST(Server, ClosesConnectionsAtEnd) {
   auto server = std::make_unique<ViewerServer>(any_port(), finished_scene(3));
   ViewerClient client(server->port());

@@ -30,7 +30,8 @@ void add_bind_option(CLI::App& command, ViewOptions& options) {
 }
 
 void announce(const ViewerServer& server, const ViewOptions& options) {
-  fmt::print(stderr, "viewer: {}\n", server.url());
+  fmt::print(stderr, "viewer: {}{}\n", server.url(),
+             server.is_open() ? "" : " (for this machine alone; --bind opens it to others)");
   if (server.is_open()) {
     fmt::print(stderr,
                "warning: the viewer is open to the network ({} port {}): everyone with access to "

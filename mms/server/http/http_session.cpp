@@ -44,27 +44,52 @@ Request request_of(const Request11& given) {
   return request;
 }
 
-class HttpSession : public std::enable_shared_from_this<HttpSession> {
+class HttpSession : public std::enable_shared_from_this<HttpSession>, public Connection {
  public:
   HttpSession(Service& service, asio::ip::tcp::socket socket)
       : service_(service), stream_(std::move(socket)) {
     ++service_.connections;
   }
-  ~HttpSession() { --service_.connections; }
+  ~HttpSession() override {
+    leave();
+    --service_.connections;
+  }
+  HttpSession(const HttpSession&) = delete;
+  HttpSession& operator=(const HttpSession&) = delete;
 
   void read() {
     parser_.emplace();
     parser_->header_limit(kMaxHeader);
     parser_->body_limit(kMaxBody);
     stream_.expires_after(kReadTime);
+    enter(service_.waiting);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, std::size_t) {
                        self->received(error);
                      });
   }
 
+  void drop() override {
+    leave();
+    stream_.close();
+  }
+
  private:
+  using List = std::list<Connection*>;
+
+  void enter(List& list) {
+    leave();
+    list_ = &list;
+    place_ = list.insert(list.end(), this);
+  }
+
+  void leave() {
+    if (list_ != nullptr) list_->erase(place_);
+    list_ = nullptr;
+  }
+
   void received(beast::error_code error) {
+    enter(service_.answering);
     if (error == http::error::header_limit || error == http::error::body_limit) {
       return refuse(text_answer(413, "the request is too large"));
     }
@@ -85,6 +110,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (service_.viewers >= service_.options.max_viewers || service_.closing) {
       return send(text_answer(503, "the maximum number of viewers is connected"));
     }
+    leave();
     stream_.expires_never();  // WebSocket has its own timeouts
     start_viewer(service_, std::move(stream_), std::move(request_));
   }
@@ -93,20 +119,16 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void make_file(Answer answer) {
     stream_.expires_never();
     asio::post(service_.encoder, [self = shared_from_this(), answer = std::move(answer)]() mutable {
+      std::shared_ptr<const LiveDownload> download;
       try {
-        answer.file = write_live_download(*self->service_.scene, answer.live_file);
+        download = write_live_download(*self->service_.scene, answer.live_file);
+        answer.file = download->file.path();
         answer.kind = Answer::Kind::kFile;
       } catch (const std::exception& error) {
         answer = text_answer(500, error.what());
       }
-      asio::post(self->service_.io, [self, answer] {
-        self->send(answer);
-        std::error_code ignored;  // an open file remains readable
-        if (!answer.live_file.empty()) {
-          std::filesystem::remove(answer.file, ignored);
-          std::filesystem::remove(answer.file.parent_path(), ignored);
-        }
-      });
+      // The download is removed after it was opened, which keeps it readable.
+      asio::post(self->service_.io, [self, answer, download] { self->send(answer); });
     });
   }
 
@@ -188,6 +210,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   std::optional<http::request_parser<http::string_body>> parser_;
   Request11 request_;
   bool head_ = false;
+  List* list_ = nullptr;  // with this connection at `place_`
+  List::iterator place_;
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
-constexpr std::size_t kMaxConnections = 128;  ///< others are closed immediately
+constexpr std::size_t kMaxConnections = 128;  ///< beyond it, the oldest ones are closed
 constexpr std::chrono::milliseconds kGoodbyeTime{1000};
 constexpr std::chrono::milliseconds kAcceptPause{100};  ///< if the system is out of sockets
 constexpr std::chrono::seconds kMapPeriod{2};           ///< between map updates without viewers
@@ -121,10 +121,18 @@ class ViewerServer::Parts {
     acceptor_.async_accept([this](ErrorCode error, tcp::socket socket) {
       if (error == asio::error::operation_aborted || service_.closing) return;
       if (error) return accept_later();
-      const bool room = service_.connections + service_.viewers < kMaxConnections;
-      if (room) start_http(service_, std::move(socket));
+      if (make_room()) start_http(service_, std::move(socket));
       accept();
     });
+  }
+
+  /// Slow clients must not keep others away: the oldest without request, else with one, is closed.
+  bool make_room() {
+    if (service_.connections + service_.viewers < kMaxConnections) return true;
+    const auto& oldest = service_.waiting.empty() ? service_.answering : service_.waiting;
+    if (oldest.empty()) return false;
+    oldest.front()->drop();
+    return true;
   }
 
   void accept_later() {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/thread_pool.hpp>
+#include <list>
 #include <memory>
 
 #include "mms/server/http/server.hpp"
@@ -13,6 +14,13 @@
 #include "mms/server/scene/viewer_scene.hpp"
 
 namespace mms {
+
+/// A connection that is not a viewer's WebSocket.
+class Connection {
+ public:
+  virtual ~Connection() = default;
+  virtual void drop() = 0;  ///< closes it
+};
 
 /// Sockets run in the thread of `io`, messages are encoded in `encoder`, and images, which take
 /// longer, in `loader`, so that neither blocks the sockets.
@@ -27,6 +35,9 @@ struct Service {
   std::atomic<bool> closing = false;
   std::atomic<std::size_t> viewers = 0;
   std::atomic<std::size_t> connections = 0;
+  // Of the thread of `io`, the oldest first.
+  std::list<Connection*> waiting;    ///< for a request
+  std::list<Connection*> answering;  ///< a request
   boost::asio::io_context io{1};
   boost::asio::thread_pool encoder{1};
   boost::asio::thread_pool loader{1};

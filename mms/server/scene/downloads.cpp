@@ -30,14 +30,14 @@ bool holds(const std::array<std::string_view, n>& names, std::string_view name) 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// In a new private folder.
-fs::path new_temporary(std::string_view name) {
+/// A new private folder.
+fs::path new_temporary() {
   std::string folder = fs::temp_directory_path() / "mms-XXXXXX";
   if (::mkdtemp(folder.data()) == nullptr) {
     throw FileError(folder, "a temporary folder cannot be created there",
                     "set TMPDIR to another folder");
   }
-  return fs::path(folder) / name;
+  return folder;
 }
 
 Trajectory trajectory_of(const Scene& scene) {
@@ -77,20 +77,16 @@ bool is_live_download(std::string_view name) {
   return holds(kLive, name);
 }
 
-fs::path write_live_download(Scene& scene, std::string_view name) {
-  fs::path path = new_temporary(name);
-  try {
-    if (name == "trajectory.tum") {
-      write_trajectory_tum(path, trajectory_of(scene));
-    } else {
-      write_ply(path, map_of(scene));
-    }
-  } catch (const Error&) {
-    std::error_code ignored;
-    fs::remove_all(path.parent_path(), ignored);
-    throw;
+std::unique_ptr<LiveDownload> write_live_download(Scene& scene, std::string_view name) {
+  const fs::path folder = new_temporary();
+  std::unique_ptr<LiveDownload> download(
+      new LiveDownload{TemporaryPath(folder), TemporaryPath(folder / name)});
+  if (name == "trajectory.tum") {
+    write_trajectory_tum(download->file.path(), trajectory_of(scene));
+  } else {
+    write_ply(download->file.path(), map_of(scene));
   }
-  return path;
+  return download;
 }
 
 }  // namespace mms

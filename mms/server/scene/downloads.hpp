@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "mms/io/text/temporary_path.hpp"
 #include "mms/server/scene/viewer_scene.hpp"
 
 namespace mms {
@@ -21,9 +23,14 @@ std::optional<std::filesystem::path> find_download(const std::filesystem::path& 
 /// Whether a live run provides a file of that name.
 bool is_live_download(std::string_view name);
 
-/// Writes the present state of a live run to a new file in a new temporary folder; the caller
-/// removes both.
+/// A file in a temporary folder of its own.
+struct LiveDownload {
+  TemporaryPath folder;  ///< of this file alone
+  TemporaryPath file;    ///< in the folder
+};
+
+/// Writes the present state of a live run to a new file in a new temporary folder.
 /// @throws FileError if it cannot be written.
-std::filesystem::path write_live_download(Scene& scene, std::string_view name);
+std::unique_ptr<LiveDownload> write_live_download(Scene& scene, std::string_view name);
 
 }  // namespace mms
