@@ -23,6 +23,10 @@ install(FILES ${PROJECT_BINARY_DIR}/mms-config.cmake ${PROJECT_BINARY_DIR}/mms-c
         DESTINATION ${package_dir} COMPONENT development)
 
 if(TARGET mms_program)
+  include(${CMAKE_CURRENT_LIST_DIR}/MmsSbom.cmake)
+  mms_write_sbom(${PROJECT_BINARY_DIR}/mms.cdx.json)
+  install(FILES ${PROJECT_BINARY_DIR}/mms.cdx.json DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mms-slam
+          COMPONENT program)
   install(TARGETS mms_program COMPONENT program)
   install(FILES weights/nano.safetensors weights/small.safetensors
           DESTINATION ${CMAKE_INSTALL_DATADIR}/mms/weights COMPONENT program)
