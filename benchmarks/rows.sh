@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# Sourced by the other scripts: path of the program, a folder for its results, and rows of tables.
-mms="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/mms"
+# Sourced by the other scripts: path of the program (MMS=... chooses another), a folder for its results, and rows of tables.
+mms="${MMS:-$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/mms}"
 out="$(mktemp -d)"
 trap 'rm -rf "$out"' EXIT
 

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <chrono>
 #include <random>
@@ -10,33 +9,12 @@
 #include "mms/ros/bag/bag_reader.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/ros/sample_bags.hpp"
+#include "tests/support/memory_limit.hpp"
 
 namespace mms {
 namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
-
-/// Allocations fail beyond the limit, so that a damaged length that is believed is a test failure.
-class MemoryLimit {
- public:
-  MemoryLimit() {
-    getrlimit(RLIMIT_DATA, &before_);
-#ifndef __SANITIZE_ADDRESS__                      // which reserves terabytes
-    constexpr rlim_t kMost = rlim_t{512} << 20U;  // [B]
-    rlimit limited = before_;
-    limited.rlim_cur = kMost;
-    setrlimit(RLIMIT_DATA, &limited);
-#endif
-  }
-  ~MemoryLimit() {
-    setrlimit(RLIMIT_DATA, &before_);
-  }
-  MemoryLimit(const MemoryLimit&) = delete;
-  MemoryLimit& operator=(const MemoryLimit&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 template <class Message>
 void read_all(const BagReader& bag, const std::string& topic) {
