@@ -181,6 +181,7 @@ void SlamRun::check_lost() {
 
 /// Called after the pose of the frame was estimated, before the next frame.
 void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
+  map_.check(processed.result);
   std::optional<MapChanges> map;
   if (processed.result.keyframe) map = system_.static_map().changes();
   std::shared_ptr<const MapChanges> shown;

@@ -13,8 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_options(const RunOptions& options, const Calibration* calibration,
-                   const SystemConfig& config) {
+void check_options(const RunOptions& options, const SystemConfig& config) {
   const std::string option = options.map.empty() ? "--save-map" : "--map";
   if (options.localise && options.map.empty()) {
     throw DataError("--localise", "needs a map", "--map FILE");
@@ -24,9 +23,6 @@ void check_options(const RunOptions& options, const Calibration* calibration,
   }
   if (!config.global_map.enabled) {
     throw DataError(option, "needs loop closure, but it is off", "leave out --loops off");
-  }
-  if (calibration != nullptr && !calibration->camera) {
-    throw DataError(option, "needs depth images, but " + options.data + " has LiDAR scans");
   }
   if (!options.save_map.empty() && fs::exists(options.save_map) && !options.overwrite) {
     throw FileError(options.save_map.string(), "exists",
@@ -51,8 +47,8 @@ RunMap::RunMap(const RunOptions& options, const Calibration* calibration,
                const SystemConfig& config)
     : name_(options.data), settings_(dump_config(config)) {
   if (options.map.empty() && options.save_map.empty() && !options.localise) return;
-  check_options(options, calibration, config);
-  if (calibration != nullptr) camera_ = *calibration->camera;
+  check_options(options, config);
+  if (calibration != nullptr && calibration->camera) camera_ = *calibration->camera;
   if (options.localise) use_ = MapUse::kLocalizeOnly;
   path_ = options.save_map.empty() ? options.map : options.save_map;
   if (options.map.empty()) {
@@ -77,6 +73,13 @@ void RunMap::load(SlamSystem& system, const MapFile::WarningHandler& warn) const
                     size_of(first.camera), size_of(camera_)));
   }
   system.restore(file->content(warn), use_);
+}
+
+void RunMap::check(const FrameResult& frame) const {
+  const bool is_scan = !frame.cloud.organised() && !frame.cloud.points.empty();
+  if (!is_scan || (!earlier_ && !written_)) return;
+  throw DataError(path_.string(), "needs depth images, but the recording has LiDAR scans",
+                  "leave out --map and --save-map");
 }
 
 bool RunMap::save(const SlamSystem& system, const RunLog& log,

@@ -25,6 +25,9 @@ class RunMap {
   /// Gives the earlier map to the system, if there is one.
   void load(SlamSystem& system, const MapFile::WarningHandler& warn) const;
 
+  /// @throws DataError for a frame of a sensor that no map can be made of
+  void check(const FrameResult& frame) const;
+
   /// Writes the map with the run as its next session, if that was asked for.
   /// @returns whether it was written
   /// @throws FileError if it cannot be; an earlier map is as before then
