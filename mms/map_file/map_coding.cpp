@@ -110,6 +110,9 @@ constexpr double kQuantaPerVoxel = 32.0;
 /// [-]: bits of a coordinate: 1.3 km at voxels of 2 cm.
 constexpr unsigned kCoordinateBits = 21;
 
+/// [m]: largest coordinate of a map.
+constexpr float kMaxPosition = 1e6F;
+
 /// [ns]: unit of the stamps of surfaces; corrections change little in it.
 constexpr Duration kStampUnit = std::chrono::milliseconds(10);
 
@@ -281,7 +284,8 @@ void decode_surfaces(std::string_view compressed, const std::string& where,
   for (const std::size_t size : {normals.size(), colors.size(), views.size(), stamps.size()}) {
     check_equal(size, steps.size(), reader);
   }
-  if (!grid.origin.allFinite() || !(grid.quantum > 0.0F && grid.quantum < 10.0F)) {
+  if (!(grid.origin.cwiseAbs().maxCoeff() < kMaxPosition) ||
+      !(grid.quantum > 0.0F && grid.quantum < 10.0F)) {
     throw DataError(where, "is damaged: its grid is none");
   }
   std::uint64_t key = 0;

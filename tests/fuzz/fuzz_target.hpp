@@ -16,8 +16,10 @@ struct FuzzTarget {
   void (*read)(std::string_view bytes);
 };
 
-/// Readers of files and texts, of recordings, and of the network and the viewer's server.
+/// Readers of files and texts, of map files, of recordings, and of the network and the viewer's
+/// server.
 std::vector<FuzzTarget> file_targets();
+std::vector<FuzzTarget> map_targets();
 std::vector<FuzzTarget> recording_targets();
 std::vector<FuzzTarget> network_targets();
 
