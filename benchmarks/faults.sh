@@ -13,12 +13,12 @@ RANDOM="${2:-1}"
 shim="${SHIM:-$(dirname "$mms")/tests/libmms_failing_io.so}"
 [ -f "$shim" ] || { echo "$shim is missing: build the target mms_failing_io" >&2; exit 1; }
 cd "$out"
-scene="sim:still_walker?frames=8&width=160"
+scene="sim:corridor?frames=8&width=320"
 run=(run "$scene" --segmenter none --threads 1)
 
 quietly "$mms" "${run[@]}" -o whole
 quietly "$mms" convert "$scene" -o whole.bag
-quietly "$mms" simulate still_walker --frames 8 --set width=160 -o recording
+quietly "$mms" simulate corridor --frames 8 --set width=320 -o recording
 readonly results=(trajectory.tum static_map.ply objects.json keyframes.tum)
 
 # status_ok STATUS: whether the program ended by itself, with a message if it failed.
@@ -87,6 +87,7 @@ echo "| --- | --- | --- | --- |"
 killed=no
 for kind in "write 28 ENOSPC" "write 5 EIO" "short 0 short" "open 24 EMFILE" "open 13 EACCES"; do
   read -r call error name <<< "$kind"
+  [ "$call" = short ] && export MMS_FAIL_COUNT=1000 || unset MMS_FAIL_COUNT  # one byte each is slow
   check=run_ok
   for ((i = 1; i <= cases; ++i)); do
     one failing "$call" "$i" "$error" "$mms" "${run[@]}" -o run
@@ -129,11 +130,11 @@ check=bag_ok
 for ((i = 0; i < cases; ++i)); do one killing "$(part "$time_of_convert")" "$mms" convert "$scene" -o x.bag; done
 row "\`mms convert\`, kill -9 at a random instant"
 # A killed simulation can be made again in the same folder.
-simulation_ok() { [ ! -e data/scene.yaml ] || quietly "$mms" simulate still_walker --frames 2 --set width=160 -o data; }
+simulation_ok() { [ ! -e data/scene.yaml ] || quietly "$mms" simulate corridor --frames 2 --set width=320 -o data; }
 check=simulation_ok
-time_of_simulate="$(seconds "$mms" simulate still_walker --frames 8 --set width=160 -o data)"
+time_of_simulate="$(seconds "$mms" simulate corridor --frames 8 --set width=320 -o data)"
 for ((i = 0; i < cases; ++i)); do
-  one killing "$(part "$time_of_simulate")" "$mms" simulate still_walker --frames 8 --set width=160 -o data
+  one killing "$(part "$time_of_simulate")" "$mms" simulate corridor --frames 8 --set width=320 -o data
 done
 row "\`mms simulate\`, kill -9 at a random instant"
 

@@ -2,6 +2,7 @@
 # A long run in real time with viewers that come, go and send garbage: memory, open files, threads and
 # time per frame of each tenth.
 # usage: benchmarks/soak.sh [FRAMES=100000] [SCENE=crowd] [FLAGS FOR mms run]
+#   SCENE  as "still_walker?width=160"
 # The acceptance is that memory grows by less than 1 % over the last half, and that open files and
 # threads are the same at its begin and end.
 set -euo pipefail
@@ -13,7 +14,8 @@ port=8473
 crowd="$(dirname "$mms")/tests/viewer_crowd"
 duration="$(awk -v n="$frames" 'BEGIN { print n / 30 + 10 }')"
 
-"$mms" run "sim:$scene?frames=$frames&duration=$duration" --realtime --segmenter none --view "$port" \
+case "$scene" in *\?*) scene+="&" ;; *) scene+="?" ;; esac
+"$mms" run "sim:${scene}frames=$frames&duration=$duration" --realtime --segmenter none --view "$port" \
   -o "$out/run" "$@" > "$out/log" 2>&1 &
 run=$!
 sleep 3
@@ -28,7 +30,7 @@ sample() {
   echo "$SECONDS $memory $(find "/proc/$run/fd" -type l 2> /dev/null | wc -l) $threads"
 }
 while sample >> "$out/samples"; do sleep 2; done
-wait "$run" || { tail -n 5 "$out/log"; exit 1; }
+wait "$run" || { grep '^mms: ' "$out/log" >&2; exit 1; }
 
 echo "| tenth of the run | memory [MB] | open files | threads | time per frame [ms] |"
 echo "| --- | --- | --- | --- | --- |"

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "mms/core/error.hpp"
@@ -14,14 +15,28 @@
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/support/memory_limit.hpp"
 
+namespace mms::testing {
+
+/// GoogleTest prints the bytes of an unknown type, with padding.
+static void PrintTo(const FuzzTarget& target, std::ostream* out) {
+  *out << target.name;
+}
+
+}  // namespace mms::testing
+
 namespace mms {
 namespace {
 
 using testing::FuzzTarget;
 namespace fs = std::filesystem;
 
-constexpr unsigned kDamaged = 1000;  // inputs of each target
 constexpr auto kHang = std::chrono::seconds(5);
+
+/// Damaged inputs of each target; MMS_FUZZ_INPUTS sets another number.
+unsigned damaged_inputs() {
+  const char* given = std::getenv("MMS_FUZZ_INPUTS");
+  return given == nullptr ? 1000U : static_cast<unsigned>(std::atol(given));
+}
 
 /// What is read now, for the message of a crash.
 char now[200];  // NOLINT: read by a signal handler
@@ -70,7 +85,7 @@ TEST_P(Fuzz, SurvivesDamagedInput) {
       expect_survived(read_file(corpus / name), name);
     }
   }
-  for (unsigned i = 0; i < kDamaged; ++i) {
+  for (unsigned i = 0; i < damaged_inputs(); ++i) {
     expect_survived(testing::damaged(seeds, i), "damaged input " + std::to_string(i));
   }
 }

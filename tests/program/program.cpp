@@ -26,6 +26,8 @@ void redirect(const fs::path& file, int descriptor) {
   redirect(out, STDOUT_FILENO);
   redirect(err, STDERR_FILENO);
   if (chdir(folder.c_str()) != 0) _exit(126);
+  // Shells let their background jobs, as these tests may be, ignore Ctrl-C.
+  for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
   execv(arguments.front(), arguments.data());
   _exit(127);
 }
