@@ -43,7 +43,7 @@ std::vector<std::string> map_seeds() {
     MapSession session;
     session.voxel_size = 0.02;
     file.add_session(session, some_points(), records);
-    file.set_graph(std::vector(2, Eigen::Isometry3d::Identity().eval()), {loop});
+    file.set_graph(std::vector<Eigen::Isometry3d>(2, Eigen::Isometry3d::Identity()), {loop});
     file.commit();
   })};
 }
