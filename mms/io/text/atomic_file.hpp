@@ -17,8 +17,8 @@ class WrittenBuffer : public std::filebuf {
   int error() const { return error_; }
 
  protected:
-  int_type overflow(int_type c) override;
-  std::streamsize xsputn(const char* bytes, std::streamsize size) override;
+  int_type overflow(int_type c) override;                                    ///< as filebuf
+  std::streamsize xsputn(const char* bytes, std::streamsize size) override;  ///< as filebuf
 
  private:
   int error_ = 0;

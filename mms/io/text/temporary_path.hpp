@@ -8,12 +8,13 @@ namespace mms {
 /// lifetime, and by `remove_temporary_paths` where a signal ends the program.
 class TemporaryPath {
  public:
+  /// Registers the path; the caller makes the file.
   explicit TemporaryPath(std::filesystem::path path);
   ~TemporaryPath();
   TemporaryPath(const TemporaryPath&) = delete;
   TemporaryPath& operator=(const TemporaryPath&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return path_; }  ///< as given
 
   /// Leaves the file to its new owner, as after it was renamed.
   void release();
