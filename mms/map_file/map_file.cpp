@@ -89,6 +89,16 @@ void remove_partial(const fs::path& path) {
   fs::remove(path.string() + "-journal", ignored);
 }
 
+/// Removes what a killed run left. @throws FileError if another run writes it
+void remove_old_partial(const fs::path& path) {
+  if (!fs::exists(path)) return;
+  try {
+    const SqliteDatabase unused(path, Access::kWrite);
+  } catch (const DataError&) {  // killed before it was a database
+  }
+  remove_partial(path);
+}
+
 /// A place for a new map, that has none or an older one.
 void check_target(const fs::path& path) {
   std::error_code error;
@@ -181,7 +191,7 @@ MapFile::MapFile(const fs::path& path, Mode mode) : path_(path) {
   if (mode == Mode::kCreate) {
     check_target(path);
     written_ = partial_of(path);
-    remove_partial(written_);
+    remove_old_partial(written_);
     database_ = std::make_unique<SqliteDatabase>(written_, Access::kCreate);
     database_->execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};{}",
                                    kMapApplication, kMapVersion, kMapSchema));
@@ -194,7 +204,7 @@ MapFile::MapFile(const fs::path& path, Mode mode) : path_(path) {
 MapFile::MapFile(const fs::path& path, const fs::path& source) : path_(path) {
   check_target(path);
   written_ = partial_of(path);
-  remove_partial(written_);
+  remove_old_partial(written_);
   const auto from = open_existing(source, Access::kRead);
   from->execute("PRAGMA query_only = 0");  // VACUUM INTO writes, but another file
   SqliteStatement copy = from->prepare("VACUUM INTO ?1");
@@ -286,6 +296,11 @@ GlobalMapContent MapFile::content(const WarningHandler& warn) const {
       record.view = {};
     }
     content.records.push_back(std::move(record));
+  }
+  const std::size_t found = content.records.empty() ? 0 : content.records.back().session + 1;
+  if (found == 0 || found != sessions_.size()) {
+    throw DataError(path_.string(), fmt::format("is damaged: it has keyframes of {} sessions of {}",
+                                                found, sessions_.size()));
   }
   SqliteStatement poses =
       database_->prepare(fmt::format("SELECT keyframe, {} FROM poses ORDER BY keyframe", kPose));

@@ -30,7 +30,7 @@ MapMerge::MapMerge(const std::vector<std::filesystem::path>& maps,
   for (const std::filesystem::path& path : maps) {
     Part part;
     part.file = std::make_unique<MapFile>(path, MapFile::Mode::kRead);
-    part.content = part.file->content(warn);
+    part.content = part.file->content(warn);  // has a session
     part.digest = digest_of(part.content);
     const auto same = std::find_if(parts_.begin(), parts_.end(),
                                    [&](const Part& p) { return p.digest == part.digest; });

@@ -98,7 +98,7 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, Access access)
   sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kMaxValue);
-  constexpr int kWait = 2000;  // for a reader or writer to finish a step [ms]
+  constexpr int kWait = 60'000;  // for readers of a whole map, or the end of a write [ms]
   sqlite3_busy_timeout(opened, access == Access::kRead ? kWait : 0);
   execute(access == Access::kRead ? "PRAGMA query_only = 1; SELECT count(*) FROM sqlite_schema"
                                   : "BEGIN IMMEDIATE");
@@ -123,7 +123,7 @@ void SqliteDatabase::fail() const {
   switch (sqlite3_errcode(database_.get()) & 0xFF) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      throw FileError(name_, "is being written by another process",
+      throw FileError(name_, "is in use by another process",
                       "wait until that run ends, or choose another file");
     case SQLITE_FULL:
       throw FileError(name_, "cannot be written: the disk is full");

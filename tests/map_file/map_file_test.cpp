@@ -167,6 +167,35 @@ TEST(MapFile, TheSecondWriterIsRefusedAndReadersAreWelcome) {
   EXPECT_TRUE(reader.check().empty());
 }
 
+TEST(MapFile, TwoRunsDoNotMakeOneFile) {
+  const TempFolder folder;
+  {
+    const MapFile first(folder.path() / "a", Mode::kCreate);
+    EXPECT_NE(message_of(folder.path() / "a", Mode::kCreate).find("another process"),
+              std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "a.partial"));
+  }
+  write_bytes(folder.path() / "a.partial", "what a killed run left");
+  write_first_session(folder.path() / "a");
+  EXPECT_TRUE(MapFile(folder.path() / "a", Mode::kRead).check().empty());
+}
+
+TEST(MapFile, SessionsWithoutKeyframesAreDamage) {
+  const TempFolder folder;
+  { MapFile(folder.path() / "none", Mode::kCreate).commit(); }
+  write_first_session(folder.path() / "one");
+  {
+    MapFile file(folder.path() / "one", Mode::kExtend);
+    file.add_session(some_session("second"), {}, {});
+    file.commit();
+  }
+  for (const char* name : {"none", "one"}) {
+    const MapFile file(folder.path() / name, Mode::kRead);
+    EXPECT_EQ(file.check().size(), 1U) << name;
+    EXPECT_THROW(file.content(refuse), DataError) << name;
+  }
+}
+
 TEST(MapFile, OtherFilesAreRefusedByName) {
   const TempFolder folder;
   EXPECT_NE(message_of(folder.path() / "a", Mode::kRead).find("does not exist"), std::string::npos);
