@@ -53,7 +53,11 @@ MapCloud picture_of(const MapChangeCloud& changes) {
 void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
   const MapFile file(path, MapFile::Mode::kRead);
   const GlobalMapContent content = file.content(warn);
-  fs::create_directories(folder);
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  if (!fs::is_directory(folder, ignored)) {
+    throw FileError(folder.string(), "cannot create folder", "choose another one with -o");
+  }
   const auto check = [&](const std::string& name) {
     refuse_existing_file(folder / name, overwrite);
     return folder / name;
