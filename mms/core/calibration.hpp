@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "mms/core/time.hpp"
 #include "mms/core/transform.hpp"
 
 namespace mms {
@@ -28,6 +29,20 @@ struct DepthCamera {
   Transform<Camera, Depth> T_color_depth;  ///< extrinsics
 };
 
+/// Mounting of wheels and gyroscope. Unknown extrinsics: `localization/motion/motion_sensors`.
+struct MotionCalibration {
+  std::optional<Transform<Sensor, Base>> T_sensor_base;  ///< of the wheels' frame
+  std::optional<Transform<Sensor, Imu>> T_sensor_imu;    ///< of the gyroscope
+  Duration wheel_delay{0};  ///< by which stamps of wheels are later than the frames' clock
+  Duration imu_delay{0};    ///< the same of the gyroscope
+
+  /// Whether nothing is known.
+  bool empty() const {
+    return !T_sensor_base && !T_sensor_imu && wheel_delay == Duration(0) &&
+           imu_delay == Duration(0);
+  }
+};
+
 /// Calibration of the sensor of a recording.
 struct Calibration {
   std::optional<CameraIntrinsics> camera;   ///< absent for LiDAR without a camera
@@ -37,6 +52,7 @@ struct Calibration {
   /// Of depth images that are not registered to `camera`; recordings register them, so the
   /// calibration of a frame has none.
   std::optional<DepthCamera> depth_camera;
+  MotionCalibration motion;  ///< of wheels and gyroscope
 };
 
 }  // namespace mms

@@ -8,6 +8,7 @@
 
 #include "mms/core/calibration.hpp"
 #include "mms/core/image.hpp"
+#include "mms/core/motion_samples.hpp"
 #include "mms/core/time.hpp"
 
 namespace mms {
@@ -31,6 +32,8 @@ struct Frame {
   LidarScan scan;            ///< empty for RGB-D
   /// Label image from the recording: 0 static, else 1 + class id; may be empty.
   Image<std::uint8_t> mask;
+  /// Since the previous frame, up to the end of this one; may be empty.
+  MotionSamples motion;
   std::shared_ptr<const Calibration> calibration;  ///< never null
 
   /// Whether this is an RGB-D frame.

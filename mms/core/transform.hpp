@@ -6,12 +6,17 @@ namespace mms {
 
 /// Coordinate frames of transforms. Camera: optical frame, x right, y down, z forward. Depth: that
 /// of a depth camera beside it. Sensor: frame of the localized cloud, the camera frame for RGB-D,
-/// the LiDAR frame for LiDAR. World: the sensor frame of the first localized frame.
+/// the LiDAR frame for LiDAR. World: the sensor frame of the first localized frame. Base: that of
+/// the wheels, x forward, y left, z up. Odometer: the base's frame where its dead reckoning began.
+/// Imu: that of a gyroscope and accelerometer.
 struct World {};
 struct Camera {};
 struct Depth {};
 struct Lidar {};
 struct Sensor {};
+struct Base {};
+struct Odometer {};
+struct Imu {};
 
 /// Rigid transform from coordinates in `Source` to coordinates in `Target`; a variable of type
 /// Transform<World, Sensor> is named T_world_sensor. Composition of mismatched frames does not

@@ -146,9 +146,8 @@ void reject_topics(const fs::path& path, const SourceOptions& options) {
   throw DataError(path.string(), "is not a bag and has no topics", "omit --topic-*");
 }
 
-}  // namespace
-
-std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOptions& options) {
+/// A recording without its wheels and gyroscope.
+std::unique_ptr<FrameSource> open_frames(const fs::path& path, const SourceOptions& options) {
   if (is_simulated(path.string())) {
     if (!options.camera.empty()) {
       throw DataError(path.string(), "is a simulation and has its own camera",
@@ -168,6 +167,24 @@ std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOpti
   if (layout == nullptr) fail_unknown(path, names);
   if (layout->open != open_bag) reject_topics(path, options);
   return layout->open(path, options);
+}
+
+bool is_given(const fs::path& file) {
+  return !file.empty() && file != "none";
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOptions& options) {
+  std::unique_ptr<FrameSource> source = open_frames(path, options);
+  if (is_simulated(path.string())) {
+    if (!is_given(options.motion.wheels) && !is_given(options.motion.imu)) return source;
+    throw DataError(path.string(), "is a simulation and has its own wheels and gyroscope",
+                    "as in sim:crowd?wheels.enabled=true; omit --wheels and --imu");
+  }
+  MotionRecording motion = read_motion_files(path, options.motion);
+  if (!motion.samples.empty()) source->add_motion(std::move(motion));
+  return source;
 }
 
 }  // namespace mms

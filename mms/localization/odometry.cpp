@@ -26,9 +26,30 @@ constexpr double kTrimInterval = 0.1;
 /// Source: scene `fast`, whose ATE was 13.5 cm and 5 frames lost without this bound.
 constexpr double kMaxExpectedTurnRate = 0.5;
 
+/// [-]: share of the information along a disagreement, at a pose that wheels or gyroscope predict,
+/// from which on they are right.
+/// Source: initial choice; at the wrong pose the surfaces across the disagreement do not fit.
+constexpr double kMinSupport = 0.25;
+
+/// [-]: standard deviations of constant velocity by which a measured motion may differ from it.
+/// Source: initial choice; 30 % of slip at 1 m/s are nearly three at the rate of a camera, braking
+/// at 2 m/s^2 is one.
+constexpr double kMaxJump = 2.0;
+
+/// [-]: factor of the standard deviations of a prediction that is tried in place of the data.
+/// Source: initial choice; small enough to keep the pose, large enough to let it fit the surfaces.
+constexpr double kPinned = 0.1;
+
 /// [m]: standard deviation of the prediction up to which a lost sensor's pose is expected.
 /// Source: a third of the 0.15 m by which a moving point lies in free space: three sigma.
 constexpr double kMaxExpectedSigma = 0.05;
+
+/// Whether wheels or gyroscope say that the motion changed more than vehicles and people change it.
+bool is_jump(const PosePrediction& sensed, const PosePrediction& extrapolated) {
+  const Eigen::Isometry3d change = extrapolated.T_world_sensor.inverse() * sensed.T_world_sensor;
+  return change.translation().norm() > kMaxJump * extrapolated.translation_sigma ||
+         se3::angle(change) > kMaxJump * extrapolated.rotation_sigma;
+}
 
 }  // namespace
 
@@ -84,8 +105,14 @@ Odometry::Alignment Odometry::align_at_pose_time(FeatureCloud features) const {
 /// where an error of the de-skewing velocity has no effect; that of a depth image at its stamp.
 FeatureCloud Odometry::at_pose_time(FeatureCloud features) const {
   const double elapsed = maps_ ? to_seconds(features.stamp - motion_.stamp()) : 0.0;
-  if (!features.intensity.empty()) return at_stamp(std::move(features), velocity(), elapsed);
-  deskew(features, velocity());
+  const Timestamp center = features.stamp + features.points_offset;
+  if (!features.intensity.empty()) {
+    return at_stamp(std::move(features), motion_.velocity(features.stamp, center), elapsed);
+  }
+  // The first two scans give the velocity themselves, see `begin_in_motion`.
+  const bool begins = !maps_ || first_scan_;
+  deskew(features, begins ? motion_.velocity()
+                          : motion_.velocity(features.stamp, center + features.points_offset));
   features.stamp = features.stamp + features.points_offset;
   return features;
 }
@@ -106,7 +133,7 @@ OdometryEstimate Odometry::track(const Alignment& alignment) {
     estimate.status = lost_                              ? Status::kRecovered
                       : result.degenerate_directions > 0 ? Status::kDegenerate
                                                          : Status::kTracking;
-    motion_.measure(features.stamp, result.T_world_sensor);
+    motion_.measure(features.stamp, result.T_world_sensor, result.degenerate_directions == 0);
     update_maps(features);
   } else {
     estimate.status = Status::kLost;
@@ -116,12 +143,56 @@ OdometryEstimate Odometry::track(const Alignment& alignment) {
   return estimate;
 }
 
+RegistrationResult Odometry::register_best(const FeatureCloud& features) const {
+  const PosePrediction prediction = motion_.predict(features.stamp);
+  return prediction.is_sensed ? register_sensed(features, prediction)
+                              : register_predicted(features, prediction);
+}
+
+/// Where wheels or gyroscope jump (slip), data alone give the pose if they can. Else the sensors
+/// predict so well that people get less weight from the start. Where the result contradicts them,
+/// either they are wrong (slip), or the data are (people that move with the sensor). The surfaces
+/// decide that constrain the pose along the disagreement: if enough of them fit at the predicted
+/// pose, it is right.
+RegistrationResult Odometry::register_sensed(const FeatureCloud& features,
+                                             const PosePrediction& prediction) const {
+  RegistrationConfig near = config_.registration;
+  const double error = prediction.translation_sigma +
+                       prediction.rotation_sigma * static_cast<double>(median_range(features));
+  near.geometric.initial_scale =
+      std::min(near.geometric.initial_scale, error / static_cast<double>(maps_->voxel_size()));
+  const PosePrediction extrapolated = motion_.extrapolate(features.stamp);
+  if (is_jump(prediction, extrapolated)) {
+    RegistrationResult alone = register_predicted(features, extrapolated);
+    if (is_valid(features, alone) && alone.degenerate_directions == 0) return alone;
+  }
+  const RegistrationResult led = register_near(features, prediction, near);
+  const bool agrees = !motion_.contradiction(features.stamp, led.T_world_sensor);
+  if (is_valid(features, led) && agrees) return led;
+  const RegistrationResult free = register_predicted(features, extrapolated);
+  const bool fits_better = free.geometric.inliers() > led.geometric.inliers();
+  const bool is_led = is_valid(features, led) && (!is_valid(features, free) || !fits_better);
+  const RegistrationResult& best = is_led ? led : free;
+  const auto contradiction = motion_.contradiction(features.stamp, best.T_world_sensor);
+  if (!contradiction) return best;
+  PosePrediction pinned = *contradiction;
+  pinned.translation_sigma *= kPinned;
+  pinned.rotation_sigma *= kPinned;
+  near.geometric.initial_scale = 0.0;
+  const RegistrationResult kept = register_near(features, pinned, near);
+  Vector6d along = se3::log(kept.T_world_sensor.inverse() * best.T_world_sensor);
+  const double support = along.dot(kept.information * along);
+  const double other = along.dot(best.information * along);
+  const bool is_right = is_valid(features, kept) && support > kMinSupport * other;
+  return is_right ? kept : best;
+}
+
 /// The annealed scale gives people as much weight as the static scene at first: if the result is
 /// not valid, registration runs again without it. Data that contradict the prediction lose their
 /// weight and look degenerate: if they determine the pose without the prediction, and with more
 /// inliers, the sensor was pushed, and that result is taken.
-RegistrationResult Odometry::register_best(const FeatureCloud& features) const {
-  const PosePrediction prediction = motion_.predict(features.stamp);
+RegistrationResult Odometry::register_predicted(const FeatureCloud& features,
+                                                const PosePrediction& prediction) const {
   RegistrationResult best = register_near(features, prediction, config_.registration);
   if (!is_valid(features, best)) {
     RegistrationConfig strict = config_.registration;
@@ -173,9 +244,10 @@ void Odometry::begin_maps(double voxel, const FeatureCloud& features) {
 /// localized again. The first frame's stamp stays the origin.
 /// @param first, second  as measured, not de-skewed
 OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud second) {
-  deskew(first, velocity());
-  deskew(second, velocity());
-  motion_.place(first.stamp, se3::exp(velocity() * to_seconds(first.points_offset)));
+  const Vector6d velocity = motion_.velocity();
+  deskew(first, velocity);
+  deskew(second, velocity);
+  motion_.place(first.stamp, se3::exp(velocity * to_seconds(first.points_offset)));
   begin_maps(static_cast<double>(maps_->voxel_size()), first);
   return track(align_at_pose_time(std::move(second)));
 }
@@ -198,8 +270,10 @@ OdometryEstimate Odometry::relocate(Timestamp stamp, const Transform<World, Sens
 }
 
 std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {
-  if (!maps_ || velocity().tail<3>().norm() >= kMaxExpectedTurnRate) return std::nullopt;
+  if (!maps_) return std::nullopt;
   const PosePrediction prediction = motion_.predict(stamp);
+  const bool turns = motion_.velocity().tail<3>().norm() >= kMaxExpectedTurnRate;
+  if (turns && !prediction.is_sensed) return std::nullopt;
   const bool is_lost = lost_ && !(prediction.translation_sigma < kMaxExpectedSigma);
   if (is_lost) return std::nullopt;
   return Transform<World, Sensor>(prediction.T_world_sensor);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -59,11 +60,22 @@ class Odometry {
 
   OdometryEstimate estimate(FeatureCloud features) { return accept(align(std::move(features))); }
 
-  /// Of the sensor in its own frame [m/s, rad/s]; zero until two frames were tracked.
-  const Vector6d& velocity() const { return motion_.velocity(); }
+  /// Adds measurements of wheels and gyroscope up to the end of the next frame.
+  /// @param is_camera  whether the frames are images
+  void sense(const MotionSamples& samples, const MotionCalibration& calibration, bool is_camera) {
+    motion_.sense(samples, calibration, is_camera);
+  }
 
-  /// Pose expected at `stamp` at constant velocity; nothing before the first frame, when lost for
-  /// too long, and in fast turns, where the last velocity predicts the next frame badly.
+  /// What was found about wheels and gyroscope since the last call, one line each.
+  std::vector<std::string> take_warnings() { return motion_.take_warnings(); }
+
+  /// Of the sensor in its own frame between two times [m/s, rad/s]: as measured by wheels or
+  /// gyroscope, or between the last two poses; zero until two frames were tracked.
+  Vector6d velocity(Timestamp from, Timestamp to) const { return motion_.velocity(from, to); }
+
+  /// Pose expected at `stamp`, at constant velocity without wheels and gyroscope; nothing before
+  /// the first frame, when lost for too long, and in fast turns, which the last velocity does not
+  /// predict.
   std::optional<Transform<World, Sensor>> expected(Timestamp stamp) const;
 
  private:
@@ -76,6 +88,10 @@ class Odometry {
   OdometryEstimate begin_in_motion(FeatureCloud first, FeatureCloud second);
   void begin_maps(double voxel, const FeatureCloud& features);
   RegistrationResult register_best(const FeatureCloud& features) const;
+  RegistrationResult register_sensed(const FeatureCloud& features,
+                                     const PosePrediction& prediction) const;
+  RegistrationResult register_predicted(const FeatureCloud& features,
+                                        const PosePrediction& prediction) const;
   RegistrationResult register_near(const FeatureCloud& features, const PosePrediction& prediction,
                                    const RegistrationConfig& config) const;
   bool is_valid(const FeatureCloud& features, const RegistrationResult& result) const;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct FrameResult {
   double dynamic_share = 0.0;          ///< of the valid points, in [0, 1]
   double overruled_share = 0.0;        ///< of the valid points: masked, but static for the pose
   std::vector<TrackedObject> objects;  ///< of the dynamic map, by id
+  std::vector<std::string> warnings;   ///< about wheels and gyroscope, one line each
   StageTimes stage_ms{};
 };
 

@@ -40,6 +40,12 @@ bool agree(const OdometryEstimate& odometry, const Relocalization& place) {
   return difference.translation().norm() < kMaxDistance && se3::angle(difference) < kMaxTurn;
 }
 
+/// Start and end of a scan; twice the stamp of an image.
+std::pair<Timestamp, Timestamp> times_of(const LabeledCloud& cloud, const FeatureCloud& features) {
+  if (cloud.organised()) return {cloud.stamp, cloud.stamp};
+  return {cloud.stamp, cloud.stamp + 2 * features.points_offset};
+}
+
 /// The modes without the method's geometry are baselines: they get none of the steps beyond it.
 template <class Config>
 Config for_mode(Config step, FusionMode mode) {
@@ -64,11 +70,14 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   result.stage_ms = frame.stage_ms;
   result.cloud = std::move(frame.cloud);
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
-    deskew(result.cloud, odometry_.velocity());
+    const auto [from, to] = times_of(result.cloud, frame.features);
+    odometry_.sense(frame.motion, frame.motion_calibration, result.cloud.organised());
+    deskew(result.cloud, odometry_.velocity(from, to));
     exclude_moving_points(result.cloud, frame.features);
     return odometry_.accept(hypotheses_.align(
         odometry_, result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
   });
+  result.warnings = odometry_.take_warnings();
   const bool is_checked = frames_to_check_ > 0;
   result.wants_relocalization = wants_relocalization(result);
   if (result.wants_relocalization) {

@@ -24,6 +24,8 @@ TimedSegmentation Perception::segment(const Frame& frame) {
 PerceivedFrame Perception::perceive(const Frame& frame, const TimedSegmentation& masks) {
   assert(fusion_thread_.is_owner());
   PerceivedFrame result;
+  result.motion = frame.motion;
+  result.motion_calibration = frame.calibration->motion;
   result.stage_ms[static_cast<std::size_t>(Stage::kSegmentation)] = masks.ms;
   result.cloud = timed(result.stage_ms, Stage::kFusion, [&] {
     return fusion_.fuse(frame, masks.segmentation);  // III-B

@@ -24,6 +24,8 @@ struct TimedSegmentation {
 struct PerceivedFrame {
   LabeledCloud cloud;
   FeatureCloud features;
+  MotionSamples motion;  ///< of the frame
+  MotionCalibration motion_calibration;
   StageTimes stage_ms{};
 };
 

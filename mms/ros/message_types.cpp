@@ -80,6 +80,13 @@ const Entries& entries() {
         {"std_msgs/Header", "geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose",
          "geometry_msgs/Point", "geometry_msgs/Quaternion", "geometry_msgs/TwistWithCovariance",
          "geometry_msgs/Twist", "geometry_msgs/Vector3"}}},
+      {"sensor_msgs/Imu",
+       {"6a62c6daae103f4ff57a132d6f95cec2",
+        "Header header\ngeometry_msgs/Quaternion orientation\nfloat64[9] "
+        "orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\nfloat64[9] "
+        "angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\nfloat64[9] "
+        "linear_acceleration_covariance\n",
+        {"std_msgs/Header", "geometry_msgs/Quaternion", "geometry_msgs/Vector3"}}},
       {"std_msgs/ColorRGBA", {"", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n", {}}},
       {"diagnostic_msgs/KeyValue", {"", "string key\nstring value\n", {}}},
       {"diagnostic_msgs/DiagnosticStatus",

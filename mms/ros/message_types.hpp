@@ -34,6 +34,8 @@ template <>
 inline constexpr std::string_view kName<Transforms> = "tf2_msgs/TFMessage";
 template <>
 inline constexpr std::string_view kName<Odometry> = "nav_msgs/Odometry";
+template <>
+inline constexpr std::string_view kName<Imu> = "sensor_msgs/Imu";
 
 /// The type of that name.
 /// @throws std::out_of_range for unknown ones.

@@ -168,4 +168,22 @@ struct Odometry {
   }
 };
 
+/// sensor_msgs/Imu
+struct Imu {
+  Header header;
+  std::array<double, 4> orientation{0.0, 0.0, 0.0, 1.0};  ///< x y z w
+  std::array<double, 9> orientation_covariance{};
+  std::array<double, 3> angular_velocity{};  ///< [rad/s]
+  std::array<double, 9> angular_velocity_covariance{};
+  std::array<double, 3> linear_acceleration{};  ///< [m/s^2]
+  std::array<double, 9> linear_acceleration_covariance{};
+
+  template <class Self, class Archive>
+  static void fields(Self& self, Archive& archive) {
+    archive(self.header, self.orientation, self.orientation_covariance, self.angular_velocity,
+            self.angular_velocity_covariance, self.linear_acceleration,
+            self.linear_acceleration_covariance);
+  }
+};
+
 }  // namespace mms::msg

@@ -51,7 +51,8 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
   auto source = open_dataset(options.data, {.masks = options.masks,
                                             .load_masks = options.segmenter != "none",
                                             .topics = options.topics,
-                                            .camera = options.camera});
+                                            .camera = options.camera,
+                                            .motion = options.motion});
   check_range(options, *source);
   return source;
 }
@@ -188,6 +189,7 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   if (view_ && map) shown = std::make_shared<const MapChanges>(*map);
   journal_->add(processed, std::move(map));
   log_->add(processed);
+  for (const std::string& warning : processed.result.warnings) warn(warning, observer);
   if (processed.result.relocalized) {
     warn(fmt::format("frame {}: relocalized", processed.frame.name), observer);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -44,6 +45,16 @@ std::shared_ptr<const Calibration> calibration_of(const SensorPreset& sensor) {
   return calibration;
 }
 
+/// Mounting of the gyroscope on the sensor: any known one.
+Eigen::Isometry3d T_sensor_imu() {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() = Eigen::Vector3d(0.02, -0.01, 0.03);
+  T.linear() = (Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ()) *
+                Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()))
+                   .toRotationMatrix();
+  return T;
+}
+
 /// Exact depth within the camera's range, 0 elsewhere.
 Image<float> ideal_depth(const ExactView& view, const DepthSensor& sensor) {
   Image<float> depth = view.depth;
@@ -73,7 +84,23 @@ struct SimulatedScene::Impl {
         trajectory(config, stage.building(), seconds),
         table(ray_table(sensor.color.intrinsics)),
         calibration(calibration_of(sensor)),
-        T_world_building(first_pose().inverse()) {}
+        T_world_building(first_pose().inverse()) {
+    calibration = std::make_shared<const Calibration>(with_mounting(*calibration));
+  }
+
+  Calibration with_mounting(Calibration result) const {
+    Eigen::Isometry3d T_base_sensor = trajectory.T_base_camera();
+    if (sensor.lidar) T_base_sensor = T_base_sensor * sensor.T_camera_lidar;
+    if (config.wheels.enabled) {
+      result.motion.T_sensor_base = Transform<Sensor, Base>(T_base_sensor.inverse());
+    }
+    if (config.imu.enabled) result.motion.T_sensor_imu = Transform<Sensor, Imu>(T_sensor_imu());
+    return result;
+  }
+
+  bool is_dark(double at) const {
+    return at >= config.dark_from && at < config.dark_from + config.dark_for;
+  }
 
   Stage make_stage() const {
     Building building = build(config);
@@ -185,6 +212,10 @@ SimulatedFrame SimulatedScene::render(int index) {
   }
   Image<Eigen::Vector3f> radiance(scene.table.width, scene.table.height, Eigen::Vector3f::Zero());
   result.exact = scene.expose(at, radiance);
+  const bool dark = scene.is_dark(at);
+  if (dark)
+    radiance =
+        Image<Eigen::Vector3f>(scene.table.width, scene.table.height, Eigen::Vector3f::Zero());
   result.objects = scene.objects(at, result.exact);
   frame.mask = label_image(scene.stage, result.exact);
   frame.color = develop(radiance, scene.color_sensor(), hash_of(key, 1));
@@ -192,7 +223,9 @@ SimulatedFrame SimulatedScene::render(int index) {
     frame.depth = scene.config.noise
                       ? measured_depth(result.exact, *scene.sensor.depth, hash_of(key, 2))
                       : ideal_depth(result.exact, *scene.sensor.depth);
+    if (dark) frame.depth = Image<float>(frame.depth.width(), frame.depth.height());
   }
+  if (dark) frame.mask = Image<std::uint8_t>(frame.mask.width(), frame.mask.height());
   return result;
 }
 
@@ -203,6 +236,15 @@ StampedPose SimulatedScene::pose_at(Timestamp stamp) const {
 
 StampedPose SimulatedScene::truth(int index) const {
   return pose_at(stamp(index));
+}
+
+MotionSamples SimulatedScene::motion() const {
+  const SceneConfig& config = impl_->config;
+  const auto seed = static_cast<std::uint64_t>(config.seed);
+  const auto base = [this](double at) { return impl_->trajectory.T_building_base(at); };
+  const auto imu = [this](double at) { return impl_->T_building_sensor(at) * T_sensor_imu(); };
+  return {measure_wheels(base, impl_->seconds, config.wheels, hash_of(seed, 0x3ee1)),
+          measure_imu(imu, impl_->seconds, config.imu, hash_of(seed, 0x13a0))};
 }
 
 TruthCloud SimulatedScene::static_cloud(double spacing) const {

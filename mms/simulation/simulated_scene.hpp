@@ -42,6 +42,9 @@ class SimulatedScene {
   StampedPose truth(int index) const;
   Timestamp stamp(int index) const;
 
+  /// What wheels and gyroscope measure over the whole scene; empty for those that are disabled.
+  MotionSamples motion() const;
+
   /// All static surfaces, with points at most `spacing` [m] apart.
   TruthCloud static_cloud(double spacing = 0.04) const;
 

@@ -78,6 +78,49 @@ TEST_P(BagSources, MatchesImagesByHeaderStamps) {
   EXPECT_TRUE(any_has(played.source->describe(), "depth topic: /depth/image"));
 }
 
+TEST_P(BagSources, BringsWheelsAndGyroscopeWithTheirMounting) {
+  camera_info();
+  msg::Transforms tree;
+  tree.transforms.resize(2);
+  tree.transforms[0] = {header(0, "base_link"), "camera", {{0.2, 0, 1}, {-0.5, 0.5, -0.5, 0.5}}};
+  tree.transforms[1] = {header(0, "base_link"), "imu_link", {{0.1, 0, 0.5}, {0, 0, 0, 1}}};
+  bag_->write("/tf_static", at(0), tree);
+  for (int t = 0; t <= 300; t += 20) {
+    msg::Odometry odometry;
+    odometry.header = header(t, "odom");
+    odometry.child_frame_id = "base_link";
+    odometry.pose.position = {0.001 * t, 0, 0};
+    write("/odom", odometry);
+    msg::Imu imu;
+    imu.header = header(t, "imu_link");
+    imu.angular_velocity = {0, 0, 0.01 * t};
+    imu.linear_acceleration = {0, 0, 9.81};
+    write("/imu", imu);
+  }
+  for (const int t : {100, 200}) color(t);
+  for (const int t : {100, 200}) depth(t);
+  finish();
+  const Playback played = play();
+  ASSERT_EQ(played.frames.size(), 2U);
+  const Frame& second = played.frames[1];
+  ASSERT_EQ(second.motion.wheels.size(), 5U);  // after 120 ms up to 220 ms
+  ASSERT_EQ(second.motion.imu.size(), 5U);
+  EXPECT_EQ(second.motion.wheels.back().stamp, at(220));
+  EXPECT_NEAR(second.motion.wheels.back().T_odom_base.translation().x(), 0.22, 1e-12);
+  EXPECT_NEAR(second.motion.imu.back().rate.z(), 2.2, 1e-12);
+  EXPECT_NEAR(second.motion.imu.back().acceleration.z(), 9.81, 1e-12);
+  const MotionCalibration& mounting = second.calibration->motion;
+  ASSERT_TRUE(mounting.T_sensor_base);
+  EXPECT_TRUE((mounting.T_sensor_base->rotation() * Eigen::Vector3d::UnitX())
+                  .isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
+  ASSERT_TRUE(mounting.T_sensor_imu);
+  EXPECT_TRUE(mounting.T_sensor_imu->translation().isApprox(Eigen::Vector3d(0, 0.5, -0.1), 1e-9));
+  EXPECT_TRUE(any_has(played.source->describe(), "wheels: 16 measurements of /odom, 50 Hz"));
+  EXPECT_TRUE(any_has(played.source->describe(), "gyroscope: 16 measurements of /imu, 50 Hz"));
+  const Playback without = play({.motion = {.wheels = "none", .imu = "none"}});
+  EXPECT_TRUE(without.frames[1].motion.empty());
+}
+
 TEST_P(BagSources, SkipsByIndex) {
   camera_info();
   for (int i = 0; i < 10; ++i) color(100 * i, static_cast<std::uint8_t>(i));

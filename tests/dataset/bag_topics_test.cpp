@@ -97,6 +97,22 @@ TEST(BagTopics, ChoosesLidarWithCameraAndGroundTruth) {
   EXPECT_EQ(chosen.truth, "/vicon/robot/pose");
   EXPECT_EQ(chosen.depth, "");
   EXPECT_EQ(chosen.camera_info, "");
+  EXPECT_EQ(chosen.wheels, "/odom");
+  EXPECT_EQ(chosen.imu, "");
+}
+
+TEST(BagTopics, ChoosesWheelsAndGyroscopeButNoOtherOdometry) {
+  const Topics topics = Topics()
+                            .add("/points", "sensor_msgs/PointCloud2")
+                            .add("/a/visual_odom", "nav_msgs/Odometry")
+                            .add("/odometry/filtered", "nav_msgs/Odometry")
+                            .add("/odom", "nav_msgs/Odometry")
+                            .add("/wheel_odometry", "nav_msgs/Odometry")
+                            .add("/camera/accel/sample", "sensor_msgs/Imu")
+                            .add("/camera/gyro/sample", "sensor_msgs/Imu");
+  EXPECT_EQ(topics.choose().wheels, "/wheel_odometry");
+  EXPECT_EQ(topics.choose().imu, "/camera/gyro/sample");
+  EXPECT_EQ(topics.choose({.wheels = "/odom"}).wheels, "/odom");
 }
 
 TEST(BagTopics, DoesNotUseMasksAsColor) {

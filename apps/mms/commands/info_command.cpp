@@ -33,10 +33,12 @@ struct InfoOptions {
   std::string masks;
   BagTopicNames topics;
   CameraOptions camera;
+  MotionOptions motion;
   bool json = false;
 
   std::unique_ptr<FrameSource> open() const {
-    return open_dataset(data, {.masks = masks, .topics = topics, .camera = camera});
+    return open_dataset(data,
+                        {.masks = masks, .topics = topics, .camera = camera, .motion = motion});
   }
 };
 
@@ -174,6 +176,7 @@ void add_info_command(CLI::App& app) {
   command->add_flag("--json", options->json, "print one JSON object");
   add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
+  add_motion_options(*command, options->motion);
   command->callback([options, sequence] {
     options->data = with_sequence(options->data, *sequence);
     print_info(*options);

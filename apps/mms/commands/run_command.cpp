@@ -155,6 +155,7 @@ void add_run_command(CLI::App& app) {
       "keep journal.bin, from which mms convert recovers a killed run, after the run");
   add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
+  add_motion_options(*command, options->motion);
   const auto console = std::make_shared<ConsoleOptions>();
   command->add_flag("-q,--quiet", console->quiet, "print only warnings and errors");
   command->add_flag("--json", console->json, "print metrics.json in place of the summary");

@@ -68,9 +68,26 @@ void read_depth_camera(BagRecording& recording, const TransformTree& transforms,
                             recording.color.frame_id);
 }
 
+/// Transforms from the frames of wheels and gyroscope to that of the images or clouds.
+void read_mounting(const BagRecording& recording, const BagTopicNames& topics,
+                   const TransformTree& transforms, MotionCalibration& motion) {
+  const BagStream& sensor = recording.cloud.empty() ? recording.color : recording.cloud;
+  const auto lookup = [&](const std::string& frame) {
+    return transforms.lookup(sensor.frame_id, frame, recording.frames.front().stamp);
+  };
+  if (!recording.motion.samples.wheels.empty()) {
+    const auto T = lookup(recording.bag->first<msg::Odometry>(topics.wheels).child_frame_id);
+    if (T) motion.T_sensor_base = Transform<Sensor, Base>(*T);
+  }
+  if (!recording.motion.samples.imu.empty()) {
+    const auto T = lookup(recording.bag->first<msg::Imu>(topics.imu).header.frame_id);
+    if (T) motion.T_sensor_imu = Transform<Sensor, Imu>(*T);
+  }
+}
+
 }  // namespace
 
-Calibration bag_calibration(BagRecording& recording, const std::string& camera_info,
+Calibration bag_calibration(BagRecording& recording, const BagTopicNames& topics,
                             const TransformTree& transforms, const fs::path& path,
                             const fs::path& given) {
   Calibration calibration;
@@ -82,9 +99,10 @@ Calibration bag_calibration(BagRecording& recording, const std::string& camera_i
     read_extrinsics(recording, transforms, calibration);
   }
   if (!recording.color.empty() && !calibration.camera) {
-    read_camera(recording, camera_info, calibration, path.string());
+    read_camera(recording, topics.camera_info, calibration, path.string());
     read_depth_camera(recording, transforms, calibration);
   }
+  if (calibration.motion.empty()) read_mounting(recording, topics, transforms, calibration.motion);
   return calibration;
 }
 

@@ -6,6 +6,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_calibration.hpp"
+#include "mms/dataset/bag/bag_motion.hpp"
 #include "mms/dataset/bag/bag_topics.hpp"
 #include "mms/dataset/bag/bag_truth.hpp"
 #include "mms/dataset/source/calibration_choice.hpp"
@@ -183,6 +184,8 @@ void add_choice_facts(BagRecording& recording, const BagTopicNames& topics) {
   add("cloud", topics.cloud);
   add("camera_info", topics.camera_info);
   add("mask", topics.mask);
+  add("wheels", topics.wheels);
+  add("imu", topics.imu);
   add("truth", topics.truth);
 }
 
@@ -238,8 +241,9 @@ BagRecording read_bag_recording(const fs::path& path, const SourceOptions& optio
   check_clocks(recording);
   topics.cloud.empty() ? make_rgbd_frames(recording, path.string()) : make_cloud_frames(recording);
   const TransformTree transforms = read_transforms(bag, recording.warnings);
+  recording.motion = read_bag_motion(bag, topics, options.motion, recording.warnings);
   const auto calibration = std::make_shared<const Calibration>(
-      bag_calibration(recording, topics.camera_info, transforms, path, options.camera.file));
+      bag_calibration(recording, topics, transforms, path, options.camera.file));
   recording.calibration = registered_calibration(calibration);
   recording.registration = make_registration(*calibration);
   find_masks(recording, options);

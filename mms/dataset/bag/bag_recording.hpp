@@ -45,6 +45,7 @@ struct BagRecording {
   std::shared_ptr<const Calibration> calibration;  ///< of the frames
   std::optional<DepthRegistration> registration;   ///< of depth images that need it
   Trajectory ground_truth;
+  MotionRecording motion;             ///< of wheels and gyroscope
   std::vector<std::string> facts;     ///< lines for `describe`
   std::vector<std::string> warnings;  ///< non-fatal faults
 };

@@ -43,6 +43,7 @@ class BagSource final : public RecordedSource {
  public:
   explicit BagSource(BagRecording recording) : recording_(std::move(recording)) {
     set_ground_truth(std::move(recording_.ground_truth));
+    add_motion(std::move(recording_.motion));
     for (const std::string& warning : recording_.warnings) warn(warning);
   }
 

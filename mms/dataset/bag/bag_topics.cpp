@@ -152,6 +152,27 @@ std::string find_camera_info(const Choice& choice, const std::string& color) {
   });
 }
 
+/// Odometry by other sensors than wheels is no measurement of its own; poses called the truth are
+/// no measurement at all.
+std::string find_wheels(const Choice& choice, const std::string& truth) {
+  return choice.best([&](const BagTopic& topic) {
+    const bool other = has_word(
+        topic.name, {"visual", "vio",      "vins",  "rgbd",  "camera", "zed",       "t265", "lidar",
+                     "laser",  "icp",      "loam",  "lio",   "slam",   "gps",       "gnss", "ekf",
+                     "fus",    "filtered", "truth", "mocap", "vicon",  "optitrack", "/gt"});
+    if (topic.type != "nav_msgs/Odometry" || topic.name == truth || other) return 0;
+    return has_word(topic.name, {"wheel"}) ? 2 : has_word(topic.name, {"odom"}) ? 1 : 0;
+  });
+}
+
+/// Sensors of depth cameras have topics of their own for the two kinds of measurements.
+std::string find_imu(const Choice& choice) {
+  return choice.best([](const BagTopic& topic) {
+    if (topic.type != "sensor_msgs/Imu") return 0;
+    return has_word(topic.name, {"accel"}) && !has_word(topic.name, {"gyro"}) ? 0 : 1;
+  });
+}
+
 std::string find_truth(const Choice& choice) {
   return choice.best([](const BagTopic& topic) {
     const bool poses = is_type(topic, {"geometry_msgs/PoseStamped", "nav_msgs/Odometry",
@@ -223,6 +244,10 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
                       {"geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped",
                        "nav_msgs/Odometry", "tf2_msgs/TFMessage", "tf/tfMessage"},
                       [&] { return find_truth(choice); });
+  chosen.wheels = pick(given.wheels, "--topic-wheels", {"nav_msgs/Odometry"},
+                       [&] { return find_wheels(choice, chosen.truth); });
+  chosen.imu =
+      pick(given.imu, "--topic-imu", {"sensor_msgs/Imu"}, [&] { return find_imu(choice); });
   return chosen;
 }
 

@@ -8,6 +8,7 @@
 #include "mms/io/cloud/kitti_io.hpp"
 #include "mms/io/config/calibration_io.hpp"
 #include "mms/io/image/image_io.hpp"
+#include "mms/io/motion/motion_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
@@ -40,6 +41,11 @@ double depth_scale_of(const Frame& frame) {
   return exact == std::end(kDepthScales) ? 5000.0 : *exact;
 }
 
+template <class Sample>
+void append_samples(std::vector<Sample>& all, const std::vector<Sample>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 void add_line(std::string& list, Timestamp stamp, const std::string& file) {
   list += stamp.to_string() + " " + file + "\n";
 }
@@ -56,10 +62,14 @@ class FolderRecorder final : public FrameRecorder {
   void add(const Frame& frame) override {
     if (count_ == 0) begin(frame);
     frame.scan.points.empty() ? add_images(frame) : add_scan(frame);
+    append_samples(motion_.wheels, frame.motion.wheels);
+    append_samples(motion_.imu, frame.motion.imu);
     ++count_;
   }
 
   void finish(const Trajectory& truth) override {
+    if (!motion_.wheels.empty()) write_wheels(folder_ / "odometry.csv", motion_.wheels);
+    if (!motion_.imu.empty()) write_imu(folder_ / "imu.csv", motion_.imu);
     if (lidar_) {
       write_file(folder_ / "times.txt", times_);
       if (!truth.empty()) write_poses(truth);
@@ -135,6 +145,7 @@ class FolderRecorder final : public FrameRecorder {
   std::string depth_list_;
   std::string times_;
   std::vector<Timestamp> stamps_;
+  MotionSamples motion_;
 };
 
 }  // namespace

@@ -20,6 +20,9 @@ class SceneSource final : public FrameSource {
         calibration_(std::make_shared<const Calibration>(
             recorded_calibration(scene_.calibration(), scene_.sensor()))) {
     for (int i = 0; i < scene_.size(); ++i) truth_.push_back(scene_.truth(i));
+    motion_.samples = scene_.motion();
+    describe_motion(motion_, "the scene", "the scene");
+    feed_.add(motion_.samples);
   }
 
   std::optional<Frame> next() override {
@@ -32,6 +35,7 @@ class SceneSource final : public FrameSource {
     }
     Frame frame = as_recorded(simulated, scene_.config(), scene_.sensor());
     if (!load_masks_) frame.mask = {};
+    feed_.attach(frame);
     return frame;
   }
 
@@ -42,6 +46,9 @@ class SceneSource final : public FrameSource {
   void skip(std::size_t count) override { position_ += std::min(count, size() - position_); }
   const Trajectory& ground_truth() const override { return truth_; }
   void on_warning(WarningHandler) override {}
+  void add_motion(MotionRecording motion) override {
+    feed_.add(std::move(motion.samples));
+  }
 
   std::optional<TruthCloud> map_truth() const override {
     TruthCloud cloud = map_.cloud();
@@ -55,13 +62,16 @@ class SceneSource final : public FrameSource {
     const SceneConfig& config = scene_.config();
     const SensorPreset& sensor = scene_.sensor();
     const CameraIntrinsics& camera = sensor.color.intrinsics;
-    return {"layout: simulated scene " + config.name + ", seed " + std::to_string(config.seed),
-            "frames: " + std::to_string(size()) + " at " +
-                format_number(config.hz > 0.0 ? config.hz : sensor.hz) + " Hz",
-            "sensor: " + std::string(sensor.name) + ", " +
-                (sensor.lidar ? "LiDAR and camera, " : "depth camera, ") +
-                std::to_string(camera.width) + "x" + std::to_string(camera.height) + " pixels",
-            masks_fact(), "truth: exact"};
+    std::vector<std::string> facts = {
+        "layout: simulated scene " + config.name + ", seed " + std::to_string(config.seed),
+        "frames: " + std::to_string(size()) + " at " +
+            format_number(config.hz > 0.0 ? config.hz : sensor.hz) + " Hz",
+        "sensor: " + std::string(sensor.name) + ", " +
+            (sensor.lidar ? "LiDAR and camera, " : "depth camera, ") +
+            std::to_string(camera.width) + "x" + std::to_string(camera.height) + " pixels",
+        masks_fact(), "truth: exact"};
+    facts.insert(facts.end(), motion_.facts.begin(), motion_.facts.end());
+    return facts;
   }
 
  private:
@@ -77,6 +87,8 @@ class SceneSource final : public FrameSource {
   Trajectory truth_;
   MapTruth map_;
   ObjectHistory objects_;
+  MotionRecording motion_;
+  MotionFeed feed_;
   std::size_t position_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/recorder/recording_folder.hpp"
 #include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/motion/motion_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
 
@@ -74,6 +75,9 @@ WrittenRecording write_simulation(SimulatedScene& scene, const fs::path& folder,
   }
   const PointCloudFile fixed = file_of(scene.static_cloud(options.static_spacing));
   write_ply(folder / "static_truth.ply", fixed);
+  const MotionSamples motion = scene.motion();
+  if (!motion.wheels.empty()) write_wheels(folder / "odometry.csv", motion.wheels);
+  if (!motion.imu.empty()) write_imu(folder / "imu.csv", motion.imu);
   write_trajectory_tum(folder / "groundtruth_dense.txt",
                        dense_poses(scene, written.frames, options.pose_rate));
   writer.finish();

@@ -11,6 +11,8 @@ struct BagTopicNames {
   std::string cloud{};  ///< sensor_msgs/PointCloud2
   std::string camera_info{};  ///< sensor_msgs/CameraInfo of the color image
   std::string mask{};         ///< sensor_msgs/Image of labels: 0 static, 1 person, 2 vehicle
+  std::string wheels{};       ///< nav_msgs/Odometry
+  std::string imu{};          ///< sensor_msgs/Imu
   std::string truth{};        ///< PoseStamped, TransformStamped, Odometry or TFMessage
 
   /// Whether no topic is given.

@@ -10,6 +10,7 @@
 #include "mms/core/frame.hpp"
 #include "mms/core/object_box.hpp"
 #include "mms/core/trajectory.hpp"
+#include "mms/dataset/source/motion_files.hpp"
 #include "mms/simulation/truth/truth_cloud.hpp"
 
 namespace mms {
@@ -54,6 +55,10 @@ class FrameSource {
   /// poses; empty if unknown.
   /// @throws Error if the file cannot be read.
   virtual ObjectHistory objects_truth() const { return {}; }
+
+  /// Adds measurements of wheels or gyroscope, which frames bring from then on. They replace
+  /// earlier ones of the same kind.
+  virtual void add_motion(MotionRecording motion) = 0;
 
   /// Facts about the recording, one per line, for `mms info`.
   virtual std::vector<std::string> describe() const = 0;

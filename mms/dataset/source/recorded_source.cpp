@@ -40,6 +40,7 @@ std::optional<Frame> RecordedSource::try_read(std::size_t index) {
     frame.index = static_cast<std::int64_t>(index);
     frame.stamp = stamp;
     frame.name = name;
+    motion_.attach(frame);
     last_stamp_ = stamp;
     return frame;
   } catch (const Error& error) {
@@ -71,6 +72,12 @@ ObjectHistory RecordedSource::objects_truth() const {
   return read_objects_truth(objects_truth_);
 }
 
+void RecordedSource::add_motion(MotionRecording motion) {
+  motion_.add(std::move(motion.samples));
+  motion_facts_.insert(motion_facts_.end(), motion.facts.begin(), motion.facts.end());
+  for (const std::string& warning : motion.warnings) warn(warning);
+}
+
 std::vector<std::string> RecordedSource::describe() const {
   std::vector<std::string> lines = facts();
   lines.push_back("frames: " + std::to_string(size()));
@@ -88,6 +95,7 @@ std::vector<std::string> RecordedSource::describe() const {
   lines.push_back("ground truth: " + (ground_truth_.empty()
                                           ? std::string("none")
                                           : std::to_string(ground_truth_.size()) + " poses"));
+  lines.insert(lines.end(), motion_facts_.begin(), motion_facts_.end());
   const std::string clock = clock_fault();
   if (!clock.empty()) lines.push_back("warning: " + clock);
   if (std::filesystem::exists(map_truth_)) {

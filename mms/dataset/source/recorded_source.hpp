@@ -17,6 +17,7 @@ class RecordedSource : public FrameSource {
   const Trajectory& ground_truth() const final { return ground_truth_; }
   std::optional<TruthCloud> map_truth() const final;
   ObjectHistory objects_truth() const final;
+  void add_motion(MotionRecording motion) final;
   std::vector<std::string> describe() const final;
 
   /// The handler also receives earlier warnings.
@@ -56,6 +57,8 @@ class RecordedSource : public FrameSource {
   bool passed_over_ = false;  ///< frames were skipped by `skip`
   std::optional<Timestamp> last_stamp_;
   Trajectory ground_truth_;
+  MotionFeed motion_;
+  std::vector<std::string> motion_facts_;
   std::filesystem::path map_truth_;
   std::filesystem::path objects_truth_;
   WarningHandler handler_;

@@ -4,6 +4,7 @@
 
 #include "mms/dataset/source/bag_topic_names.hpp"
 #include "mms/dataset/source/camera_options.hpp"
+#include "mms/dataset/source/motion_files.hpp"
 
 namespace mms {
 
@@ -15,6 +16,7 @@ struct SourceOptions {
                                   ///< objects_truth, which grow with its frames
   BagTopicNames topics{};         ///< of a bag
   CameraOptions camera{};         ///< in place of the recording's
+  MotionOptions motion{};         ///< of wheels and gyroscope
 };
 
 }  // namespace mms

@@ -87,6 +87,27 @@ DepthCamera read_depth_camera(YamlMap map, const std::string& file) {
   return depth;
 }
 
+/// Largest difference of two clocks that is a delay [s].
+constexpr Range kDelay{-1.0, 1.0};
+
+Duration read_delay(YamlMap& map, std::string_view key) {
+  const auto node = map.find(key);
+  return node ? Timestamp::from_seconds(map.number(*node, key, kDelay)) - Timestamp() : Duration(0);
+}
+
+MotionCalibration read_motion(YamlMap& map) {
+  MotionCalibration motion;
+  if (const auto node = map.find("T_sensor_base")) {
+    motion.T_sensor_base = Transform<Sensor, Base>(read_transform(map, *node, "T_sensor_base"));
+  }
+  if (const auto node = map.find("T_sensor_imu")) {
+    motion.T_sensor_imu = Transform<Sensor, Imu>(read_transform(map, *node, "T_sensor_imu"));
+  }
+  motion.wheel_delay = read_delay(map, "wheel_delay");
+  motion.imu_delay = read_delay(map, "imu_delay");
+  return motion;
+}
+
 std::string list(std::span<const double> numbers) {
   std::string text;
   for (const double number : numbers) text += (text.empty() ? "[" : ", ") + format_number(number);
@@ -108,6 +129,22 @@ std::string rows_text(const Eigen::Isometry3d& transform) {
   return list(std::span(rows.data(), 12)) + "  # 3x4, row by row [m]\n";
 }
 
+std::string motion_text(const MotionCalibration& motion) {
+  std::string text;
+  const auto delay = [&](const char* key, Duration value) {
+    if (value != Duration(0)) {
+      text += std::string(key) + ": " + format_number(to_seconds(value)) + "  # [s]\n";
+    }
+  };
+  if (motion.T_sensor_base) {
+    text += "T_sensor_base: " + rows_text(motion.T_sensor_base->isometry());
+  }
+  if (motion.T_sensor_imu) text += "T_sensor_imu: " + rows_text(motion.T_sensor_imu->isometry());
+  delay("wheel_delay", motion.wheel_delay);
+  delay("imu_delay", motion.imu_delay);
+  return text;
+}
+
 }  // namespace
 
 Calibration read_calibration(const std::filesystem::path& path) {
@@ -117,6 +154,7 @@ Calibration read_calibration(const std::filesystem::path& path) {
     calibration.T_camera_lidar =
         Transform<Camera, Lidar>(read_transform(map, *node, "T_camera_lidar"));
   }
+  calibration.motion = read_motion(map);
   const auto camera =
       std::count_if(std::begin(kCameraKeys), std::end(kCameraKeys),
                     [&](std::string_view key) { return map.find(key).has_value(); });
@@ -149,6 +187,7 @@ void write_calibration(const std::filesystem::path& path, const Calibration& cal
     text += "  T_color_depth: " + rows_text(calibration.depth_camera->T_color_depth.isometry());
   }
   text += "T_camera_lidar: " + rows_text(calibration.T_camera_lidar.isometry());
+  text += motion_text(calibration.motion);
   write_file(path, text);
 }
 

@@ -24,6 +24,14 @@ constexpr double kMaxMeasurementError = 0.01;
 /// Source: below the interval of any depth camera or LiDAR.
 constexpr double kMinInterval = 1e-3;
 
+/// [s]: time between the poses from which the sensors are followed to a new one.
+/// Source: three frames of a camera of 15 Hz; each costs two more integrations.
+constexpr double kAnchorInterval = 0.2;
+
+/// [s]: time for which the sensors are followed to judge a pose.
+/// Source: after it, the share of the way exceeds what people pull a pose by.
+constexpr double kMaxAnchorAge = 3.0;
+
 }  // namespace
 
 void MotionConfig::visit(ConfigVisitor& v) {
@@ -37,6 +45,7 @@ void MotionConfig::visit(ConfigVisitor& v) {
            {1.0, 36000.0});
   v.number({"max_acceleration", "m/s^2", "a faster change of the velocity is rejected"},
            max_acceleration, {0.1, 10000.0});
+  v.group({"sensors", "", "wheels and gyroscope"}, sensors);
 }
 
 void MotionModel::place(Timestamp stamp, const Eigen::Isometry3d& pose) {
@@ -48,9 +57,18 @@ void MotionModel::rest(Timestamp stamp, const Eigen::Isometry3d& pose) {
   place(stamp, pose);
   velocity_.setZero();
   interval_.reset();
+  anchors_.clear();
+  sensors_.compare(stamp, pose, false);
 }
 
-void MotionModel::measure(Timestamp stamp, const Eigen::Isometry3d& pose) {
+void MotionModel::measure(Timestamp stamp, const Eigen::Isometry3d& pose, bool is_reliable) {
+  if (!sensors_.empty()) {
+    sensors_.compare(stamp, pose, is_reliable);
+    if (anchors_.empty() || to_seconds(stamp - anchors_.back().stamp) >= kAnchorInterval) {
+      anchors_.push_back({stamp, pose});
+    }
+    while (to_seconds(stamp - anchors_.front().stamp) > kMaxAnchorAge) anchors_.pop_front();
+  }
   const double seconds = since_measured(stamp);
   if (seconds > 0.0) {
     interval_ = seconds;
@@ -63,7 +81,9 @@ void MotionModel::measure(Timestamp stamp, const Eigen::Isometry3d& pose) {
 }
 
 void MotionModel::coast(Timestamp stamp) {
-  pose_ = predict(stamp).T_world_sensor;
+  const PosePrediction prediction = predict(stamp);
+  pose_ = prediction.T_world_sensor;
+  if (prediction.is_sensed) sensors_.compare(stamp, pose_, false);
   const double seconds = std::max(0.0, to_seconds(stamp - stamp_));  // stamps may go back
   velocity_ *= std::exp2(-seconds / kVelocityHalfLife);
   stamp_ = stamp;
@@ -75,7 +95,57 @@ double MotionModel::deviation(double acceleration, double seconds) const {
   return 0.5 * acceleration * seconds * (seconds + *interval_);
 }
 
+/// A gyroscope alone does not know the way: that is extrapolated.
 PosePrediction MotionModel::predict(Timestamp stamp) const {
+  PosePrediction prediction = extrapolate(stamp);
+  if (sensors_.empty()) return prediction;
+  const auto sensed = sensors_.between(measured_at_, stamp);
+  if (!sensed) return prediction;
+  prediction.is_sensed = true;
+  const Eigen::Isometry3d pose = measured_ * sensed->T_from_to;
+  prediction.T_world_sensor.linear() = pose.linear();
+  prediction.rotation_sigma = sensed->rotation_sigma;
+  if (!sensed->has_translation) return prediction;
+  prediction.T_world_sensor.translation() = pose.translation();
+  prediction.translation_sigma = sensed->translation_sigma;
+  return prediction;
+}
+
+std::optional<PosePrediction> MotionModel::contradiction(Timestamp stamp,
+                                                         const Eigen::Isometry3d& pose) const {
+  const auto check = [&](Timestamp from, const Eigen::Isometry3d& start) {
+    std::optional<PosePrediction> prediction;
+    const auto sensed = sensors_.between(from, stamp);
+    if (!sensed || !sensed->contradicts(start.inverse() * pose)) return prediction;
+    prediction = extrapolate(stamp);
+    prediction->is_sensed = true;
+    prediction->T_world_sensor.linear() = start.linear() * sensed->T_from_to.linear();
+    prediction->rotation_sigma = sensed->rotation_sigma;
+    if (sensed->has_translation) {
+      prediction->T_world_sensor = start * sensed->T_from_to;
+      prediction->translation_sigma = sensed->translation_sigma;
+    }
+    return prediction;
+  };
+  if (sensors_.empty()) return std::nullopt;
+  if (auto found = check(measured_at_, measured_)) return found;
+  for (const Anchor& anchor : anchors_) {
+    if (auto found = check(anchor.stamp, anchor.pose)) return found;
+  }
+  return std::nullopt;
+}
+
+Vector6d MotionModel::velocity(Timestamp from, Timestamp to) const {
+  const double seconds = to_seconds(to - from);
+  if (sensors_.empty() || std::abs(seconds) < kMinInterval) return velocity_;
+  const auto sensed = sensors_.between(from, to);
+  if (!sensed) return velocity_;
+  Vector6d velocity = se3::log(sensed->T_from_to) / seconds;
+  if (!sensed->has_translation) velocity.head<3>() = velocity_.head<3>();
+  return velocity;
+}
+
+PosePrediction MotionModel::extrapolate(Timestamp stamp) const {
   PosePrediction prediction;
   prediction.T_world_sensor = pose_ * se3::exp(velocity_ * to_seconds(stamp - stamp_));
   const double seconds = since_measured(stamp);
@@ -93,7 +163,7 @@ bool MotionModel::is_feasible(Timestamp stamp, const Eigen::Isometry3d& pose) co
   const double seconds = std::max(since_measured(stamp), kMinInterval);
   if (interval_) {
     // A motion that no vehicle or person can make comes from people taken for static.
-    const Eigen::Vector3d expected = predict(stamp).T_world_sensor.translation();
+    const Eigen::Vector3d expected = extrapolate(stamp).T_world_sensor.translation();
     const double limit = kMaxMeasurementError + deviation(config_.max_acceleration, seconds);
     if ((pose.translation() - expected).norm() > limit) return false;
   }

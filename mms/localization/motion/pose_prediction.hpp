@@ -14,6 +14,7 @@ struct PosePrediction {
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
   double translation_sigma = kUnknown;  ///< standard deviation along each axis [m]
   double rotation_sigma = kUnknown;     ///< about each axis [rad]
+  bool is_sensed = false;               ///< by wheels or a gyroscope
 
   bool is_informative() const { return translation_sigma < kUnknown || rotation_sigma < kUnknown; }
 

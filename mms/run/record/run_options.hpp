@@ -10,6 +10,7 @@
 
 #include "mms/dataset/source/bag_topic_names.hpp"
 #include "mms/dataset/source/camera_options.hpp"
+#include "mms/dataset/source/motion_files.hpp"
 
 namespace mms {
 
@@ -31,6 +32,7 @@ struct RunOptions {
   std::string weights;             ///< of the network; empty: as the config says
   BagTopicNames topics;            ///< of a bag
   CameraOptions camera;            ///< in place of the recording's
+  MotionOptions motion;            ///< wheels and gyroscope
   std::string fusion;              ///< empty: as the config says
   std::string loops;               ///< "on", "off"; empty: as the config says
   std::filesystem::path map;       ///< earlier map to start from; empty: none

@@ -150,6 +150,12 @@ void SceneConfig::visit(ConfigVisitor& v) {
            {0.0, 0.9});
   v.number({"pause", "s", "mean length of a pause"}, pause, {0.5, 60.0});
   v.group({"mask_errors", "", "errors of the masks"}, mask_errors);
+  v.number({"turn_rate", "deg/s", "largest of the trajectory shaken; 0: 76"}, turn_rate,
+           {0.0, 720.0});
+  v.number({"dark_from", "s", "start of a time without light and depth"}, dark_from, {0.0, 1e5});
+  v.number({"dark_for", "s", "its length"}, dark_for, {0.0, 1e5});
+  v.group({"wheels", "", "dead reckoning of the wheels"}, wheels);
+  v.group({"imu", "", "gyroscope and accelerometer"}, imu);
 }
 
 std::uint64_t daily_seed(const SceneConfig& config, std::uint64_t purpose) {

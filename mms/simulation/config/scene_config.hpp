@@ -7,6 +7,7 @@
 
 #include "mms/core/config_visitor.hpp"
 #include "mms/simulation/sensors/mask_errors.hpp"
+#include "mms/simulation/sensors/motion_sensors.hpp"
 
 namespace mms {
 
@@ -51,6 +52,11 @@ struct SceneConfig {
   double pause_share = 0.2;      ///< share of time that walkers and vehicles pause
   double pause = 3.0;            ///< mean length of a pause [s]
   MaskErrorConfig mask_errors;
+  double turn_rate = 0.0;  ///< largest of the trajectory `shaken` [degrees/s]; 0: 76
+  double dark_from = 0.0;  ///< of a time without light and depth [s]
+  double dark_for = 0.0;   ///< its length [s]
+  WheelConfig wheels;
+  ImuConfig imu;
 
   void visit(ConfigVisitor& v);
 };

@@ -1,6 +1,7 @@
 #include "mms/simulation/world/camera_trajectory.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "mms/core/hash_noise.hpp"
 #include "mms/simulation/world/route.hpp"
@@ -48,14 +49,28 @@ double shake(std::uint64_t seed, double seconds) {
   return 0.6 * sum;
 }
 
+/// From the camera (x right, y down, z forward) to the robot (x forward, y left, z up).
+Eigen::Matrix3d optical_axes() {
+  Eigen::Matrix3d optical;
+  optical << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  return optical;
+}
+
+constexpr double kShakenSwing = 0.55;  // amplitude of the trajectory `shaken` [rad]
+
+double swing_rate(const SceneConfig& config) {
+  if (config.trajectory != CameraTrajectory::kShaken) return 0.5;
+  return config.turn_rate > 0.0 ? config.turn_rate * std::numbers::pi / 180.0 / kShakenSwing : 2.4;
+}
+
 }  // namespace
 
 CameraMotion::CameraMotion(const SceneConfig& config, const Building& building, double seconds)
     : robot_(robot_motion(config, building, seconds)),
       height_(config.camera_height),
       still_(config.trajectory == CameraTrajectory::kStill),
-      swing_amplitude_(config.trajectory == CameraTrajectory::kShaken ? 0.55 : 0.12),
-      swing_rate_(config.trajectory == CameraTrajectory::kShaken ? 2.4 : 0.5),
+      swing_amplitude_(config.trajectory == CameraTrajectory::kShaken ? kShakenSwing : 0.12),
+      swing_rate_(swing_rate(config)),
       seed_(daily_seed(config, 0xca3)) {}
 
 double CameraMotion::swing(double seconds) const {
@@ -75,9 +90,21 @@ Eigen::Isometry3d CameraMotion::T_building_camera(double seconds) const {
   }
   T.rotate(Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()));
   T.rotate(Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()));
-  Eigen::Matrix3d optical;  // robot x forward, y left, z up -> camera x right, y down, z forward
-  optical << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
-  T.linear() = T.linear() * optical;
+  T.linear() = T.linear() * optical_axes();
+  return T;
+}
+
+Eigen::Isometry3d CameraMotion::T_building_base(double seconds) const {
+  Eigen::Isometry3d T = robot_.T_world_object(seconds);
+  if (!still_) T.rotate(Eigen::AngleAxisd(swing(seconds), Eigen::Vector3d::UnitZ()));
+  return T;
+}
+
+Eigen::Isometry3d CameraMotion::T_base_camera() const {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translate(Eigen::Vector3d(0.0, 0.0, height_));
+  T.rotate(Eigen::AngleAxisd(kPitch, Eigen::Vector3d::UnitY()));
+  T.linear() = T.linear() * optical_axes();
   return T;
 }
 

@@ -19,6 +19,12 @@ class CameraMotion {
   /// Pose of the optical frame (x right, y down, z forward) in the building's frame.
   Eigen::Isometry3d T_building_camera(double seconds) const;
 
+  /// Pose of the robot's base on the floor, which turns with the camera and does not shake.
+  Eigen::Isometry3d T_building_base(double seconds) const;
+
+  /// Mounting of the optical frame on the base, without the shaking.
+  Eigen::Isometry3d T_base_camera() const;
+
   /// The robot that carries the camera.
   const Motion& robot() const { return robot_; }
 
