@@ -46,9 +46,7 @@ class SceneSource final : public FrameSource {
   void skip(std::size_t count) override { position_ += std::min(count, size() - position_); }
   const Trajectory& ground_truth() const override { return truth_; }
   void on_warning(WarningHandler) override {}
-  void add_motion(MotionRecording motion) override {
-    feed_.add(std::move(motion.samples));
-  }
+  void add_motion(MotionRecording motion) override { feed_.add(std::move(motion.samples)); }
 
   std::optional<TruthCloud> map_truth() const override {
     TruthCloud cloud = map_.cloud();

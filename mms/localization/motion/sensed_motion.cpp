@@ -77,7 +77,7 @@ long count(const std::deque<bool>& values) {
   return std::count(values.begin(), values.end(), true);
 }
 
-/// Axes of a base (x forward, y left, z up) in a camera that looks ahead (x right, y down).
+/// Axes of a base (x forward, y left, z up) in a camera that faces ahead (x right, y down).
 Eigen::Isometry3d looking_ahead() {
   Eigen::Isometry3d T_camera_base = Eigen::Isometry3d::Identity();
   T_camera_base.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
@@ -132,7 +132,7 @@ void MotionSensors::add(const MotionSamples& samples, const MotionCalibration& c
   const auto assume = [&](Kind kind, const char* key, const char* name) {
     if (std::exchange(assumed_[kind], true)) return;
     warnings_.push_back(std::string(name) + ": their mounting is not known; they are taken to be " +
-                        "where the sensor is, which looks ahead (give " + key +
+                        "where the sensor is, which faces ahead (give " + key +
                         " in calibration.yaml)");
   };
   const Eigen::Isometry3d ahead = is_camera ? looking_ahead() : Eigen::Isometry3d::Identity();

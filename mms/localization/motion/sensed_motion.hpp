@@ -50,7 +50,7 @@ class MotionSensors {
   explicit MotionSensors(const MotionSensorsConfig& config) : config_(config) {}
 
   /// Measurements up to the end of the next frame. Without extrinsics, a sensor of motion is taken
-  /// to be where the camera or LiDAR is, which looks ahead.
+  /// to be where the camera or LiDAR is, which faces ahead.
   /// @param is_camera  whether the sensor's frame is that of a camera
   void add(const MotionSamples& samples, const MotionCalibration& calibration, bool is_camera);
 
