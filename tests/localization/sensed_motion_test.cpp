@@ -247,7 +247,7 @@ TEST(SensedMotion, CorrectsDelayOfGyroscope) {
   compare_until(sensors, 0.0, 10.0);
   const std::string warnings = warnings_of(sensors);
   EXPECT_TRUE(has(warnings, "ms too late and were corrected (imu_delay")) << warnings;
-  EXPECT_LT(error(), 0.2 * before);  // within 4 ms
+  EXPECT_LT(error(), 0.2 * before);  // within 4 of the 20 ms
 }
 
 TEST(SensedMotion, KnownDelayIsRemoved) {
