@@ -17,7 +17,7 @@ struct MotionOptions {
 
 /// Measurements of wheels and gyroscope over a whole recording.
 struct MotionRecording {
-  MotionSamples samples;
+  MotionSamples samples;              ///< in order of time
   std::vector<std::string> facts;     ///< lines for `mms info`
   std::vector<std::string> warnings;  ///< non-fatal faults
 };
