@@ -21,7 +21,9 @@ enum class PointLabel : std::uint8_t {
 /// One dynamic object in this frame (III-B.2), in the sensor frame [m].
 struct DynamicCluster {
   ObjectClass object_class = ObjectClass::kPerson;  ///< of its mask
-  float score = 1.0F;  ///< score of its mask, in (0, 1]; 0 without a mask
+  float score = 1.0F;     ///< score of its mask, in (0, 1]; 0 without a mask
+  float weight = 1.0F;    ///< how much its mask counts against what recent views saw, in (0, 1]
+  double followed = 0.0;  ///< time since its mask was first seen [s]
   /// Index of its mask, -1 if unknown. If several clusters share a mask, the first is the object;
   /// the others are background or occluders under the same mask.
   int instance = -1;
