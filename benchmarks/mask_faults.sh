@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Effect of faulty masks, compared to exact ones: 30 % dropped, eroded or with missing parts; all of
 # them one frame late; and exact ones of every third frame only. Also the filter in a static scene.
+# Masks where nobody is: false_masks.sh.
 # usage: benchmarks/mask_faults.sh [SEED] [FRAMES]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"

@@ -1,5 +1,7 @@
 #include "mms/fusion/semantic_fusion.hpp"
 
+#include <algorithm>
+
 #include "mms/fusion/clouds/grid_nodes.hpp"
 #include "mms/fusion/clouds/mask_image.hpp"
 #include "mms/fusion/clouds/scan_cloud.hpp"
@@ -9,6 +11,7 @@
 #include "mms/fusion/clusters/scan_geometry.hpp"
 #include "mms/fusion/masks/mask_labels.hpp"
 #include "mms/fusion/masks/mask_plausibility.hpp"
+#include "mms/fusion/masks/mask_weight.hpp"
 #include "mms/fusion/planes/grid_planes.hpp"
 
 namespace mms {
@@ -39,6 +42,23 @@ void mark_dynamic_pixels(const Image<std::uint16_t>& mask, LabeledCloud& cloud) 
   }
 }
 
+/// Clears the masks that cannot be objects, and counts them.
+/// @param covering  of every point: 0 or 1 + index of the instance over it
+std::vector<Plausibility> drop_impossible_masks(const std::vector<std::uint16_t>& covering,
+                                                const std::vector<Instance>& instances,
+                                                const FusionConfig& config, MaskImage& mask,
+                                                LabeledCloud& cloud) {
+  if (!config.plausibility) return {};
+  std::vector<Plausibility> judged = judge_masks(cloud, covering, instances, config);
+  const auto count = std::count(judged.begin(), judged.end(), Plausibility::kImpossible);
+  cloud.implausible_masks = static_cast<int>(count);
+  if (count > 0) {
+    clear_impossible_masks(judged, mask.raw.pixels());
+    clear_impossible_masks(judged, mask.dilated.pixels());
+  }
+  return judged;
+}
+
 }  // namespace
 
 SemanticFusion::SemanticFusion(const FusionConfig& config)
@@ -58,9 +78,8 @@ LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& 
     mark_dynamic_pixels(mask.dilated, cloud);
     return cloud;
   }
-  cloud.implausible_masks =
-      config_.plausibility ? clear_implausible_masks(cloud, segmentation.instances, config_, mask)
-                           : 0;
+  const std::vector<Plausibility> judged =
+      drop_impossible_masks(mask.raw.pixels(), segmentation.instances, config_, mask, cloud);
   std::vector<Instance> instances = segmentation.instances;
   memory_.recall(cloud, mask, instances);
   std::vector<DynamicObjects::Object> objects;
@@ -70,6 +89,7 @@ LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& 
     dilate(cloud.dynamic_pixels, mask.radius);
   }
   memory_.remember(cloud, objects);
+  weigh_masks(judged, cloud);
   return cloud;
 }
 
@@ -78,14 +98,17 @@ LabeledCloud SemanticFusion::fuse_scan(const Frame& frame, const Segmentation& s
   const Calibration& calibration = *frame.calibration;
   const bool has_masks = calibration.camera && !segmentation.instances.empty();
   if (config_.mode == FusionMode::kNone || !has_masks) return cloud;
-  const MaskImage mask =
-      make_mask_image(segmentation, calibration.camera->width, calibration.camera->height,
-                      config_.stride, config_.dilation);
+  MaskImage mask = make_mask_image(segmentation, calibration.camera->width,
+                                   calibration.camera->height, config_.stride, config_.dilation);
+  PointMask covering = project_masks(cloud.points, mask, calibration, config_.stride);
   if (config_.mode == FusionMode::kVision) {
-    const PointMask covering = project_masks(cloud.points, mask, calibration, config_.stride);
     label_by_mask(covering.dilated, segmentation.instances, cloud);
   } else {
-    fuse_scan_geometry(mask, segmentation.instances, calibration, config_, cloud);
+    drop_impossible_masks(covering.raw, segmentation.instances, config_, mask, cloud);
+    if (cloud.implausible_masks > 0) {
+      covering = project_masks(cloud.points, mask, calibration, config_.stride);
+    }
+    fuse_scan_geometry(mask, covering, segmentation.instances, calibration, config_, cloud);
   }
   return cloud;
 }

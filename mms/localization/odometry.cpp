@@ -269,10 +269,15 @@ OdometryEstimate Odometry::relocate(Timestamp stamp, const Transform<World, Sens
   return estimate;
 }
 
+std::optional<Transform<World, Sensor>> Odometry::predicted(Timestamp stamp) const {
+  if (!maps_) return std::nullopt;
+  return Transform<World, Sensor>(motion_.predict(stamp).T_world_sensor);
+}
+
 std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {
   if (!maps_) return std::nullopt;
   const PosePrediction prediction = motion_.predict(stamp);
-  const bool turns = motion_.velocity().tail<3>().norm() >= kMaxExpectedTurnRate;
+  const bool turns = turn_rate() >= kMaxExpectedTurnRate;
   if (turns && !prediction.is_sensed) return std::nullopt;
   const bool is_lost = lost_ && !(prediction.translation_sigma < kMaxExpectedSigma);
   if (is_lost) return std::nullopt;

@@ -1,5 +1,6 @@
 #include "mms/pipeline/pose_hypotheses.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -7,6 +8,8 @@
 
 #include "mms/core/image.hpp"
 #include "mms/fusion/clusters/dynamic_parts.hpp"
+#include "mms/fusion/masks/mask_weight.hpp"
+#include "mms/geometry/se3.hpp"
 
 namespace mms {
 namespace {
@@ -34,8 +37,24 @@ constexpr double kMinSupportGain = 1.05;
 /// believed. Source: initial choice; people before the lens are on none.
 constexpr double kMinSupported = 0.5;
 
+/// [m]: distance of the estimated from the predicted pose up to which views need not be compared
+/// again. Source: half of `MaskCheckConfig::margin`.
+constexpr double kNearby = 0.03;
+
+/// [rad]: the same of the angle. Source: moves a point at 3 m by `kNearby`.
+constexpr double kNearbyTurn = 0.01;
+
 Transform<World, Sensor> pose_of(const Odometry::Alignment& alignment) {
   return Transform<World, Sensor>(alignment.registration->T_world_sensor);
+}
+
+bool is_poor(const Odometry::Alignment& alignment) {
+  return !alignment.is_valid || alignment.registration->degenerate_directions > 0;
+}
+
+bool is_near(const Transform<World, Sensor>& a, const Transform<World, Sensor>& b) {
+  const Eigen::Isometry3d difference = (a.inverse() * b).isometry();
+  return difference.translation().norm() < kNearby && se3::angle(difference) < kNearbyTurn;
 }
 
 /// All dynamic points.
@@ -65,6 +84,24 @@ Image<std::uint8_t> points_of_large_clusters(
   return points;
 }
 
+/// Those of the overruled points that belong to clusters of which most are; empty without any.
+Image<std::uint8_t> points_of_overruled_clusters(const LabeledCloud& cloud,
+                                                 Image<std::uint8_t> overruled) {
+  std::vector<int> majority(cloud.clusters.size(), 0);
+  for (std::size_t i = 0; i < overruled.size(); ++i) {
+    if (cloud.labels[i] != PointLabel::kDynamic || cloud.cluster[i] < 0) continue;
+    majority[static_cast<std::size_t>(cloud.cluster[i])] += overruled[i] != 0 ? 1 : -1;
+  }
+  const bool are_none =
+      std::none_of(majority.begin(), majority.end(), [](int more) { return more > 0; });
+  if (are_none) return {};
+  for (std::size_t i = 0; i < overruled.size(); ++i) {
+    const int cluster = cloud.cluster[i];
+    if (cluster < 0 || majority[static_cast<std::size_t>(cluster)] <= 0) overruled[i] = 0;
+  }
+  return overruled;
+}
+
 /// Features of the static and the overruled points.
 FeatureCloud extract_for_pose(const FeatureExtractor& extractor, LabeledCloud& cloud) {
   std::vector<PointLabel> labels = labels_for_pose(cloud);
@@ -86,23 +123,54 @@ PoseHypotheses::PoseHypotheses(const MaskCheckConfig& mask_check, const FeatureC
                                const Sizes& sizes)
     : mask_check_(mask_check, features.noise.depth), extractor_(features), sizes_(sizes) {}
 
-/// The pose is estimated with the masks, and where recent views contradict them, without those that
-/// are wrong. Where too little may be left beside the masks, a pose that ignores them is estimated,
-/// too; the masks are judged from the pose under which more points are on known surfaces.
+/// What recent views show at the predicted pose decides first which masks to follow, so that most
+/// frames are registered once. The views are compared again at the estimated pose where that is
+/// elsewhere, or poor. Where too little may be left beside the masks, a pose that ignores them is
+/// estimated, too; the masks are judged from the pose under which more points are on known
+/// surfaces.
 Odometry::Alignment PoseHypotheses::align(const Odometry& odometry, LabeledCloud& cloud,
                                           FeatureCloud features) const {
-  Odometry::Alignment trusting = odometry.align(std::move(features));
   const double masked = dynamic_share(cloud);
-  if (!mask_check_.enabled() || !cloud.organised() || masked == 0.0) return trusting;
-  if (!trusting.registration) {
-    return masked <= kMuchMasked ? trusting : align_first(odometry, cloud, masked);
+  if (!mask_check_.enabled() || !cloud.organised() || masked == 0.0) {
+    return odometry.align(std::move(features));
   }
-  if (!mask_check_.has_views()) return trusting;
-  const bool is_poor = !trusting.is_valid || trusting.registration->degenerate_directions > 0;
-  const bool may_be_poor = is_poor || masked > kMuchMasked;
+  const auto predicted = mask_check_.has_views() ? odometry.predicted(cloud.stamp) : std::nullopt;
+  weigh_masks_in_turn(odometry.turn_rate(), cloud);
+  MaskEvidence early;
+  if (predicted) early = mask_check_.compare(cloud, *predicted, MaskCheck::Points::kMasked);
+  std::optional<Odometry::Alignment> checked;
+  if (early.overruled_share >= kMinOverruledShare) {
+    checked = align_overruled(odometry, cloud, early.overruled);
+    if (is_poor(*checked)) {
+      checked.reset();
+      early = {};
+    }
+  }
+  const double overruled = checked ? early.overruled_share : 0.0;
+  Odometry::Alignment first = checked ? *std::move(checked) : odometry.align(std::move(features));
+  if (!first.registration) {
+    return masked <= kMuchMasked ? first : align_first(odometry, cloud, masked);
+  }
+  if (!mask_check_.has_views()) return first;
+  const bool may_be_poor = is_poor(first) || masked - overruled > kMuchMasked;
+  if (!may_be_poor && predicted && is_near(*predicted, pose_of(first))) {
+    cloud.overruled = overruled > 0.0
+                          ? std::move(early.overruled)
+                          : points_of_overruled_clusters(cloud, std::move(early.overruled));
+    return first;
+  }
+  return reconsider(odometry, cloud, std::move(first), overruled, may_be_poor);
+}
+
+/// @param first        overrules `cloud.overruled`, `overruled` of the points; none if that is 0
+/// @param may_be_poor  whether all masks may be wrong
+Odometry::Alignment PoseHypotheses::reconsider(const Odometry& odometry, LabeledCloud& cloud,
+                                               Odometry::Alignment first, double overruled,
+                                               bool may_be_poor) const {
   MaskEvidence evidence = mask_check_.compare(
-      cloud, pose_of(trusting), may_be_poor ? MaskCheck::Points::kAll : MaskCheck::Points::kMasked);
-  const bool in_doubt = is_poor || (may_be_poor && evidence.masked_agreement > kMinMaskedAgreement);
+      cloud, pose_of(first), may_be_poor ? MaskCheck::Points::kAll : MaskCheck::Points::kMasked);
+  const bool in_doubt =
+      may_be_poor && (is_poor(first) || evidence.masked_agreement > kMinMaskedAgreement);
   std::optional<Odometry::Alignment> ignoring;
   if (in_doubt) {
     ignoring = align_overruled(odometry, cloud, dynamic_points(cloud));
@@ -112,16 +180,19 @@ Odometry::Alignment PoseHypotheses::align(const Odometry& odometry, LabeledCloud
       evidence = std::move(other);
     }
   }
-  if (evidence.overruled_share >= kMinOverruledShare) {
-    Odometry::Alignment checked = align_overruled(odometry, cloud, std::move(evidence.overruled));
+  if (evidence.overruled_share >= overruled + kMinOverruledShare) {
+    Odometry::Alignment checked = align_overruled(odometry, cloud, evidence.overruled);
     if (checked.is_valid) return checked;
   }
-  if (!trusting.is_valid && ignoring && ignoring->is_valid) {
+  if (!first.is_valid && ignoring && ignoring->is_valid) {
     cloud.overruled = dynamic_points(cloud);
     return *std::move(ignoring);
   }
-  cloud.overruled = {};
-  return trusting;
+  if (!first.is_valid) evidence.overruled = {};
+  cloud.overruled = overruled > 0.0
+                        ? std::move(evidence.overruled)
+                        : points_of_overruled_clusters(cloud, std::move(evidence.overruled));
+  return first;
 }
 
 /// A first frame under masks: those of clusters larger than an object are overruled, and if that is

@@ -33,6 +33,9 @@ class PoseHypotheses {
   }
 
  private:
+  Odometry::Alignment reconsider(const Odometry& odometry, LabeledCloud& cloud,
+                                 Odometry::Alignment first, double overruled,
+                                 bool may_be_poor) const;
   Odometry::Alignment align_first(const Odometry& odometry, LabeledCloud& cloud,
                                   double masked) const;
   Odometry::Alignment align_overruled(const Odometry& odometry, LabeledCloud& cloud,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mms/fusion/clouds/depth_cloud.hpp"
 #include "mms/fusion/semantic_fusion.hpp"
 #include "tests/fusion/scene.hpp"
 
@@ -108,6 +109,43 @@ TEST(MaskPlausibility, KeepsAMaskWithFewPoints) {
   View view = render(room(2.0F));
   for (float& depth : view.frame.depth.pixels()) depth = 0.0F;
   EXPECT_EQ(implausible(view, center(view)), 0);
+}
+
+/// The verdict on one mask.
+Plausibility judged(const View& view, const Instance& instance) {
+  const FusionConfig config;
+  const LabeledCloud cloud = DepthCloudBuilder(config).build(view.frame);
+  const Segmentation segmentation = segmentation_of(view, {instance});
+  const MaskImage mask = make_mask_image(segmentation, segmentation.width, segmentation.height,
+                                         config.stride, config.dilation);
+  return judge_masks(cloud, mask.raw.pixels(), segmentation.instances, config).front();
+}
+
+TEST(MaskPlausibility, DoubtsAWallTooFarToBeSure) {
+  const View near = render(room(2.0F));
+  const View far = render(room(4.0F));
+  EXPECT_EQ(judged(near, center(near)), Plausibility::kImpossible);
+  Instance part = center(far);
+  part.mask = Image<std::uint8_t>(part.mask.width(), part.mask.height() / 2, 1);
+  EXPECT_EQ(judged(far, part), Plausibility::kDoubtful);
+}
+
+TEST(MaskPlausibility, DoesNotDoubtAPerson) {
+  const View view = render(room_with_person());
+  const LabeledCloud cloud = fuse(view, mask_of(view, Surface::kPerson));
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  EXPECT_EQ(cloud.clusters[0].weight, 1.0F);
+}
+
+TEST(MaskPlausibility, DoubtsAMaskWithFewReturns) {
+  View view = render(room_with_person());
+  for (std::size_t i = 0; i < view.truth.size(); ++i) {
+    const auto row = static_cast<int>(i) / view.truth.width();
+    if (view.truth[i] == Surface::kPerson && row % 8 < 6) view.frame.depth[i] = 0.0F;
+  }
+  const LabeledCloud cloud = fuse(view, mask_of(view, Surface::kPerson));
+  ASSERT_FALSE(cloud.clusters.empty());
+  EXPECT_LT(cloud.clusters[0].weight, 1.0F);
 }
 
 TEST(MaskPlausibility, ClearsOnlyTheImplausibleMask) {

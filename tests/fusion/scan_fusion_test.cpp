@@ -99,6 +99,20 @@ TEST(ScanFusion, ScalesIntensity) {
   EXPECT_TRUE(SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation).intensity.empty());
 }
 
+TEST(ScanFusion, DropsAPersonLargerThanARoom) {
+  const Scene hall = Scene()
+                         .add(Surface::kFloor, {-10, 1.2F, 0}, {10, 1.3F, 20})
+                         .add(Surface::kWall, {-10, -5, 9}, {10, 1.2F, 9.1F})
+                         .add(Surface::kPerson, {-0.25F, -0.5F, 2.5F}, {0.25F, 1.2F, 2.8F});
+  ScanView view = scan(hall, 0);
+  Instance& wrong = view.segmentation.instances.emplace_back();
+  wrong.mask = Image<std::uint8_t>(view.segmentation.width, view.segmentation.height, 1);
+  const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
+  EXPECT_EQ(cloud.implausible_masks, 1);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.97);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.001);
+}
+
 TEST(ScanFusion, RestoresWallUnderDilatedMask) {
   const ScanView view = scan(room_with_person(), 15);
   const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);

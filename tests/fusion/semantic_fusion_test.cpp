@@ -117,6 +117,25 @@ TEST(SemanticFusion, RemembersLostMaskForHalfASecond) {
   EXPECT_EQ(dynamic_share(fusion.fuse(late.frame, segmentation_of(late, {}))), 0.0);
 }
 
+TEST(SemanticFusion, SaysHowLongAnObjectWasFollowed) {
+  SemanticFusion fusion{FusionConfig{}};
+  for (int i = 0; i <= 6; ++i) {
+    const View view = person_at(10.0 + i / 15.0, -0.25F + 0.05F * static_cast<float>(i));
+    // A frame without masks does not interrupt it.
+    const bool has_mask = i != 3;
+    const LabeledCloud cloud = fusion.fuse(
+        view.frame, segmentation_of(view, has_mask ? std::vector{mask_of(view, Surface::kPerson)}
+                                                   : std::vector<Instance>{}));
+    ASSERT_EQ(cloud.clusters.size(), 1U);
+    EXPECT_NEAR(cloud.clusters[0].followed, i / 15.0, 1e-6);
+  }
+  const View elsewhere = person_at(10.5, -2.0F);
+  const LabeledCloud cloud = fusion.fuse(
+      elsewhere.frame, segmentation_of(elsewhere, {mask_of(elsewhere, Surface::kPerson)}));
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  EXPECT_EQ(cloud.clusters[0].followed, 0.0);
+}
+
 TEST(SemanticFusion, RemembersNothingWherePersonLeft) {
   SemanticFusion fusion{FusionConfig{}};
   const View masked = person_at(10.0, -0.25F);

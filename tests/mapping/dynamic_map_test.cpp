@@ -47,12 +47,15 @@ void set_points(LabeledCloud& cloud) {
 }
 
 /// Updates the map with frame `index`: those clusters, observed from that pose.
+/// @param overruled  whether recent views contradict the masks
 void update(DynamicMap& map, int index, const std::vector<DynamicCluster>& clusters,
-            const Eigen::Isometry3d& T_world_sensor = Eigen::Isometry3d::Identity()) {
+            const Eigen::Isometry3d& T_world_sensor = Eigen::Isometry3d::Identity(),
+            bool overruled = false) {
   LabeledCloud cloud;
   cloud.stamp = Timestamp::from_seconds(1.0 + kPeriod * index);
   cloud.clusters = clusters;
   set_points(cloud);
+  if (overruled) cloud.overruled = Image<std::uint8_t>(cloud.width, cloud.height, 1);
   OdometryEstimate odometry;
   odometry.stamp = cloud.stamp;
   odometry.T_world_sensor = Transform<World, Sensor>(T_world_sensor);
@@ -254,6 +257,18 @@ TEST(DynamicMap, RememberedMaskKeepsButStartsNoObject) {
   ASSERT_EQ(map.objects().size(), 1U);
   EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
   EXPECT_EQ(map.objects()[0].box.score, 1.0);
+}
+
+TEST(DynamicMap, OverruledMaskKeepsButStartsNoObject) {
+  DynamicMap map;
+  const std::vector<DynamicCluster> person = {cluster_at({0.0F, 0.0F, 2.0F})};
+  const Eigen::Isometry3d at_origin = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 10; ++i) update(map, i, person, at_origin, true);
+  EXPECT_TRUE(map.objects().empty());
+  for (int i = 10; i < 16; ++i) update(map, i, person);
+  for (int i = 16; i < 20; ++i) update(map, i, person, at_origin, true);
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
 }
 
 TEST(DynamicMap, SecondClusterOfMaskStartsNoObject) {

@@ -170,6 +170,40 @@ TEST(MaskCheck, RemembersOverruledPointsAsStatic) {
   EXPECT_EQ(count(evidence.overruled), static_cast<std::size_t>(kWidth * kHeight));
 }
 
+/// The view does not know the upper half of the box, too little of it for a mask of full weight.
+TEST(MaskCheck, OverrulesAMaskOfLowWeightFromLessEvidence) {
+  LabeledCloud view = wall_with_box(0.0, 2.0F);
+  for (int y = 0; y < kTop + kHeight / 2; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * view.width + x);
+      view.points[i].setConstant(NAN);
+      view.labels[i] = PointLabel::kInvalid;
+    }
+  }
+  LabeledCloud cloud = masked(wall_with_box(0.5, 2.0F));
+  const std::size_t half = static_cast<std::size_t>(kWidth * kHeight / 2);
+  EXPECT_LT(count(compare(view, cloud).overruled), half + kWidth * 5);
+  cloud.clusters[0].weight = 0.5F;
+  EXPECT_EQ(count(compare(view, cloud).overruled), 2 * half);
+}
+
+/// Views of the place from positions a meter apart, and none for a while.
+TEST(MaskCheck, AsksEarlierViewsOfThePlace) {
+  const LabeledCloud cloud = masked(wall_with_box(20.0, 3.0F));
+  const auto overruled = [&](std::initializer_list<double> positions) {
+    MaskCheck check({}, {});
+    double seconds = 0.0;
+    for (const double x : positions) {
+      check.remember(wall_with_box(seconds, 3.0F), pose({x, 0, 0}));
+      seconds += 0.5;
+    }
+    return count(check.compare(cloud, pose({0, 0, 0})).overruled);
+  };
+  EXPECT_EQ(overruled({-0.3, 0.3}), static_cast<std::size_t>(kWidth * kHeight));
+  EXPECT_EQ(overruled({-0.3}), 0U) << "one view is not enough";
+  EXPECT_EQ(overruled({-1.5, 1.5}), 0U) << "too far away";
+}
+
 TEST(MaskCheck, ForgetsOldViews) {
   MaskCheckConfig config;
   config.memory = 1.0;

@@ -83,6 +83,16 @@ TEST(FalseMasks, AreMarkedAsOverruled) {
   }
 }
 
+TEST(FalseMasks, MakeNoTracks) {
+  SlamSystem with = system_with(5, 15, 0.3);
+  SlamSystem without = system_with(0, 0, 0.3);
+  for (std::size_t i = 0; i < 20; ++i) {
+    with.process(scene_frame(i));
+    without.process(scene_frame(i));
+  }
+  EXPECT_EQ(with.dynamic_map().confirmed(), without.dynamic_map().confirmed());
+}
+
 TEST(FalseMasks, AreBelievedByTheBaselines) {
   SystemConfig config;
   config.fusion.stride = 1;

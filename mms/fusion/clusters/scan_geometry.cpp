@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "mms/fusion/clouds/nodes.hpp"
-#include "mms/fusion/clouds/scan_cloud.hpp"
 #include "mms/fusion/clusters/cluster_list.hpp"
 #include "mms/fusion/clusters/dynamic_objects.hpp"
 #include "mms/fusion/planes/static_planes.hpp"
@@ -112,9 +111,9 @@ void relabel_scan(const Nodes& nodes, const DynamicObjects& objects,
 
 }  // namespace
 
-void fuse_scan_geometry(const MaskImage& mask, const std::vector<Instance>& instances,
-                        const Calibration& calibration, const FusionConfig& config,
-                        LabeledCloud& cloud) {
+void fuse_scan_geometry(const MaskImage& mask, const PointMask& covering,
+                        const std::vector<Instance>& instances, const Calibration& calibration,
+                        const FusionConfig& config, LabeledCloud& cloud) {
   Nodes nodes = make_nodes(mask, calibration, config, cloud);
   const std::vector<Plane> planes = find_scan_planes(nodes, config);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -122,7 +121,6 @@ void fuse_scan_geometry(const MaskImage& mask, const std::vector<Instance>& inst
     nodes.on_plane[i] = is_on_any(planes, nodes.points[i], limit) ? 1 : 0;
   }
   const DynamicObjects objects = find_dynamic_objects(nodes, instances, config);
-  const PointMask covering = project_masks(cloud.points, mask, calibration, config.stride);
   relabel_scan(nodes, objects, planes, covering, config, cloud);
   list_clusters(objects.objects, instances, cloud);
 }

@@ -1,7 +1,9 @@
 #include "mms/fusion/masks/mask_memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace mms {
 namespace {
@@ -21,38 +23,48 @@ bool MaskMemory::is_still_there(const LabeledCloud& cloud, std::size_t pixel) co
   return std::abs(z - depth_[pixel]) <= gap + noise;
 }
 
-/// Non-zero for the objects whose mask is missing.
-std::vector<std::uint8_t> MaskMemory::find_missing(const LabeledCloud& cloud,
-                                                   const MaskImage& mask) const {
-  std::vector<int> there(objects_.size(), 0);
-  std::vector<int> covered(objects_.size(), 0);
+std::vector<MaskMemory::Present> MaskMemory::find_present(const LabeledCloud& cloud,
+                                                          const MaskImage& mask,
+                                                          std::size_t masks) const {
+  std::vector<Present> present(objects_.size());
+  for (Present& object : present) object.under.assign(masks, 0);
   for (std::size_t i = 0; i < object_of_.size(); ++i) {
     if (!is_still_there(cloud, i)) continue;
-    const auto k = static_cast<std::size_t>(object_of_[i]);
-    ++there[k];
-    covered[k] += mask.raw[i] != 0;
+    Present& object = present[static_cast<std::size_t>(object_of_[i])];
+    ++object.pixels;
+    if (mask.raw[i] != 0) ++object.under[mask.raw[i] - std::size_t{1}];
   }
-  std::vector<std::uint8_t> missing(objects_.size(), 0);
-  for (std::size_t k = 0; k < objects_.size(); ++k) {
-    const double unmasked = to_seconds(cloud.stamp - objects_[k].masked);
-    const bool is_recent = unmasked > 0.0 && unmasked <= config_.memory;
-    missing[k] = is_recent && there[k] > 0 && covered[k] < kMinCovered * there[k];
-  }
-  return missing;
+  return present;
+}
+
+bool MaskMemory::is_missing(const Object& object, const Present& present, Timestamp now) const {
+  const int covered = std::accumulate(present.under.begin(), present.under.end(), 0);
+  const double unmasked = to_seconds(now - object.masked);
+  const bool is_recent = unmasked > 0.0 && unmasked <= config_.memory;
+  return is_recent && present.pixels > 0 && covered < kMinCovered * present.pixels;
 }
 
 void MaskMemory::recall(const LabeledCloud& cloud, MaskImage& mask,
                         std::vector<Instance>& instances) {
-  masked_.assign(instances.size(), cloud.stamp);
+  instances_.clear();
+  for (const Instance& instance : instances) {
+    instances_.push_back({instance.object_class, cloud.stamp, cloud.stamp});
+  }
   if (object_of_.size() != cloud.points.size()) return;
-  const std::vector<std::uint8_t> missing = find_missing(cloud, mask);
+  const std::size_t masks = instances.size();
+  const std::vector<Present> present = find_present(cloud, mask, masks);
   std::vector<std::uint16_t> value(objects_.size(), 0);
   for (std::size_t k = 0; k < objects_.size(); ++k) {
-    if (missing[k] == 0) continue;
+    for (std::size_t m = 0; m < masks; ++m) {
+      if (present[k].under[m] == 0 || present[k].under[m] < kMinCovered * present[k].pixels)
+        continue;
+      instances_[m].since = std::min(instances_[m].since, objects_[k].since);
+    }
+    if (!is_missing(objects_[k], present[k], cloud.stamp)) continue;
     Instance& instance = instances.emplace_back();
     instance.object_class = objects_[k].object_class;
     instance.score = 0.0F;
-    masked_.push_back(objects_[k].masked);
+    instances_.push_back(objects_[k]);
     value[k] = static_cast<std::uint16_t>(instances.size());
   }
   for (std::size_t i = 0; i < object_of_.size(); ++i) {
@@ -62,13 +74,13 @@ void MaskMemory::recall(const LabeledCloud& cloud, MaskImage& mask,
   }
 }
 
-void MaskMemory::remember(const LabeledCloud& cloud,
-                          const std::vector<DynamicObjects::Object>& objects) {
+void MaskMemory::remember(LabeledCloud& cloud, const std::vector<DynamicObjects::Object>& objects) {
   objects_.clear();
   for (std::size_t k = 0; k < objects.size(); ++k) {
-    const DynamicCluster& cluster = cloud.clusters[k];
-    objects_.push_back(
-        {cluster.object_class, masked_[static_cast<std::size_t>(objects[k].instance)]});
+    Object object = instances_[static_cast<std::size_t>(objects[k].instance)];
+    object.object_class = cloud.clusters[k].object_class;
+    cloud.clusters[k].followed = to_seconds(cloud.stamp - object.since);
+    objects_.push_back(object);
   }
   object_of_ = cloud.cluster;
   depth_.resize(cloud.points.size());

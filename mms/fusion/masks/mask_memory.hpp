@@ -23,23 +23,33 @@ class MaskMemory {
   /// for lack of a detection in this frame.
   void recall(const LabeledCloud& cloud, MaskImage& mask, std::vector<Instance>& instances);
 
-  /// Stores the objects found with the instances of `recall`.
-  void remember(const LabeledCloud& cloud, const std::vector<DynamicObjects::Object>& objects);
+  /// Stores the objects found with the instances of `recall`, and says of the cloud's clusters how
+  /// long they were followed.
+  void remember(LabeledCloud& cloud, const std::vector<DynamicObjects::Object>& objects);
 
  private:
   struct Object {
     ObjectClass object_class = ObjectClass::kPerson;
     Timestamp masked;  ///< when it last had a mask
+    Timestamp since;   ///< when it was found first
+  };
+
+  /// The pixels that still show a remembered object.
+  struct Present {
+    int pixels = 0;
+    std::vector<int> under;  ///< how many are under each mask
   };
 
   bool is_still_there(const LabeledCloud& cloud, std::size_t pixel) const;
-  std::vector<std::uint8_t> find_missing(const LabeledCloud& cloud, const MaskImage& mask) const;
+  std::vector<Present> find_present(const LabeledCloud& cloud, const MaskImage& mask,
+                                    std::size_t masks) const;
+  bool is_missing(const Object& object, const Present& present, Timestamp now) const;
 
   FusionConfig config_;
   std::vector<Object> objects_;
   std::vector<std::int16_t> object_of_;  ///< of every pixel, -1 for none
   std::vector<float> depth_;             ///< of every pixel [m]
-  std::vector<Timestamp> masked_;        ///< of the frame's instances
+  std::vector<Object> instances_;        ///< those of the frame
 };
 
 }  // namespace mms

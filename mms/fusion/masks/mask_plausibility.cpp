@@ -20,9 +20,16 @@ constexpr std::size_t kMinSamples = 40;
 /// some background beside and behind an object.
 constexpr double kTrim = 0.15;
 
+/// [-]: share of a mask's samples with a return below which it is doubtful. Source: initial choice;
+/// hair and dark clothes lack returns, but seldom most of a body.
+constexpr double kFewReturns = 0.3;
+
 /// [-]: largest second extent, in lengths of the class. Source: initial choice; people side by side
 /// under one mask are wider than that, but not taller.
 constexpr double kMaxHeight = 1.2;
+
+/// [-]: the same from which a mask is doubtful. Source: as tall as the class.
+constexpr double kDoubtfulHeight = 1.0;
 
 /// [m]: shorter side of a flat surface that is no person. Source: wider than a torso.
 constexpr float kFlatWidth = 0.5F;
@@ -33,6 +40,9 @@ constexpr float kFlatLength = 0.8F;
 /// [-]: share of the samples on it. Source: initial choice; of a standing person's front the torso
 /// is flat, with head, arms and legs before and behind it.
 constexpr double kFlatShare = 0.85;
+
+/// [-]: the same from which a mask is doubtful. Source: initial choice.
+constexpr double kDoubtfulFlatShare = 0.7;
 
 /// [m]: tolerance of the plane, noise included, up to which a flat surface differs from a body.
 /// Source: a third of a torso's radius of 0.17 m; a Kinect's noise reaches it at 3 m.
@@ -46,16 +56,28 @@ constexpr double kFitted = 0.8;
 
 using Points = std::vector<Eigen::Vector3f>;
 
-/// Points under each mask.
-std::vector<Points> sample(const LabeledCloud& cloud, std::size_t instances,
-                           const MaskImage& mask) {
-  std::vector<Points> samples(instances);
-  for (int y = 0; y < cloud.height; y += kStep) {
-    for (int x = 0; x < cloud.width; x += kStep) {
+/// What was sampled of one mask.
+struct Samples {
+  Points points;
+  std::size_t without_return = 0;
+};
+
+/// Of every fourth point of an image along either axis, or of all points of a scan.
+std::vector<Samples> sample(const LabeledCloud& cloud, std::size_t instances,
+                            const std::vector<std::uint16_t>& covering) {
+  std::vector<Samples> samples(instances);
+  const int step = cloud.organised() ? kStep : 1;
+  for (int y = 0; y < cloud.height; y += step) {
+    for (int x = 0; x < cloud.width; x += step) {
       const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
                             static_cast<std::size_t>(x);
-      if (mask.raw[i] == 0 || cloud.labels[i] == PointLabel::kInvalid) continue;
-      samples[mask.raw[i] - std::size_t{1}].push_back(cloud.points[i]);
+      if (covering[i] == 0) continue;
+      Samples& of_mask = samples[covering[i] - std::size_t{1}];
+      if (cloud.labels[i] == PointLabel::kInvalid) {
+        ++of_mask.without_return;
+      } else {
+        of_mask.points.push_back(cloud.points[i]);
+      }
     }
   }
   return samples;
@@ -86,18 +108,18 @@ struct Plane {
   }
 };
 
-/// Whether the points are larger along two axes than objects of the class are tall. A trimmed
-/// extent is corrected to that of points evenly spaced.
-bool is_too_large(const Points& points, const ObjectSize& size) {
-  const Plane plane(points);
-  const double whole = 1.0 / (1.0 - 2.0 * kTrim);
-  return whole * extent(points, plane.axes.axes.col(1)) > kMaxHeight * size.length;
+/// Second largest extent of the points [m]. A trimmed one is corrected to that of points evenly
+/// spaced.
+double second_extent(const Points& points) {
+  return extent(points, Plane(points).axes.axes.col(1)) / (1.0 - 2.0 * kTrim);
 }
 
-bool is_flat(const Points& points, const FusionConfig& config) {
+/// Whether the points are a flat surface larger than a body.
+/// @param tolerance  of the plane at a point [m]
+template <class Tolerance>
+Plausibility judge_flatness(const Points& points, const Tolerance& tolerance) {
   Plane plane(points);
-  const float noise = config.noise.depth.sigma(plane.mean.z());
-  if (config.planes.distance_limit(noise) > kMaxTolerance) return false;
+  const bool is_near = tolerance(plane.mean) <= kMaxTolerance;
   for (int round = 0; round < kRounds; ++round) {
     Points near = points;
     const auto fitted = static_cast<std::ptrdiff_t>(kFitted * static_cast<double>(near.size()));
@@ -110,38 +132,57 @@ bool is_flat(const Points& points, const FusionConfig& config) {
   }
   Points on_plane;
   for (const Eigen::Vector3f& point : points) {
-    const float limit = config.planes.distance_limit(config.noise.depth.sigma(point.z()));
-    if (plane.distance(point) <= limit) on_plane.push_back(point);
+    if (plane.distance(point) <= tolerance(point)) on_plane.push_back(point);
   }
-  if (static_cast<double>(on_plane.size()) < kFlatShare * static_cast<double>(points.size())) {
-    return false;
-  }
-  return extent(on_plane, plane.axes.axes.col(1)) > kFlatWidth &&
-         extent(on_plane, plane.axes.largest()) > kFlatLength;
+  const double share = static_cast<double>(on_plane.size()) / static_cast<double>(points.size());
+  const bool is_flat = share >= kDoubtfulFlatShare &&
+                       extent(on_plane, plane.axes.axes.col(1)) > kFlatWidth &&
+                       extent(on_plane, plane.axes.largest()) > kFlatLength;
+  if (!is_flat) return Plausibility::kPlausible;
+  return is_near && share >= kFlatShare ? Plausibility::kImpossible : Plausibility::kDoubtful;
+}
+
+template <class Tolerance>
+Plausibility judge(const Samples& samples, ObjectClass object_class, const ObjectSize& size,
+                   const Tolerance& tolerance) {
+  const Points& points = samples.points;
+  const std::size_t all = points.size() + samples.without_return;
+  const bool has_few = static_cast<double>(points.size()) < kFewReturns * static_cast<double>(all);
+  Plausibility judged = has_few ? Plausibility::kDoubtful : Plausibility::kPlausible;
+  if (points.size() < kMinSamples) return judged;
+  const double height = second_extent(points) / size.length;
+  if (height > kMaxHeight) return Plausibility::kImpossible;
+  if (height > kDoubtfulHeight) judged = Plausibility::kDoubtful;
+  return object_class == ObjectClass::kPerson ? std::max(judged, judge_flatness(points, tolerance))
+                                              : judged;
 }
 
 }  // namespace
 
-int clear_implausible_masks(const LabeledCloud& cloud, const std::vector<Instance>& instances,
-                            const FusionConfig& config, MaskImage& mask) {
-  const std::vector<Points> samples = sample(cloud, instances.size(), mask);
-  std::vector<bool> cleared(instances.size() + 1, false);
-  int count = 0;
+std::vector<Plausibility> judge_masks(const LabeledCloud& cloud,
+                                      const std::vector<std::uint16_t>& covering,
+                                      const std::vector<Instance>& instances,
+                                      const FusionConfig& config) {
+  const std::vector<Samples> samples = sample(cloud, instances.size(), covering);
+  const auto range_noise = static_cast<float>(config.noise.range);
+  const auto tolerance = [&](const Eigen::Vector3f& point) {
+    return config.planes.distance_limit(cloud.organised() ? config.noise.depth.sigma(point.z())
+                                                          : range_noise);
+  };
+  std::vector<Plausibility> judged;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (samples[k].size() < kMinSamples) continue;
     const ObjectClass object_class = instances[k].object_class;
-    const ObjectSize& size = config.sizes[static_cast<std::size_t>(object_class)];
-    const bool flat = object_class == ObjectClass::kPerson && is_flat(samples[k], config);
-    if (!flat && !is_too_large(samples[k], size)) continue;
-    cleared[k + 1] = true;
-    ++count;
+    judged.push_back(judge(samples[k], object_class,
+                           config.sizes[static_cast<std::size_t>(object_class)], tolerance));
   }
-  if (count == 0) return 0;
-  for (std::size_t i = 0; i < mask.raw.size(); ++i) {
-    if (cleared[mask.raw[i]]) mask.raw[i] = 0;
-    if (cleared[mask.dilated[i]]) mask.dilated[i] = 0;
+  return judged;
+}
+
+void clear_impossible_masks(const std::vector<Plausibility>& judged,
+                            std::vector<std::uint16_t>& covering) {
+  for (std::uint16_t& value : covering) {
+    if (value != 0 && judged[value - std::size_t{1}] == Plausibility::kImpossible) value = 0;
   }
-  return count;
 }
 
 }  // namespace mms

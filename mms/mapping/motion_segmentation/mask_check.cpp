@@ -20,6 +20,10 @@ constexpr int kStep = 2;
 /// mask became a part of the wall.
 constexpr double kMinKnown = 0.7;
 
+/// [-]: share of the known nodes on static surfaces that overrules a mask of no weight. Source: the
+/// more of them decide.
+constexpr double kEvenly = 0.5;
+
 /// [nodes]: half width of the neighborhood that decides on a node of any other cluster.
 /// Source: initial choice; as wide as the neighborhood of a feature.
 constexpr int kReach = 2;
@@ -29,6 +33,15 @@ constexpr std::size_t kRowsPerChunk = 16;
 
 /// What the views observed at the position of a node, the stronger evidence later.
 enum class Seen : std::uint8_t { kNothing, kMasked, kSurface, kFree };
+
+/// What recent views must show to overrule a mask: the less it weighs, the less.
+struct Limits {
+  double known;    ///< share of the nodes
+  double surface;  ///< share of the known ones
+
+  Limits(double weight, double agreement)
+      : known(weight * kMinKnown), surface(kEvenly + weight * (agreement - kEvenly)) {}
+};
 
 using SeenNodes = Image<Seen>;  ///< every second point of a cloud along either axis
 
@@ -51,9 +64,9 @@ struct Votes {
   double agreement() const {
     return surface == 0 ? 0.0 : static_cast<double>(surface) / (surface + against);
   }
-  bool are_static(double least) const {
+  bool are_static(const Limits& least) const {
     const int known = surface + against;
-    return known > 0 && known >= kMinKnown * nodes && surface >= least * known;
+    return known > 0 && known >= least.known * nodes && surface >= least.surface * known;
   }
 };
 
@@ -114,9 +127,10 @@ void for_each_node(const LabeledCloud& cloud, const Body& body) {
   });
 }
 
+/// @param places  of earlier views, which are asked where recent ones know nothing
 /// @param wanted  non-zero at the nodes to be observed; empty: all
 template <class Query>
-SeenNodes observe(const LabeledCloud& cloud, const Query& views,
+SeenNodes observe(const LabeledCloud& cloud, const Query& views, const PlaceViews::Query& places,
                   const Image<std::uint8_t>& wanted) {
   SeenNodes nodes(cloud.width / kStep, cloud.height / kStep, Seen::kNothing);
   for_each_node(cloud, [&](int x, int y) {
@@ -127,6 +141,7 @@ SeenNodes observe(const LabeledCloud& cloud, const Query& views,
     views.for_each(cloud.points[i], [&](const auto& view, const Eigen::Vector3f& there) {
       if (seen != Seen::kFree) seen = std::max(seen, seen_by(view, there));
     });
+    if (seen == Seen::kNothing && places.is_on_surface(cloud.points[i])) seen = Seen::kSurface;
   });
   return nodes;
 }
@@ -142,8 +157,14 @@ Votes masked_votes(const LabeledCloud& cloud, const SeenNodes& nodes) {
   return votes;
 }
 
-/// The votes of each cluster's nodes.
-std::vector<Votes> count_votes(const LabeledCloud& cloud, const SeenNodes& nodes) {
+/// Whether the views agree with a cluster as a whole, and what it takes at one of its points.
+struct ClusterVerdict {
+  Limits limits;
+  bool is_static;
+};
+
+std::vector<ClusterVerdict> judge_clusters(const LabeledCloud& cloud, const SeenNodes& nodes,
+                                           double agreement) {
   std::vector<Votes> votes(cloud.clusters.size());
   for (int y = 0; y < nodes.height(); ++y) {
     for (int x = 0; x < nodes.width(); ++x) {
@@ -152,11 +173,16 @@ std::vector<Votes> count_votes(const LabeledCloud& cloud, const SeenNodes& nodes
       votes[static_cast<std::size_t>(cloud.cluster[i])].add(nodes(x, y));
     }
   }
-  return votes;
+  std::vector<ClusterVerdict> verdicts;
+  for (std::size_t c = 0; c < votes.size(); ++c) {
+    const Limits limits(static_cast<double>(cloud.clusters[c].weight), agreement);
+    verdicts.push_back({limits, votes[c].are_static(limits)});
+  }
+  return verdicts;
 }
 
 /// Whether the views agree with the nodes around one.
-bool agree_around(const SeenNodes& nodes, int x, int y, double agreement) {
+bool agree_around(const SeenNodes& nodes, int x, int y, const Limits& least) {
   if (is_against(nodes(x, y))) return false;
   Votes votes;
   for (int v = std::max(0, y - kReach); v <= std::min(y + kReach, nodes.height() - 1); ++v) {
@@ -164,7 +190,7 @@ bool agree_around(const SeenNodes& nodes, int x, int y, double agreement) {
       votes.add(nodes(u, v));
     }
   }
-  return votes.are_static(agreement);
+  return votes.are_static(least);
 }
 
 /// Share of the nodes with a return, masked or not, that are on static surfaces.
@@ -183,7 +209,8 @@ double share_on_surfaces(const LabeledCloud& cloud, const SeenNodes& nodes) {
 /// Non-zero at the dynamic points that are on static surfaces.
 Image<std::uint8_t> overruled_points(const LabeledCloud& cloud, const SeenNodes& nodes,
                                      double agreement) {
-  const std::vector<Votes> votes = count_votes(cloud, nodes);
+  const std::vector<ClusterVerdict> verdicts = judge_clusters(cloud, nodes, agreement);
+  const ClusterVerdict without_cluster{Limits(1.0, agreement), false};
   Image<std::uint8_t> overruled(cloud.width, cloud.height);
   for_each_node(cloud, [&](int u, int v) {
     std::optional<bool> agreed;
@@ -196,9 +223,10 @@ Image<std::uint8_t> overruled_points(const LabeledCloud& cloud, const SeenNodes&
                               static_cast<std::size_t>(x);
         if (cloud.labels[i] != PointLabel::kDynamic) continue;
         const int cluster = cloud.cluster[i];
-        const bool with_cluster = cluster >= 0 && !is_against(nodes(u, v)) &&
-                                  votes[static_cast<std::size_t>(cluster)].are_static(agreement);
-        if (!with_cluster && !agreed) agreed = agree_around(nodes, u, v, agreement);
+        const ClusterVerdict& verdict =
+            cluster < 0 ? without_cluster : verdicts[static_cast<std::size_t>(cluster)];
+        const bool with_cluster = verdict.is_static && !is_against(nodes(u, v));
+        if (!with_cluster && !agreed) agreed = agree_around(nodes, u, v, verdict.limits);
         overruled[i] = with_cluster || *agreed ? 1 : 0;
       }
     }
@@ -216,6 +244,7 @@ MaskEvidence MaskCheck::compare(const LabeledCloud& cloud,
                                 Points points) const {
   const bool all = points == Points::kAll;
   const SeenNodes nodes = observe(cloud, views_.query(cloud.stamp, T_world_sensor),
+                                  places_.query(cloud.stamp, config_.memory, T_world_sensor),
                                   all ? Image<std::uint8_t>() : nodes_around_masks(cloud));
   MaskEvidence evidence;
   evidence.supported_share =
@@ -230,13 +259,18 @@ MaskEvidence MaskCheck::compare(const LabeledCloud& cloud,
 void MaskCheck::remember(const LabeledCloud& cloud,
                          const Transform<World, Sensor>& T_world_sensor) {
   if (!config_.enabled || !cloud.organised() || !views_.wants(cloud.stamp)) return;
+  const auto add = [&](const LabeledCloud& view_cloud) {
+    View view(view_cloud, config_.margin, noise_);
+    places_.add(cloud.stamp, view.statics, T_world_sensor);
+    views_.add(cloud.stamp, std::move(view), T_world_sensor);
+  };
   if (cloud.overruled.empty()) {
-    views_.add(cloud.stamp, View(cloud, config_.margin, noise_), T_world_sensor);
+    add(cloud);
     return;
   }
   LabeledCloud labeled = cloud;
   labeled.labels = labels_for_pose(cloud);
-  views_.add(cloud.stamp, View(labeled, config_.margin, noise_), T_world_sensor);
+  add(labeled);
 }
 
 std::vector<PointLabel> labels_for_pose(const LabeledCloud& cloud) {

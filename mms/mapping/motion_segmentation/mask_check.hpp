@@ -11,6 +11,7 @@
 #include "mms/mapping/free_space/free_space.hpp"
 #include "mms/mapping/motion_segmentation/free_space_history.hpp"
 #include "mms/mapping/motion_segmentation/mask_check_config.hpp"
+#include "mms/mapping/motion_segmentation/place_views.hpp"
 
 namespace mms {
 
@@ -65,6 +66,7 @@ class MaskCheck {
   MaskCheckConfig config_;
   DepthNoise noise_;
   FreeSpaceHistory<View> views_;
+  PlaceViews places_;
 };
 
 /// The cloud's labels with its overruled points static.

@@ -16,6 +16,14 @@ std::size_t stride_of(std::size_t points) {
   return 1 + (points - 1) / kMaxPoints;
 }
 
+/// Whether most of these points are on static surfaces of recent views.
+bool is_overruled(const LabeledCloud& cloud, const std::vector<std::size_t>& indices) {
+  if (cloud.overruled.empty()) return false;
+  const auto overruled = std::count_if(indices.begin(), indices.end(),
+                                       [&](std::size_t i) { return cloud.overruled[i] != 0; });
+  return 2 * static_cast<std::size_t>(overruled) > indices.size();
+}
+
 /// Indices of every part's points.
 std::vector<std::vector<std::size_t>> members(const ClusterParts& parts) {
   std::vector<std::vector<std::size_t>> lists(parts.cluster.size());
@@ -78,7 +86,7 @@ std::vector<ObjectMeasurement> measure_objects(const LabeledCloud& cloud,
     ObjectMeasurement& object = objects.emplace_back();
     object.stamp = cloud.stamp;
     object.object_class = cluster.object_class;
-    object.score = cluster.score;
+    object.score = is_overruled(cloud, indices[p]) ? 0.0F : cluster.score;
     object.instance = cluster.instance;
     object.largest = is_largest(cloud, parts.cluster[p]);
     object.sensor = T_world_sensor.translation();

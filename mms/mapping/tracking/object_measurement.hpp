@@ -15,7 +15,8 @@ namespace mms {
 struct ObjectMeasurement {
   Timestamp stamp;
   ObjectClass object_class = ObjectClass::kPerson;
-  float score = 1.0F;                                ///< of its mask, in (0, 1]; 0 without one
+  /// Of its mask, in (0, 1]; 0 without one, or where recent views contradict it.
+  float score = 1.0F;
   int instance = -1;                                 ///< of its mask; -1 without one
   bool largest = true;                               ///< of the clusters under its mask
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< the sensor's position [m]
