@@ -269,11 +269,6 @@ OdometryEstimate Odometry::relocate(Timestamp stamp, const Transform<World, Sens
   return estimate;
 }
 
-std::optional<Transform<World, Sensor>> Odometry::predicted(Timestamp stamp) const {
-  if (!maps_) return std::nullopt;
-  return Transform<World, Sensor>(motion_.predict(stamp).T_world_sensor);
-}
-
 std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) const {
   if (!maps_) return std::nullopt;
   const PosePrediction prediction = motion_.predict(stamp);

@@ -76,10 +76,6 @@ class Odometry {
   /// Of the sensor, between the last two poses [rad/s].
   double turn_rate() const { return motion_.velocity().tail<3>().norm(); }
 
-  /// Pose at `stamp` as a first guess, by the sensors or at constant velocity; nothing before the
-  /// first frame.
-  std::optional<Transform<World, Sensor>> predicted(Timestamp stamp) const;
-
   /// Pose expected at `stamp`, at constant velocity without wheels and gyroscope; nothing before
   /// the first frame, when lost for too long, and in fast turns, which the last velocity does not
   /// predict.

@@ -134,7 +134,7 @@ Odometry::Alignment PoseHypotheses::align(const Odometry& odometry, LabeledCloud
   if (!mask_check_.enabled() || !cloud.organised() || masked == 0.0) {
     return odometry.align(std::move(features));
   }
-  const auto predicted = mask_check_.has_views() ? odometry.predicted(cloud.stamp) : std::nullopt;
+  const auto predicted = mask_check_.has_views() ? odometry.expected(cloud.stamp) : std::nullopt;
   weigh_masks_in_turn(odometry.turn_rate(), cloud);
   MaskEvidence early;
   if (predicted) early = mask_check_.compare(cloud, *predicted, MaskCheck::Points::kMasked);
@@ -172,19 +172,21 @@ Odometry::Alignment PoseHypotheses::reconsider(const Odometry& odometry, Labeled
   const bool in_doubt =
       may_be_poor && (is_poor(first) || evidence.masked_agreement > kMinMaskedAgreement);
   std::optional<Odometry::Alignment> ignoring;
+  bool is_better = false;  // `ignoring` than `first`
   if (in_doubt) {
     ignoring = align_overruled(odometry, cloud, dynamic_points(cloud));
     MaskEvidence other = mask_check_.compare(cloud, pose_of(*ignoring));
     ignoring->is_valid = ignoring->is_valid && other.supported_share > kMinSupported;
     if (other.supported_share > kMinSupportGain * evidence.supported_share) {
       evidence = std::move(other);
+      is_better = ignoring->is_valid;
     }
   }
   if (evidence.overruled_share >= overruled + kMinOverruledShare) {
     Odometry::Alignment checked = align_overruled(odometry, cloud, evidence.overruled);
     if (checked.is_valid) return checked;
   }
-  if (!first.is_valid && ignoring && ignoring->is_valid) {
+  if (is_better || (!first.is_valid && ignoring && ignoring->is_valid)) {
     cloud.overruled = dynamic_points(cloud);
     return *std::move(ignoring);
   }
