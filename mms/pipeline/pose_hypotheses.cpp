@@ -125,9 +125,9 @@ PoseHypotheses::PoseHypotheses(const MaskCheckConfig& mask_check, const FeatureC
 
 /// What recent views show at the predicted pose decides first which masks to follow, so that most
 /// frames are registered once. The views are compared again at the estimated pose where that is
-/// elsewhere, or poor. Where too little may be left beside the masks, a pose that ignores them is
-/// estimated, too; the masks are judged from the pose under which more points are on known
-/// surfaces.
+/// elsewhere, or poor, and only there in fast turns. Where too little may be left beside the masks,
+/// a pose that ignores them is estimated, too; the masks are judged from the pose under which more
+/// points are on known surfaces.
 Odometry::Alignment PoseHypotheses::align(const Odometry& odometry, LabeledCloud& cloud,
                                           FeatureCloud features) const {
   const double masked = dynamic_share(cloud);
