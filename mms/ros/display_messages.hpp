@@ -24,6 +24,30 @@ struct Path {
   }
 };
 
+/// Fields of a marker that ROS 2 alone has, without use here: texture_resource, texture,
+/// uv_coordinates.
+struct MarkerTexture {
+  std::string resource;
+  CompressedImage image;
+  std::vector<std::array<float, 2>> coordinates;
+
+  template <class Self, class Archive>
+  static void fields(Self& self, Archive& archive) {
+    archive(self.resource, self.image, self.coordinates);
+  }
+};
+
+/// visualization_msgs/MeshFile, as `MarkerTexture`
+struct MeshFile {
+  std::string filename;
+  std::vector<std::uint8_t> data;
+
+  template <class Self, class Archive>
+  static void fields(Self& self, Archive& archive) {
+    archive(self.filename, self.data);
+  }
+};
+
 /// visualization_msgs/Marker
 struct Marker {
   enum Type : std::int32_t { kCube = 1, kLineStrip = 4, kText = 9 };
@@ -41,15 +65,20 @@ struct Marker {
   bool frame_locked = false;
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<float, 4>> colors;
+  MarkerTexture texture;
   std::string text;
   std::string mesh_resource;
+  MeshFile mesh_file;
   bool mesh_use_embedded_materials = false;
 
   template <class Self, class Archive>
   static void fields(Self& self, Archive& archive) {
     archive(self.header, self.ns, self.id, self.type, self.action, self.pose, self.scale,
-            self.color, self.lifetime, self.frame_locked, self.points, self.colors, self.text,
-            self.mesh_resource, self.mesh_use_embedded_materials);
+            self.color, self.lifetime, self.frame_locked, self.points, self.colors);
+    if (!archive.is_ros1()) archive(self.texture);
+    archive(self.text, self.mesh_resource);
+    if (!archive.is_ros1()) archive(self.mesh_file);
+    archive(self.mesh_use_embedded_materials);
   }
 };
 

@@ -154,23 +154,41 @@ std::string definition_of(const Entry& entry) {
   return text;
 }
 
+/// Types that are parts of markers in ROS 2 only.
+constexpr std::pair<const char*, const char*> kMarkerParts[] = {
+    {"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"},
+    {"sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n"},
+    {"visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n"},
+    {"visualization_msgs/MeshFile", "string filename\nuint8[] data\n"}};
+
 /// Lines of ROS 1 and what they are in ROS 2.
 constexpr std::pair<std::string_view, std::string_view> kRos2Lines[] = {
     {"uint32 seq\n", ""},
     {"time stamp\n", "builtin_interfaces/Time stamp\n"},
     {"Header header\n", "std_msgs/Header header\n"},
     {"float64[] D\nfloat64[9] K\nfloat64[9] R\nfloat64[12] P\n",
-     "float64[] d\nfloat64[9] k\nfloat64[9] r\nfloat64[12] p\n"}};
+     "float64[] d\nfloat64[9] k\nfloat64[9] r\nfloat64[12] p\n"},
+    {"duration lifetime\n", "builtin_interfaces/Duration lifetime\n"},
+    {"std_msgs/ColorRGBA[] colors\n",
+     "std_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage "
+     "texture\nUVCoordinate[] uv_coordinates\n"},
+    {"string mesh_resource\n", "string mesh_resource\nMeshFile mesh_file\n"}};
+
+/// Replaces what lines begin with.
+void replace_starts(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+    const bool starts_line = at == 0 || text[at - 1] == '\n';
+    if (starts_line) text.replace(at, from.size(), to);
+    at += starts_line ? to.size() : from.size();
+  }
+}
 
 std::string ros2_definition_of(std::string_view name, std::string text) {
-  if (name.starts_with("visualization_msgs/")) return "";  // has more fields in ROS 2
-  for (const auto& [ros1, ros2] : kRos2Lines) {
-    for (std::size_t at = text.find(ros1); at != std::string::npos; at = text.find(ros1, at)) {
-      const bool line = at == 0 || text[at - 1] == '\n';
-      if (line) text.replace(at, ros1.size(), ros2);
-      at += line ? ros2.size() : ros1.size();
-    }
+  if (name.starts_with("visualization_msgs/")) {
+    replace_starts(text, "uint8 ", "int32 ");  // its constants
+    for (const auto& [part, fields] : kMarkerParts) text += part_of(part, fields);
   }
+  for (const auto& [ros1, ros2] : kRos2Lines) replace_starts(text, ros1, ros2);
   if (text.find("builtin_interfaces/Time") == std::string::npos) return text;
   return text + part_of("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n");
 }

@@ -12,7 +12,7 @@ struct MessageType {
   std::string name;             ///< "sensor_msgs/Image"
   std::string md5;              ///< of its definition, as computed by ROS
   std::string definition;       ///< its fields and those of nested types
-  std::string ros2_definition;  ///< the same for ROS 2; empty for types with other fields there
+  std::string ros2_definition;  ///< the same for ROS 2
 };
 
 /// ROS name of a message's type.

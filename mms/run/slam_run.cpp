@@ -84,6 +84,7 @@ void SlamRun::play(const std::filesystem::path& folder, RunObserver& observer) {
     process(folder, observer);
   } catch (...) {
     journal_.reset();  // it keeps existing frames; closed before its folder is removed
+    recorder_.reset();
     throw;
   }
 }
@@ -103,6 +104,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   const std::vector<std::string> of_settings = std::exchange(warnings_, {});
   source_->on_warning(handler);
   journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, handler);
+  if (options_.mcap) recorder_ = std::make_unique<RunRecorder>(folder, handler);
   log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
                                   config_.dynamic_map);
   observer.on_start(run_heading(options_, *source_, config_, frames_, folder), frames_);
@@ -188,6 +190,7 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   std::shared_ptr<const MapChanges> shown;
   if (view_ && map) shown = std::make_shared<const MapChanges>(*map);
   journal_->add(processed, std::move(map));
+  if (recorder_) recorder_->add(processed, system_.static_map());
   log_->add(processed);
   for (const std::string& warning : processed.result.warnings) warn(warning, observer);
   if (processed.result.relocalized) {
@@ -233,6 +236,7 @@ void SlamRun::compare_with_truth(RunObserver& observer) {
 }
 
 void SlamRun::write(const std::filesystem::path& folder) {
+  finish_recording();
   const std::vector<std::string> warnings = [this] {
     const std::scoped_lock lock(warnings_mutex_);  // the journal may add one
     return warnings_;
@@ -244,6 +248,14 @@ void SlamRun::write(const std::filesystem::path& folder) {
                              log_->has_image(), system_.static_map().voxel_size()),
                    *log_);
   if (!options_.keep_journal) journal_->remove();
+}
+
+void SlamRun::finish_recording() {
+  if (!recorder_) return;
+  const StampCorrection correction = log_->correction();
+  recorder_->finish(system_.static_map().cloud(correction),
+                    correction ? log_->corrected_trajectory() : Trajectory());
+  recorder_.reset();
 }
 
 bool SlamRun::save_map(RunObserver& observer) {

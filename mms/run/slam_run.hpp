@@ -13,6 +13,7 @@
 #include "mms/run/record/run_journal.hpp"
 #include "mms/run/record/run_log.hpp"
 #include "mms/run/record/run_options.hpp"
+#include "mms/run/record/run_recorder.hpp"
 #include "mms/run/results/run_map.hpp"
 #include "mms/run/run_observer.hpp"
 #include "mms/run/view/live_view.hpp"
@@ -63,6 +64,7 @@ class SlamRun {
   AsyncPipeline::Source frames_for(RunObserver& observer);
   void finish_frame(Processed processed, RunObserver& observer);
   void end_map();
+  void finish_recording();
   void warn_if_not_localized(RunObserver& observer);
 
   RunOptions options_;
@@ -75,7 +77,8 @@ class SlamRun {
   std::size_t frames_ = 0;  // to be processed at most
   std::unique_ptr<RunLog> log_;
   std::unique_ptr<RunJournal> journal_;
-  std::unique_ptr<LiveView> view_;  // null without --view
+  std::unique_ptr<RunRecorder> recorder_;  // null without --mcap
+  std::unique_ptr<LiveView> view_;         // null without --view
   bool interrupted_ = false;
   std::optional<RecordingCheck> check_;  // null after its report
   std::size_t lost_ = 0;                 // frames

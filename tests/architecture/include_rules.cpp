@@ -179,6 +179,8 @@ IncludeRules make_rules() {
       {"map_file", {"core", "geometry", "io", "storage", "mapping", "global_map"}},
       {"simulation", {"core", "geometry"}},
       {"ros", {"core", "geometry", "io", "storage"}},
+      {"result_messages",
+       {"core", "geometry", "io", "ros", "fusion", "localization", "mapping", "pipeline"}},
       {"dataset", {"core", "geometry", "io", "ros", "simulation"}},
       {"evaluation", {"core", "geometry", "io"}},
       {"report", {"core", "geometry", "io", "evaluation"}},

@@ -183,7 +183,25 @@ TEST(MessageTypes, DefinitionsOfRos2HaveItsNames) {
   expect_in("float64[9] k\n", camera);
   expect_in("MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n", camera);
   expect_in("MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n", camera);
-  EXPECT_EQ(message_type("visualization_msgs/Marker").ros2_definition, "");
+  const std::string& markers = message_type(kName<MarkerArray>).ros2_definition;
+  expect_in("int32 CUBE=1\n", markers);
+  expect_in("builtin_interfaces/Duration lifetime\n", markers);
+  expect_in("UVCoordinate[] uv_coordinates\nstring text\n", markers);
+  expect_in("MeshFile mesh_file\nbool mesh_use_embedded_materials\n", markers);
+  expect_in("MSG: visualization_msgs/MeshFile\nstring filename\nuint8[] data\n", markers);
+}
+
+TEST(Wire, MarkersOfRos2HaveTheirOwnFields) {
+  Marker marker;
+  marker.text = "person 1";
+  marker.mesh_use_embedded_materials = true;
+  const std::size_t ros1 = encoded_size(marker, WireFormat::kRos1);
+  std::string bytes(encoded_size(marker, WireFormat::kCdr), '\0');
+  encode(marker, reinterpret_cast<std::uint8_t*>(bytes.data()), WireFormat::kCdr);
+  EXPECT_GT(bytes.size(), ros1 + 20);
+  const auto read = decode<Marker>(bytes, "marker", WireFormat::kCdr);
+  EXPECT_EQ(read.text, marker.text);
+  EXPECT_TRUE(read.mesh_use_embedded_materials);
 }
 
 }  // namespace

@@ -152,6 +152,43 @@ try {
                    ['x', 'y', 'z', 'intensity', 'time']);
   assert.equal(cloud.data.length, cloud.width * cloud.point_step);
   assert.equal(lidar['/tf_static'].messages[0].value.transforms[0].child_frame_id, 'lidar');
+
+  run('run', 'sim:warehouse_loop?frames=8', '--segmenter', 'masks', '--mcap', '-o', 'run');
+  const results = await readIndexed('run/run.mcap');
+  assert.deepEqual(Object.fromEntries(
+    Object.entries(results).map(([topic, { schema }]) => [topic, schema.name])), {
+    '/tf': 'tf2_msgs/msg/TFMessage',
+    '/tf_static': 'tf2_msgs/msg/TFMessage',
+    '/odometry': 'nav_msgs/msg/Odometry',
+    '/path': 'nav_msgs/msg/Path',
+    '/overlay/compressed': 'sensor_msgs/msg/CompressedImage',
+    '/overlay/camera_info': 'sensor_msgs/msg/CameraInfo',
+    '/static_cloud': 'sensor_msgs/msg/PointCloud2',
+    '/dynamic_cloud': 'sensor_msgs/msg/PointCloud2',
+    '/map': 'sensor_msgs/msg/PointCloud2',
+    '/object_markers': 'visualization_msgs/msg/MarkerArray',
+    '/objects': 'mms_msgs/msg/Objects',
+    '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
+  });
+  const lines = readFileSync(join(folder, 'run/trajectory.tum'), 'utf8').trim().split('\n')
+    .filter((line) => !line.startsWith('#')).map((line) => line.split(/\s+/).map(Number));
+  assert.equal(results['/odometry'].messages.length, lines.length);
+  const path = results['/path'].messages.at(-1).value.poses;
+  lines.forEach((line, i) => {
+    const { position, orientation } = results['/odometry'].messages[i].value.pose.pose;
+    assert.ok(Math.abs(position.z - line[3]) < 1e-6);
+    assert.ok(Math.abs(orientation.w - line[7]) < 1e-6);
+    assert.ok(Math.abs(path[i].pose.position.x - line[1]) < 1e-6);
+  });
+  const ply = readFileSync(join(folder, 'run/static_map.ply'), 'latin1');
+  assert.equal(results['/map'].messages.at(-1).value.width,
+               Number(ply.match(/element vertex (\d+)/)[1]));
+  const markers = results['/object_markers'].messages.at(-1).value.markers;
+  assert.equal(markers[0].action, 3);  // DELETEALL
+  assert.equal(markers.length, 1 + 2 * results['/objects'].messages.at(-1).value.objects.length);
+  assert.equal(results['/overlay/compressed'].messages[0].value.format, 'jpeg');
+  assert.equal(results['/diagnostics'].messages.at(-1).value.status[0].message, 'tracking');
+  console.log('ok: run.mcap');
 } finally {
   rmSync(folder, { recursive: true });
 }

@@ -153,6 +153,8 @@ void add_run_command(CLI::App& app) {
   command->add_flag(
       "--keep-journal", options->keep_journal,
       "keep journal.bin, from which mms convert recovers a killed run, after the run");
+  command->add_flag("--mcap", options->mcap,
+                    "record poses, maps, objects and images in run.mcap, for Foxglove and ROS 2");
   add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
   add_motion_options(*command, options->motion);

@@ -1,21 +1,13 @@
 #include "interfaces/ros1/src/result_publisher.hpp"
 
-#include "interfaces/ros1/src/result_messages.hpp"
 #include "interfaces/ros1/src/ros_traits.hpp"
+#include "mms/result_messages/result_messages.hpp"
 #include "mms/ros/transform_tree.hpp"
 
 namespace mms {
 namespace {
 
 constexpr double kPathPeriod = 0.5;  // [s]
-
-/// Rotation from a camera's axes (x right, y down, z forward) to a robot's (x forward, y left, z
-/// up).
-Eigen::Isometry3d body_of_optical() {
-  Eigen::Matrix3d rotation;
-  rotation << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return Eigen::Isometry3d(rotation);
-}
 
 bool is_wanted(const ros::Publisher& publisher) {
   return publisher.getNumSubscribers() > 0;
@@ -67,13 +59,10 @@ void ResultPublisher::publish(const Processed& processed, const SlamSystem& syst
 void ResultPublisher::publish_transforms(const msg::Header& world, const std::string& sensor_frame,
                                          const FrameResult& result) {
   if (!fixed_sent_) {
-    const bool optical = settings_.sensor == FrameAssembler::Sensor::kDepth;
-    const Eigen::Isometry3d T_map_world =
-        optical ? body_of_optical() : Eigen::Isometry3d::Identity();
+    const bool is_camera = settings_.sensor == FrameAssembler::Sensor::kDepth;
     msg::Header map = world;
     map.frame_id = settings_.map_frame;
-    fixed_transforms_.publish(
-        msg::Transforms{{{map, settings_.world_frame, pose_message(T_map_world)}}});
+    fixed_transforms_.publish(level_map_message(map, settings_.world_frame, is_camera));
     fixed_sent_ = true;
   }
   transforms_.publish(msg::Transforms{

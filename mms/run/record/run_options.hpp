@@ -42,7 +42,8 @@ struct RunOptions {
   std::size_t start = 0;
   bool realtime = false;
   bool keep_journal = false;
-  int threads = 0;  ///< 0: one per core
+  bool mcap = false;  ///< records the results for viewers of ROS 2
+  int threads = 0;    ///< 0: one per core
   std::optional<ViewOptions> view;
 };
 

@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 18> kKnown = {
+constexpr std::array<std::string_view, 19> kKnown = {
     "static_map.ply",       "static_map.pcd", "semantic_map.ply", "trajectory.tum",
     "trajectory_kitti.txt", "keyframes.tum",  "truth.tum",        "objects.json",
     "metrics.json",         "timing.csv",     "frames.csv",       "report.html",
     "config.yaml",          "map.pgm",        "map.yaml",         "map.bt",
-    "trajectory_map.tum",   "loops.csv"};
+    "trajectory_map.tum",   "loops.csv",      "run.mcap"};
 
 constexpr std::array<std::string_view, 2> kLive = {"static_map.ply", "trajectory.tum"};
 

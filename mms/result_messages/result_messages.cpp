@@ -1,8 +1,9 @@
-#include "interfaces/ros1/src/result_messages.hpp"
+#include "mms/result_messages/result_messages.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "mms/core/image.hpp"
 #include "mms/ros/image_messages.hpp"
@@ -89,6 +90,13 @@ msg::Marker text_marker(const msg::Header& header, const ObjectBox& box) {
 
 }  // namespace
 
+msg::Transforms level_map_message(const msg::Header& map, const std::string& world_frame,
+                                  bool is_camera) {
+  Eigen::Isometry3d T_map_world = Eigen::Isometry3d::Identity();
+  if (is_camera) T_map_world.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // x right, y down, z ahead
+  return {{{map, world_frame, pose_message(T_map_world)}}};
+}
+
 msg::Odometry odometry_message(const msg::Header& header, const std::string& child_frame,
                                const OdometryEstimate& odometry) {
   msg::Odometry message;
@@ -160,6 +168,28 @@ msg::MarkerArray markers_message(const msg::Header& header,
     message.markers.push_back(text_marker(header, object.box));
   }
   return message;
+}
+
+msg::DiagnosticArray diagnostics_message(const msg::Header& header, const FrameResult& result,
+                                         double read_ms) {
+  msg::DiagnosticStatus status;
+  status.name = "mms-slam";
+  status.message = to_string(result.odometry.status);
+  if (result.odometry.status == Status::kDegenerate) status.level = msg::DiagnosticStatus::kWarn;
+  if (result.odometry.status == Status::kLost) status.level = msg::DiagnosticStatus::kError;
+  const auto add = [&](std::string key, double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3f", value);
+    status.values.push_back({std::move(key), text});
+  };
+  add("dynamic_share", result.dynamic_share);
+  add("overruled_share", result.overruled_share);
+  add("objects", static_cast<double>(result.objects.size()));
+  add("read_ms", read_ms);
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    add(std::string(to_string(static_cast<Stage>(i))) + "_ms", result.stage_ms[i]);
+  }
+  return {header, {std::move(status)}};
 }
 
 }  // namespace mms

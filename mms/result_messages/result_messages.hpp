@@ -10,6 +10,12 @@
 
 namespace mms {
 
+/// Pose of the world frame in the map frame, which is level (x forward, y left, z up) as far as the
+/// first frame of the sensor is.
+/// @param map  its frame is the map's
+msg::Transforms level_map_message(const msg::Header& map, const std::string& world_frame,
+                                  bool is_camera);
+
 /// Pose with its covariance from the odometry's information; without velocities.
 msg::Odometry odometry_message(const msg::Header& header, const std::string& child_frame,
                                const OdometryEstimate& odometry);
@@ -29,5 +35,10 @@ msg::Objects objects_message(const msg::Header& header, const std::vector<Tracke
 /// Boxes, red for people and green for vehicles, labeled with id, class and speed.
 msg::MarkerArray markers_message(const msg::Header& header,
                                  const std::vector<TrackedObject>& objects);
+
+/// Status of the pose, shares of dynamic points and the times of the stages.
+/// @param read_ms  time to read the frame [ms]
+msg::DiagnosticArray diagnostics_message(const msg::Header& header, const FrameResult& result,
+                                         double read_ms);
 
 }  // namespace mms
