@@ -217,7 +217,7 @@ IncludeRules make_rules() {
       {"training", {"data", "run"}},
       {"server", {"scene", "viewer", "http"}},
       {"run", {"record", "segmenter", "results", "view", ""}},
-      {"apps", {"console", "paper", "commands", "commands/eval", "commands/network", ""}},
+      {"apps", {"console", "paper", "batch", "commands", "commands/eval", "commands/network", ""}},
   };
   return rules;
 }

@@ -8,6 +8,9 @@ namespace mms {
 
 // The subcommands of the program, each defined in the file of its name.
 
+/// Adds `mms batch LIST -o DIR`: many runs of one list.
+void add_batch_command(CLI::App& app);
+
 /// Adds `mms calibration convert`.
 void add_calibration_command(CLI::App& app);
 
