@@ -47,7 +47,7 @@ bool appears(const fs::path& path) {
 
 TEST(Batch, WritesTablesAndGoesOnAfterFailures) {
   const TempFolder folder;
-  write_list(folder, {1, 2}, "missing_recording\n");
+  write_list(folder, {1, 2}, "gone = missing_recording\n");
   const Outcome first = run_batch(folder, "out");
   expect_error(first, "1 of its runs failed");
   EXPECT_NE(first.out.find(kSecond), std::string::npos) << first.out;
@@ -63,7 +63,7 @@ TEST(Batch, WritesTablesAndGoesOnAfterFailures) {
   fs::create_directory(folder.path() / "missing_recording");
   const Outcome second = run_batch(folder, "out");
   expect_error(second, "1 of its runs failed");  // tried again: the folder is empty
-  EXPECT_EQ(lines_with(second, "[3/3] missing_recording"), 1);
+  EXPECT_EQ(lines_with(second, "[3/3] gone"), 1);
   EXPECT_EQ(lines_with(second, kFirst), 0);
   EXPECT_EQ(fs::last_write_time(out / "runs" / kFirst / "trajectory.tum"), written);
   EXPECT_EQ(read_file(out / "batch.csv"), table);
@@ -129,6 +129,9 @@ TEST(Batch, RefusesBadLists) {
   refused("# none\n", "has no runs");
   refused("a\n'b\n", "list.txt:2 has a quote without end");
   refused("a\n\na # again\n", "list.txt:3 has the same name as line 1: a");
+  refused("x = a\nx = b\n", "list.txt:2 has the same name as line 1: x");
+  refused("a/b = c\n", "list.txt:1 has the name 'a/b'");
+  refused("a =\n", "list.txt:1 has a name without a recording");
   refused("a --output=b\n", "list.txt:1 has the option --output");
   expect_error(run_mms(folder.path(), {"batch", "no_list", "-o", "out"}), "no_list");
   fs::create_directory(folder.path() / "mine");

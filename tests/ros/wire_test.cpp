@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mms/core/error.hpp"
+#include "mms/ros/display_messages.hpp"
 #include "mms/ros/message_types.hpp"
 #include "tests/io/temp_folder.hpp"
 

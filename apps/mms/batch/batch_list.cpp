@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "mms/core/error.hpp"
 #include "mms/io/text/files.hpp"
@@ -77,6 +78,25 @@ std::string name_of(const std::vector<std::string>& words) {
   return fmt::format("{:08x}_{}", hash, name.substr(name.size() - kLongestName));
 }
 
+/// A run of the words of a line: [NAME =] DATA [OPTIONS].
+BatchRun run_of(std::vector<std::string> words, const std::string& where) {
+  BatchRun run;
+  if (words.size() >= 2 && words[1] == "=") {
+    run.name = words[0];
+    if (run.name != name_of({run.name})) {
+      throw DataError(where, "has the name '" + run.name + "'",
+                      "allowed: letters, digits, '_', '-', '.', '=', with a letter or digit first");
+    }
+    words.erase(words.begin(), words.begin() + 2);
+    if (words.empty()) throw DataError(where, "has a name without a recording");
+  } else {
+    run.name = name_of(words);
+    if (run.name.empty()) throw DataError(where, "has no letters or digits");
+  }
+  run.words = std::move(words);
+  return run;
+}
+
 }  // namespace
 
 std::vector<BatchRun> read_batch_list(const std::filesystem::path& list) {
@@ -94,8 +114,7 @@ std::vector<BatchRun> read_batch_list(const std::filesystem::path& list) {
       if (std::find(kOwnOptions.begin(), kOwnOptions.end(), option) == kOwnOptions.end()) continue;
       throw DataError(where, "has the option " + option, "results are below -o of mms batch");
     }
-    BatchRun run{name_of(*words), *words};
-    if (run.name.empty()) throw DataError(where, "has no letters or digits");
+    BatchRun run = run_of(*words, where);
     const auto [first, is_new] = lines.emplace(run.name, number);
     if (!is_new) {
       throw DataError(where,
