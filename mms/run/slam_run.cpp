@@ -253,7 +253,8 @@ void SlamRun::write(const std::filesystem::path& folder) {
 void SlamRun::finish_recording() {
   if (!recorder_) return;
   const StampCorrection correction = log_->correction();
-  recorder_->finish(system_.static_map().cloud(correction),
+  const MapFrame frame = log_->has_image() ? MapFrame::kCamera : MapFrame::kLidar;
+  recorder_->finish(result_map(system_.static_map(), frame, correction),
                     correction ? log_->corrected_trajectory() : Trajectory());
   recorder_.reset();
 }
