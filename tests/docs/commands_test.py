@@ -258,7 +258,7 @@ class Settings:
             for span in re.findall(r"`([^`]+)`", line):
                 where = f"{name}:{number}"
                 dotted = re.fullmatch(r"([a-z_]+)\.[a-z0-9_.]+", span)
-                is_file = span.endswith((".tum", ".ply", ".pcd"))
+                is_file = span.endswith((".tum", ".ply", ".pcd", ".csv", ".txt"))
                 if dotted and dotted[1] in self.groups and not is_file and span not in self.names:
                     faults.append(f"{where}: there is no setting {span}")
                 self.check_yaml(where, span, faults)
