@@ -23,9 +23,9 @@ for seed in $seeds; do
   quietly "$mms" run "$out/first" --segmenter masks -o "$out/run" --overwrite --save-map "$out/map.mmsmap"
   rm -rf "$out/first"
   quietly "$mms" simulate second_day --seed "$seed" -o "$out/second"
-  quietly "$mms" run "$out/second" --segmenter masks -o "$out/localize" --map "$out/map.mmsmap" --localise
+  quietly "$mms" run "$out/second" --segmenter masks -o "$out/localize" --map "$out/map.mmsmap" --localize
   quietly "$mms" run "$out/second" --segmenter masks -o "$out/extend" --map "$out/map.mmsmap" --save-map "$out/both.mmsmap"
-  quietly "$mms" run "$out/second" --segmenter masks -o "$out/away" --map "$out/other.mmsmap" --localise
+  quietly "$mms" run "$out/second" --segmenter masks -o "$out/away" --map "$out/other.mmsmap" --localize
   quietly "$mms" run "$out/second" --segmenter masks -o "$out/alone" --save-map "$out/alone.mmsmap"
   "$mms" merge "$out/alone.mmsmap" "$out/map.mmsmap" -o "$out/merged.mmsmap" 2> /dev/null > "$out/merged"
   quietly "$mms" map export "$out/both.mmsmap" -o "$out/export"

@@ -33,7 +33,7 @@ mms \- visual and LiDAR SLAM among moving people and vehicles
 .RI [ OPTION ...]
 .SH DESCRIPTION
 .B mms
-localises a depth camera or LiDAR among walking people and moving vehicles and maps what stands still.
+localizes a depth camera or LiDAR among walking people and moving vehicles and maps what stands still.
 It writes the trajectory of the sensor, a static map without people and vehicles, the tracked objects with boxes and
 velocities, and a report for the browser.
 .SH EXAMPLES

@@ -40,7 +40,7 @@ TEST(Map, IsSavedLocalizedInExtendedAndExported) {
   EXPECT_NE(first.out.find("saved:  a.mmsmap"), std::string::npos) << first.out;
   const std::string map = read_file(folder.path() / "a.mmsmap");
 
-  expect_success(run_day(folder, kSecondDay, "second", {"--map", "a.mmsmap", "--localise"}));
+  expect_success(run_day(folder, kSecondDay, "second", {"--map", "a.mmsmap", "--localize"}));
   EXPECT_EQ(read_file(folder.path() / "a.mmsmap"), map);
   const nlohmann::json loops = loops_of(folder, "second");
   EXPECT_EQ(loops["earlier_map"]["sessions"], 1);
@@ -87,11 +87,11 @@ TEST(Map, WrongOptionsAndFilesAreRefused) {
     EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   };
   refused({"--save-map", "a.mmsmap"}, "--map FILE goes on in it");
-  refused({"--localise"}, "needs a map");
+  refused({"--localize"}, "needs a map");
   refused({"--map", "missing.mmsmap"}, "does not exist");
   refused({"--map", "first/metrics.json"}, "is no map");
   refused({"--map", "a.mmsmap", "--loops", "off"}, "needs loop closure");
-  refused({"--map", "a.mmsmap", "--localise", "--save-map", "b.mmsmap"}, "does not go with");
+  refused({"--map", "a.mmsmap", "--localize", "--save-map", "b.mmsmap"}, "does not go with");
   refused({"--save-map", "missing/b.mmsmap"}, "folder does not exist");
   refused({"--save-map", "b.mmsmap", "--segmenter", "none"}, "needs depth images",
           "sim:static?sensor=lidar16&frames=3");

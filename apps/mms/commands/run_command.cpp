@@ -140,7 +140,7 @@ void add_run_command(CLI::App& app) {
       ->add_option("--map", options->map,
                    "localize in this map, and add the run to it; with --save-map to a copy")
       ->type_name("FILE");
-  command->add_flag("--localise,--localize", options->localise,
+  command->add_flag("--localize,--localise", options->localize,
                     "localize in the map of --map without changing it");
   add_frames_option(*command, options->frames, "process at most N frames");
   command->add_option("--start", options->start, "skip the first K frames")

@@ -37,7 +37,7 @@ struct RunOptions {
   std::string loops;               ///< "on", "off"; empty: as the config says
   std::filesystem::path map;       ///< earlier map to start from; empty: none
   std::filesystem::path save_map;  ///< where the map is written; empty: in `map`, if any
-  bool localise = false;           ///< changes no map
+  bool localize = false;           ///< changes no map
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::size_t start = 0;
   bool realtime = false;

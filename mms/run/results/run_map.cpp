@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 
 void check_options(const RunOptions& options, const SystemConfig& config) {
   const std::string option = options.map.empty() ? "--save-map" : "--map";
-  if (options.localise && options.map.empty()) {
-    throw DataError("--localise", "needs a map", "--map FILE");
+  if (options.localize && options.map.empty()) {
+    throw DataError("--localize", "needs a map", "--map FILE");
   }
-  if (options.localise && !options.save_map.empty()) {
-    throw DataError("--save-map", "does not go with --localise, which changes no map");
+  if (options.localize && !options.save_map.empty()) {
+    throw DataError("--save-map", "does not go with --localize, which changes no map");
   }
   if (!config.global_map.enabled) {
     throw DataError(option, "needs loop closure, but it is off", "leave out --loops off");
@@ -46,14 +46,14 @@ bool is_like(const CameraIntrinsics& a, const CameraIntrinsics& b) {
 RunMap::RunMap(const RunOptions& options, const Calibration* calibration,
                const SystemConfig& config)
     : name_(options.data), settings_(dump_config(config)) {
-  if (options.map.empty() && options.save_map.empty() && !options.localise) return;
+  if (options.map.empty() && options.save_map.empty() && !options.localize) return;
   check_options(options, config);
   if (calibration != nullptr && calibration->camera) camera_ = *calibration->camera;
-  if (options.localise) use_ = MapUse::kLocalizeOnly;
+  if (options.localize) use_ = MapUse::kLocalizeOnly;
   path_ = options.save_map.empty() ? options.map : options.save_map;
   if (options.map.empty()) {
     written_ = std::make_unique<MapFile>(path_, MapFile::Mode::kCreate);
-  } else if (options.localise) {
+  } else if (options.localize) {
     earlier_ = std::make_unique<MapFile>(path_, MapFile::Mode::kRead);
   } else if (options.save_map.empty()) {
     written_ = std::make_unique<MapFile>(path_, MapFile::Mode::kExtend);
