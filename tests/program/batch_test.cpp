@@ -17,15 +17,15 @@ namespace {
 namespace fs = std::filesystem;
 using namespace testing;  // NOLINT: helpers of the tests
 
-constexpr const char* kFirst = "sim_warehouse_loop_width=160_frames=3_seed=1_--segmenter_masks";
-constexpr const char* kSecond = "sim_warehouse_loop_width=160_frames=3_seed=2_--segmenter_masks";
+constexpr const char* kFirst = "sim_warehouse_loop_width=320_frames=3_seed=1_--segmenter_masks";
+constexpr const char* kSecond = "sim_warehouse_loop_width=320_frames=3_seed=2_--segmenter_masks";
 
 /// A list of runs of three frames, by seed.
 void write_list(const TempFolder& folder, const std::vector<int>& seeds,
                 const std::string& more = "") {
   std::string text = "# seeds\n\n";
   for (const int seed : seeds) {
-    text += "'sim:warehouse_loop?width=160&frames=3&seed=" + std::to_string(seed) +
+    text += "'sim:warehouse_loop?width=320&frames=3&seed=" + std::to_string(seed) +
             "' --segmenter masks  # a seed\n";
   }
   write_file(folder.path() / "list.txt", text + more);
