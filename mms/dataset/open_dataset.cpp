@@ -183,7 +183,7 @@ std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOpti
                     "as in sim:crowd?wheels.enabled=true; omit --wheels and --imu");
   }
   MotionRecording motion = read_motion_files(path, options.motion);
-  if (!motion.samples.empty()) source->add_motion(std::move(motion));
+  if (!motion.samples.empty() || !motion.warnings.empty()) source->add_motion(std::move(motion));
   return source;
 }
 

@@ -56,11 +56,17 @@ TEST(MotionFiles, AccelerometerAloneIsNoGyroscope) {
   EXPECT_TRUE(any_has(played.warnings, "always gives the same rate"));
 }
 
-TEST(MotionFiles, DamagedFilesAreErrors) {
+TEST(MotionFiles, DamagedFilesAreLeftOutOrErrors) {
   TempFolder folder;
   write_tum(folder, 3);
   folder.write("odometry.csv", "5.0,0,0\n");
-  EXPECT_THROW(open_dataset(folder.path()), DataError);
+  folder.write("imu.csv", "time,accel_x,accel_y,accel_z\n5.0,0,0,9.8\n");
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_TRUE(played.frames.at(0).motion.empty());
+  EXPECT_TRUE(any_has(played.warnings, "odometry.csv:1: 3 columns, expected stamp x y z"));
+  EXPECT_TRUE(any_has(played.warnings, "imu.csv:1: 'time' is not a stamp"));
+  EXPECT_THROW(open_dataset(folder.path(), {.motion = {.wheels = folder.path() / "odometry.csv"}}),
+               DataError);
   EXPECT_THROW(open_dataset("sim:static", {.motion = {.wheels = folder.path() / "odometry.csv"}}),
                DataError);
 }

@@ -119,8 +119,14 @@ TEST_F(VideoRgbd, ReadsStrayScanner) {
                 "timestamp, frame, x, y, z, qx, qy, qz, qw\n"
                 "71.50, 000000, 0, 0, 0, 0, 0, 0, 1\n"
                 "71.54, 000001, 0.5, 0, 0, 0, 0, 0, 1\n");
+  folder_.write("imu.csv",
+                "timestamp, a_x, a_y, a_z, alpha_x, alpha_y, alpha_z\n"
+                "71.50, 0, 0, -1, 0.1, 0, 0\n");
   const Playback played(open_dataset(folder_.path()));
   ASSERT_EQ(played.frames.size(), kImages);
+  EXPECT_TRUE(played.frames[1].motion.empty());
+  EXPECT_FALSE(any_has(played.warnings, "odometry.csv"));
+  EXPECT_FALSE(any_has(played.warnings, "imu.csv"));
   EXPECT_TRUE(any_has(played.source->describe(), "layout: Stray Scanner"));
   EXPECT_EQ(played.frames[0].calibration->camera->fy, 11.0);
   EXPECT_EQ(played.frames[0].calibration->camera->cx, 4.0);

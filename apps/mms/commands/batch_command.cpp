@@ -12,6 +12,7 @@
 #include "apps/mms/batch/child_process.hpp"
 #include "apps/mms/commands/commands.hpp"
 #include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 
 namespace mms {
@@ -46,7 +47,8 @@ Outcome execute(const BatchFolder& folder, const BatchRun& run, const std::strin
     return Outcome::kFinished;
   }
   folder.fail(run.name);
-  fmt::print(stderr, "  failed with status {}: {}\n", status, folder.last_words(run.name));
+  print_warnings(
+      {fmt::format("{} failed with status {}: {}", run.name, status, folder.last_words(run.name))});
   return Outcome::kFailed;
 }
 

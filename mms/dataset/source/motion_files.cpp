@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
+#include "mms/core/error.hpp"
 #include "mms/io/motion/motion_io.hpp"
 #include "mms/io/text/numbers.hpp"
 
@@ -17,14 +20,43 @@ constexpr Duration kAfterFrame = std::chrono::milliseconds(20);
 constexpr const char* kWheelFiles[] = {"odometry.csv", "odometry.txt"};
 constexpr const char* kImuFiles[] = {"imu.csv", "imu.txt", "imu0/data.csv"};
 
+/// How files of the same names begin that have poses of the camera, and rates after accelerations:
+/// those of Stray Scanner.
+constexpr const char* kOtherContents[] = {"timestamp, frame,", "timestamp, a_x,"};
+
+bool has_other_content(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  return std::any_of(std::begin(kOtherContents), std::end(kOtherContents),
+                     [&](const char* begin) { return line.starts_with(begin); });
+}
+
 fs::path motion_file(const fs::path& given, const fs::path& folder,
                      std::span<const char* const> names) {
   if (given == "none") return {};
   if (!given.empty()) return given;
   for (const char* name : names) {
-    if (fs::is_regular_file(folder / name)) return folder / name;
+    const fs::path file = folder / name;
+    if (fs::is_regular_file(file) && !has_other_content(file)) return file;
   }
   return {};
+}
+
+/// Reads a file, if there is one. One that nobody asked for is left out with a warning if it cannot
+/// be read: it may be meant for another program.
+template <class Sample>
+std::vector<Sample> read_samples(const fs::path& file, bool is_given,
+                                 std::vector<Sample> (*read)(const fs::path&),
+                                 std::vector<std::string>& warnings) {
+  if (file.empty()) return {};
+  try {
+    return read(file);
+  } catch (const DataError& error) {
+    if (is_given) throw;
+    warnings.push_back(std::string("left out: ") + error.what());
+    return {};
+  }
 }
 
 template <class Sample>
@@ -79,8 +111,9 @@ MotionRecording read_motion_files(const fs::path& folder, const MotionOptions& o
   MotionRecording recording;
   const fs::path wheels = motion_file(options.wheels, folder, kWheelFiles);
   const fs::path imu = motion_file(options.imu, folder, kImuFiles);
-  if (!wheels.empty()) recording.samples.wheels = read_wheels(wheels);
-  if (!imu.empty()) recording.samples.imu = read_imu(imu);
+  recording.samples.wheels =
+      read_samples(wheels, !options.wheels.empty(), read_wheels, recording.warnings);
+  recording.samples.imu = read_samples(imu, !options.imu.empty(), read_imu, recording.warnings);
   describe_motion(recording, wheels.string(), imu.string());
   return recording;
 }

@@ -27,8 +27,9 @@ struct MotionRecording {
 void describe_motion(MotionRecording& recording, const std::string& wheels, const std::string& imu);
 
 /// Reads the files of the options, else odometry.csv or odometry.txt, and imu.csv, imu.txt or
-/// imu0/data.csv of the folder; nothing where there are none.
-/// @throws FileError, DataError for files that cannot be read.
+/// imu0/data.csv of the folder; nothing where there are none. Of the latter, those with other
+/// content are left out with a warning.
+/// @throws FileError, DataError for files of the options that cannot be read.
 MotionRecording read_motion_files(const std::filesystem::path& folder,
                                   const MotionOptions& options);
 

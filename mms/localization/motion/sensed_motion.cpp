@@ -34,10 +34,10 @@ constexpr std::size_t kFrames = 20;
 /// Source: slip or a blow that lasts for a fifth of a second is handled frame by frame.
 constexpr long kMaxFrames = 8;
 
-/// [periods]: comparisons over periods that are remembered. Source: 4 s.
+/// [-]: comparisons over periods that are remembered. Source: 4 s.
 constexpr std::size_t kPeriods = 6;
 
-/// [periods]: contradicting ones of them from which on a sensor is left out. Source: half of them.
+/// [-]: contradicting ones of them from which on a sensor is left out. Source: half of them.
 constexpr long kMaxPeriods = 3;
 
 /// [s]: step of the derivative after the delay. Source: half of the smallest delay that matters.
