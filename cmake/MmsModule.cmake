@@ -27,9 +27,17 @@ endif()
 
 set_property(GLOBAL PROPERTY MMS_MODULES "")
 
+# mms_shareable(TARGET): its objects may become part of a shared library, such as the Python module.
+# Without semantic interposition gcc inlines as in programs, so that results are the same bits.
+function(mms_shareable target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+endfunction()
+
 # Precompiled headers of all modules.
 add_library(mms_precompiled OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
 target_link_libraries(mms_precompiled PRIVATE mms_build_settings Eigen3::Eigen)
+mms_shareable(mms_precompiled)
 mms_precompile(mms_precompiled)
 
 # mms_module(NAME [UNITY] [FOLDER dir] [WITHOUT regex...] [PRECOMPILE header...] [PUBLIC lib...]
@@ -50,6 +58,7 @@ function(mms_module name)
     add_library(mms_${name} STATIC ${sources})
     set(scope PUBLIC)
     target_link_libraries(mms_${name} PRIVATE ${ARG_PRIVATE})
+    mms_shareable(mms_${name})
     if(ARG_PRECOMPILE)
       mms_precompile(mms_${name} ${ARG_PRECOMPILE})
     else()
