@@ -9,14 +9,13 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
-#include "mms/io/config/config_assignments.hpp"
-#include "mms/io/config/config_yaml.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/run/record/run_record.hpp"
 #include "mms/run/results/result_files.hpp"
 #include "mms/run/results/run_outputs.hpp"
 #include "mms/run/run_heading.hpp"
 #include "mms/run/segmenter/segmenter_choice.hpp"
+#include "mms/run/sensor_settings.hpp"
 
 namespace mms {
 namespace {
@@ -30,15 +29,8 @@ void check_range(const RunOptions& options, const FrameSource& source) {
 /// @param warnings  receives warnings about the settings
 SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
                            std::vector<std::string>& warnings) {
-  SystemConfig config;
-  const auto calibration = source.calibration();
-  if (calibration && calibration->max_depth) {
-    config.static_map.surface.max_depth = *calibration->max_depth;
-  }
-  if (!options.config.empty()) warnings = load_config(options.config, config);
-  for (std::string& warning : assign(config, options.set, "--set")) {
-    warnings.push_back(std::move(warning));
-  }
+  SystemConfig config =
+      sensor_settings(source.calibration().get(), options.config, options.set, "--set", warnings);
   if (!options.weights.empty()) config.segmentation.weights = options.weights;
   if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;

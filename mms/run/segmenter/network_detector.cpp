@@ -1,7 +1,10 @@
 #include "mms/run/segmenter/network_detector.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "mms/core/error.hpp"
 #include "mms/io/weights/safetensors.hpp"
@@ -16,6 +19,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFileName = "weights/nano.safetensors";
+
+/// Folders of the program, and of the shared library that this is part of, as the Python module.
+std::vector<fs::path> code_folders() {
+  std::error_code fault;
+  std::vector<fs::path> folders = {fs::read_symlink("/proc/self/exe", fault).parent_path()};
+  Dl_info library;
+  if (dladdr(reinterpret_cast<const void*>(&default_weights), &library) != 0) {
+    folders.push_back(fs::path(library.dli_fname).parent_path());
+  }
+  return folders;
+}
 
 bool wants_torch(const SegmentationModel& model, const SegmentationConfig& config) {
   if (config.backend != NetworkBackend::kAuto) return config.backend == NetworkBackend::kLibtorch;
@@ -45,11 +59,12 @@ std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConf
 }  // namespace
 
 fs::path default_weights() {
-  std::error_code fault;
-  const fs::path program = fs::read_symlink("/proc/self/exe", fault);
-  const fs::path folder = program.parent_path();
-  for (const fs::path& base : {folder / "../share/mms", folder / "../..", folder / ".."}) {
-    if (fs::exists(base / kFileName)) return fs::weakly_canonical(base / kFileName);
+  for (const fs::path& folder : code_folders()) {
+    for (const char* base :
+         {"../share/mms", "../..", "..", "../../../../share/mms", "../../../.."}) {
+      const fs::path file = folder / base / kFileName;
+      if (fs::exists(file)) return fs::weakly_canonical(file);
+    }
   }
   throw FileError(kFileName, "is neither in share/mms/ of the installation nor in the source tree",
                   "set segmentation.weights in the settings, or use --segmenter masks or none");
