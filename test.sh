@@ -12,7 +12,7 @@ count() {
   grep -m1 -oP "^\s*$1=\"\K[0-9]+" "$report"
 }
 
-install_packages demo tests training ros
+install_packages demo tests training python ros
 install_packages docs || echo "going on without the API reference"
 install_test_tools
 if ! build release; then

@@ -1,6 +1,6 @@
 # Install rules. find_package(mms) gives the targets mms::core, mms::geometry, ... mms::pipeline.
-# Components: development (headers, libraries, CMake package), program (mms and its files), torch and
-# ros (what needs libtorch and roscpp).
+# Components: development (headers, libraries, CMake package), program (mms and its files), torch,
+# ros and python (what needs libtorch, roscpp and Python).
 
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/mms)

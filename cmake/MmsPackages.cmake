@@ -1,5 +1,6 @@
 # Debian packages by cpack, from any build without libtorch: mms-slam (program, weights, settings,
-# manual page, bash and zsh completion) and libmms-dev (headers, static libraries, CMake package).
+# manual page, bash and zsh completion), libmms-dev (headers, static libraries, CMake package) and
+# python3-mms-slam (Python module), where that is built.
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT TARGET mms_program OR MMS_WITH_TORCH)
   return()
 endif()
@@ -15,6 +16,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_COMPONENTS_ALL program development)
+if(TARGET mms_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -54,13 +58,30 @@ vehicles, and maps what stands still.
 This package contains the headers, the static libraries and the CMake
 package: find_package(mms).")
 
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-mms-slam)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+# The module is for one version of Python; mms-slam has the weights of the network.
+if(TARGET mms_python)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+         "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy, "
+         "mms-slam (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+endif()
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+"visual and LiDAR SLAM among moving people and vehicles (Python module)
+MMS-SLAM localizes a depth camera or LiDAR among walking people and moving
+vehicles, and maps what stands still.
+
+This package contains the module mms_slam for Python 3, with numpy arrays.")
+
 # Files required by Debian policy.
 set(changelog ${PROJECT_BINARY_DIR}/changelog.Debian.gz)
 execute_process(COMMAND ${PROJECT_SOURCE_DIR}/packaging/make_changelog.sh ${changelog}
                         ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}
                         ${CPACK_PACKAGE_CONTACT}
                 COMMAND_ERROR_IS_FATAL ANY)
-foreach(component program development)
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   string(TOUPPER ${component} upper)
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   install(FILES ${changelog} packaging/copyright DESTINATION ${folder} COMPONENT ${component})

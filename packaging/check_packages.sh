@@ -43,7 +43,7 @@ in_root() {
 
 check_packages() {
   say "build"
-  quietly cmake --preset demo
+  quietly cmake --preset demo -DMMS_WITH_PYTHON=ON
   quietly cmake --build build/demo --parallel "$(nproc)" --target all
   rm -rf "$packages"
   quietly cpack --config build/demo/CPackConfig.cmake -B "$packages"
@@ -79,6 +79,17 @@ check_packages() {
     minimal/minimal "sim:corridor?frames=3&width=320"
     own_camera/own_camera
     own_masks/own_masks'
+  say "the Python module"
+  in_root 'cd /tmp
+    apt-get -qq install --no-install-recommends ./python3-mms-slam_*.deb > apt.log 2>&1 ||
+      { cat apt.log; exit 1; }
+    python3 -c "
+import mms_slam
+recording = mms_slam.Recording(\"sim:crowd?frames=5&width=320\")
+slam = mms_slam.Slam(calibration=recording.calibration, segmenter=\"network\")
+assert [slam.process_frame(frame).status for frame in recording][-1] == \"tracking\"
+slam.finish()
+assert len(slam.static_map()) > 1000"'
 }
 
 check_readme() {

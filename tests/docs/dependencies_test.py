@@ -22,6 +22,7 @@ WORDS = {
     "LGPL-2.1-or-later": "LGPL|Lesser General Public",
     "MIT": "MIT|Expat|X11|Permission is hereby granted", "MPL-2.0": "MPL|Mozilla Public",
     "blessing": "public.domain", "bzip2-1.0.6": "BSD-variant|Julian Seward", "libpng-2.0": "libpng",
+    "PSF-2.0": "PSF|Python Software Foundation|PYTHON SOFTWARE FOUNDATION",
 }
 # The compiler's own libraries.
 OF_COMPILER = {"libc6", "libstdc++6", "libgcc-s1", "libgomp1", "libatomic1"}

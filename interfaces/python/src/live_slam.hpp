@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "mms/core/trajectory.hpp"
+#include "mms/mapping/static_map/map_cloud.hpp"
+#include "mms/pipeline/slam_system.hpp"
+
+namespace mms::python {
+
+/// A SlamSystem for callers in any thread, which take turns. Knows nothing of Python.
+class LiveSlam {
+ public:
+  LiveSlam(const SystemConfig& config, std::unique_ptr<Segmenter> segmenter)
+      : system_(config, std::move(segmenter)) {}
+
+  /// Localizes the frame that `fill` makes of the last one, whose memory is used again.
+  /// @throws std::invalid_argument for a stamp that is not later than that before
+  template <class Fill>
+  FrameResult fill_and_process(const Fill& fill) {
+    const std::scoped_lock lock(mutex_);
+    fill(frame_);
+    return process_locked(frame_);
+  }
+
+  /// Localizes a frame, without a copy.
+  FrameResult process(const Frame& frame) {
+    const std::scoped_lock lock(mutex_);
+    return process_locked(frame);
+  }
+
+  /// Completes the maps after the last frame.
+  void finish();
+
+  /// All poses so far.
+  /// @param corrected  by loop closure, in the frame of the global map
+  Trajectory trajectory(bool corrected);
+
+  /// The static map; of a LiDAR with a normal for every point.
+  /// @param corrected  by loop closure, as result files
+  MapCloud static_map(bool corrected);
+
+  /// The objects of the last frame.
+  std::vector<TrackedObject> objects();
+
+ private:
+  FrameResult process_locked(const Frame& frame);
+  SlamSystem& system();
+
+  std::mutex mutex_;
+  SlamSystem system_;
+  Frame frame_;
+  Trajectory trajectory_;
+  std::vector<TrackedObject> objects_;
+  bool has_image_ = false;
+};
+
+}  // namespace mms::python

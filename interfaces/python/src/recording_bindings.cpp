@@ -1,0 +1,134 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "interfaces/python/src/bindings.hpp"
+#include "interfaces/python/src/numpy_arrays.hpp"
+#include "mms/dataset/open_dataset.hpp"
+
+namespace mms::python {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// A recording that can be closed, with its warnings kept until Python can show them.
+class Recording {
+ public:
+  Recording(const Path& path, const SourceOptions& options) : path_(path.string()) {
+    const py::gil_scoped_release release;
+    source_ = open_dataset(path, options);
+    source_->on_warning([this](const std::string& line) { warnings_.push_back(line); });
+  }
+
+  /// The result of `call(source)`, without the GIL. Threads take turns.
+  template <class Call>
+  auto with_source(const Call& call) {
+    std::vector<std::string> warnings;
+    auto result = [&] {
+      const py::gil_scoped_release release;
+      const std::scoped_lock lock(mutex_);
+      if (!source_) throw py::value_error(path_ + ": this recording is closed");
+      auto value = call(*source_);
+      warnings = std::exchange(warnings_, {});
+      return value;
+    }();
+    warn(warnings);
+    return result;
+  }
+
+  void close() {
+    const py::gil_scoped_release release;
+    const std::scoped_lock lock(mutex_);
+    source_.reset();
+  }
+
+ private:
+  std::string path_;
+  std::mutex mutex_;
+  std::unique_ptr<FrameSource> source_;
+  std::vector<std::string> warnings_;
+};
+
+std::unique_ptr<Recording> open_recording(const Path& path, const std::optional<Path>& masks,
+                                          const std::optional<Path>& calibration,
+                                          std::optional<std::array<double, 4>> intrinsics,
+                                          std::optional<double> depth_scale) {
+  SourceOptions options;
+  options.masks = masks.value_or(Path());
+  options.camera = {calibration.value_or(Path()), intrinsics, depth_scale};
+  return std::make_unique<Recording>(path, options);
+}
+
+Frame next_frame(Recording& recording) {
+  auto frame = recording.with_source([](FrameSource& source) { return source.next(); });
+  if (!frame) throw py::stop_iteration();
+  return std::move(*frame);
+}
+
+/// A property that the source computes.
+template <class Result>
+auto from_source(Result (*read)(FrameSource&)) {
+  return [read](Recording& recording) { return recording.with_source(read); };
+}
+
+}  // namespace
+
+void bind_recording(py::module_& module) {
+  py::class_<TruthCloud>(module, "TruthCloud", "Exact points of a simulation, as views.")
+      .def_property_readonly(
+          "points", [](const py::object& c) { return view(c.cast<TruthCloud&>().points, c); },
+          "N x 3 float32, world frame of the ground-truth poses [m].")
+      .def_property_readonly(
+          "labels", [](const py::object& c) { return view(c.cast<TruthCloud&>().labels, c); },
+          "N int32: 0 static, else 1 + id of the object.");
+  py::class_<Recording>(
+      module, "Recording",
+      "A recording as an iterator of Frame. Frames that are damaged are left out with a warning.")
+      .def(py::init(&open_recording), py::arg("path"), py::kw_only(), py::arg("masks") = py::none(),
+           py::arg("calibration") = py::none(), py::arg("intrinsics") = py::none(),
+           py::arg("depth_scale") = py::none(),
+           "path: folder, bag, capture, or simulation such as 'sim:crowd', as of mms run.\n"
+           "masks: folder of label images in place of the recording's.\n"
+           "calibration: file, intrinsics: fx fy cx cy [px], depth_scale: units per meter; these\n"
+           "replace the recording's. Raises DataError, FileError, ConfigError.")
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__", &next_frame, "The next Frame. Raises ValueError after close().")
+      .def("__len__", from_source<std::size_t>([](FrameSource& s) { return s.size(); }))
+      .def("__enter__", [](const py::object& self) { return self; })
+      .def("__exit__", [](Recording& recording, const py::args&) { recording.close(); })
+      .def("close", &Recording::close, "Frees its memory. Frames stay valid.")
+      .def(
+          "skip",
+          [](Recording& recording, std::size_t count) {
+            recording.with_source([count](FrameSource& source) { return source.skip(count), 0; });
+          },
+          py::arg("count"), "Leaves out the next frames, without reading them.")
+      .def("describe",
+           from_source<std::vector<std::string>>([](FrameSource& s) { return s.describe(); }),
+           "Facts, one a line, as mms info shows them.")
+      .def_property_readonly("skipped",
+                             from_source<std::size_t>([](FrameSource& s) { return s.skipped(); }),
+                             "Damaged frames so far.")
+      .def_property_readonly("has_masks",
+                             from_source<bool>([](FrameSource& s) { return s.has_masks(); }),
+                             "Whether any frame has masks.")
+      .def_property_readonly("calibration",
+                             from_source<std::shared_ptr<Calibration>>([](FrameSource& s) {
+                               return std::const_pointer_cast<Calibration>(s.calibration());
+                             }),
+                             "Calibration, or None if only frames have one.")
+      .def_property_readonly(
+          "ground_truth", from_source<Trajectory>([](FrameSource& s) { return s.ground_truth(); }),
+          "Trajectory in the recording's world frame; empty if unknown.")
+      .def("map_truth",
+           from_source<std::optional<TruthCloud>>([](FrameSource& s) { return s.map_truth(); }),
+           "TruthCloud of the frames so far, or None if unknown. Raises Error.")
+      .def("objects_truth",
+           from_source<ObjectHistory>([](FrameSource& s) { return s.objects_truth(); }),
+           "List of ObjectFrame of the frames so far; empty if unknown. Raises Error.");
+}
+
+}  // namespace mms::python

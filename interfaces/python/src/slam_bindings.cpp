@@ -1,0 +1,303 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "interfaces/python/src/bindings.hpp"
+#include "interfaces/python/src/live_slam.hpp"
+#include "interfaces/python/src/numpy_arrays.hpp"
+#include "mms/run/segmenter/network_detector.hpp"
+#include "mms/run/sensor_settings.hpp"
+#include "mms/segmentation/segmenters/mask_segmenter.hpp"
+
+namespace mms::python {
+namespace {
+
+using Path = std::filesystem::path;
+
+std::unique_ptr<Segmenter> make_segmenter_of(const std::string& source,
+                                             const SystemConfig& config) {
+  if (source == "masks") return std::make_unique<MaskSegmenter>();
+  if (source == "network") return make_network_segmenter(config.segmentation);
+  if (source == "none") return std::make_unique<NoneSegmenter>();
+  throw py::value_error("segmenter: is '" + source + "', allowed: 'masks', 'network', 'none'");
+}
+
+/// "key=value" as on the command line.
+std::vector<std::string> assignments_of(const py::dict& settings) {
+  std::vector<std::string> assignments;
+  for (const auto& [key, value] : settings) {
+    auto text = py::str(value).cast<std::string>();
+    if (py::isinstance<py::bool_>(value)) text = value.cast<bool>() ? "true" : "false";
+    assignments.push_back(py::str(key).cast<std::string>() + "=" + text);
+  }
+  return assignments;
+}
+
+/// Where the pixels of an image are; `data` is null for no image.
+struct ImageSource {
+  const void* data = nullptr;
+  int width = 0;
+  int height = 0;
+  bool is_raw = false;  ///< depth in units of the calibration
+};
+
+/// Copies into memory of the same size without allocating anew.
+template <class T>
+void copy(const ImageSource& from, Image<T>& to) {
+  if (to.width() != from.width || to.height() != from.height) to = {from.width, from.height};
+  if (from.data != nullptr) std::memcpy(to.pixels().data(), from.data, sizeof(T) * to.size());
+}
+
+void copy_depth(const ImageSource& from, double scale, Image<float>& to) {
+  if (!from.is_raw) return copy(from, to);
+  if (to.width() != from.width || to.height() != from.height) to = {from.width, from.height};
+  const auto* raw = static_cast<const std::uint16_t*>(from.data);
+  const auto units = static_cast<float>(scale);
+  std::transform(raw, raw + to.size(), to.pixels().begin(),
+                 [units](std::uint16_t value) { return static_cast<float>(value) / units; });
+}
+
+/// A LiveSlam for numpy arrays.
+class Slam {
+ public:
+  Slam(const std::optional<Path>& config, std::shared_ptr<Calibration> calibration,
+       const py::dict& settings, const std::string& segmenter,
+       const std::optional<std::string>& weights)
+      : source_(segmenter) {
+    calibration_ = calibration ? std::move(calibration) : std::make_shared<Calibration>();
+    if (weights && segmenter != "network") {
+      throw py::value_error("weights: is for masks of the network, but they come from " +
+                            segmenter);
+    }
+    std::vector<std::string> warnings;
+    SystemConfig system = sensor_settings(calibration_.get(), config.value_or(Path()),
+                                          assignments_of(settings), "settings", warnings);
+    if (weights) system.segmentation.weights = *weights;
+    warn(warnings);
+    const py::gil_scoped_release release;
+    slam_ = std::make_unique<LiveSlam>(system, make_segmenter_of(segmenter, system));
+  }
+
+  FrameResult process(const py::array& color, const py::array& depth, std::int64_t stamp,
+                      const std::optional<py::array>& masks) {
+    if (!calibration_->camera) {
+      throw py::value_error("calibration: has no camera, which images need");
+    }
+    const ImageSource colors = color_source(color);
+    const ImageSource depths = depth_source(depth);
+    const ImageSource labels = mask_source(masks);
+    return fill_and_process(stamp, [&](Frame& frame) {
+      copy(colors, frame.color);
+      copy_depth(depths, calibration_->depth_scale, frame.depth);
+      copy(labels, frame.mask);
+      frame.scan = {};
+    });
+  }
+
+  FrameResult process_scan(const py::array& points, std::int64_t stamp,
+                           const std::optional<py::array>& times,
+                           const std::optional<py::array>& intensity,
+                           const std::optional<py::array>& color,
+                           const std::optional<py::array>& masks) {
+    LidarScan scan{points_of(points, "points"), numbers_of(intensity, "intensity", points.shape(0)),
+                   numbers_of(times, "times", points.shape(0))};
+    if ((color || masks) && !calibration_->camera) {
+      throw py::value_error("calibration: has no camera, which images need");
+    }
+    const ImageSource colors = color ? color_source(*color) : ImageSource();
+    const ImageSource labels = mask_source(masks);
+    return fill_and_process(stamp, [&](Frame& frame) {
+      frame.scan = std::move(scan);
+      copy(colors, frame.color);
+      frame.depth = {};
+      copy(labels, frame.mask);
+    });
+  }
+
+  FrameResult process_frame(const Frame& frame) {
+    const py::gil_scoped_release release;
+    return slam_->process(frame);
+  }
+
+  LiveSlam& live() { return *slam_; }
+
+ private:
+  template <class Fill>
+  FrameResult fill_and_process(std::int64_t stamp, const Fill& fill) {
+    const py::gil_scoped_release release;
+    return slam_->fill_and_process([&](Frame& frame) {
+      frame.stamp = Timestamp(stamp);
+      frame.calibration = calibration_;
+      fill(frame);
+    });
+  }
+
+  ImageSource color_source(const py::array& color) const {
+    const CameraIntrinsics& camera = *calibration_->camera;
+    const Shape shape = {camera.height, camera.width, 3};
+    return {data_of<std::uint8_t>(color, "color", "uint8", shape), camera.width, camera.height};
+  }
+
+  ImageSource depth_source(const py::array& depth) const {
+    const CameraIntrinsics& camera = *calibration_->camera;
+    const Shape shape = {camera.height, camera.width};
+    const bool is_raw = py::isinstance<py::array_t<std::uint16_t>>(depth);
+    const void* data =
+        is_raw ? static_cast<const void*>(data_of<std::uint16_t>(depth, "depth", "", shape))
+               : data_of<float>(depth, "depth",
+                                "float32 [m] or uint16 (in units of the calibration)", shape);
+    return {data, camera.width, camera.height, is_raw};
+  }
+
+  ImageSource mask_source(const std::optional<py::array>& masks) const {
+    if (!masks) return {};
+    if (source_ != "masks") {
+      throw py::value_error("masks: are given, but the masks come from segmenter='" + source_ +
+                            "'");
+    }
+    const CameraIntrinsics& camera = *calibration_->camera;
+    const Shape shape = {camera.height, camera.width};
+    return {data_of<std::uint8_t>(*masks, "masks", "uint8", shape), camera.width, camera.height};
+  }
+
+  std::string source_;  // of the masks
+  std::shared_ptr<Calibration> calibration_;
+  std::unique_ptr<LiveSlam> slam_;
+};
+
+void bind_results(py::module_& module) {
+  py::class_<TrackedObject>(module, "TrackedObject", "An object of the dynamic map.")
+      .def_readonly("box", &TrackedObject::box, "ObjectBox at the stamp of the frame.")
+      .def_property_readonly(
+          "seen", [](const TrackedObject& o) { return o.state == TrackState::kActive; },
+          "Whether it was seen in the frame; else its motion is predicted.")
+      .def_property_readonly(
+          "first_seen", [](const TrackedObject& o) { return o.first_seen.nanoseconds(); }, "[ns]")
+      .def_property_readonly(
+          "last_seen", [](const TrackedObject& o) { return o.last_seen.nanoseconds(); }, "[ns]");
+  py::class_<FrameResult>(module, "Result", "What a frame gave. Its arrays are views.")
+      .def_property_readonly(
+          "stamp", [](const FrameResult& r) { return r.odometry.stamp.nanoseconds(); }, "[ns]")
+      .def_property_readonly(
+          "pose", [](const FrameResult& r) { return matrix_of(r.odometry.T_world_sensor); },
+          "4 x 4 float64, sensor to world frame [m]. The world is the sensor frame of the first\n"
+          "frame: of a camera x right, y down, z forward; of a LiDAR its own.")
+      .def_property_readonly(
+          "status", [](const FrameResult& r) { return to_string(r.odometry.status); },
+          "'initialized', 'tracking', 'degenerate', 'lost' or 'recovered'.")
+      .def_property_readonly(
+          "information",
+          [](const FrameResult& r) -> Eigen::MatrixXd { return r.odometry.information; },
+          "6 x 6 float64: translation [1/m^2], rotation [1/rad^2], in the sensor frame.")
+      .def_readonly("keyframe", &FrameResult::keyframe, "Whether it carves the static map.")
+      .def_readonly("relocalized", &FrameResult::relocalized,
+                    "Whether the pose is that of a recognized place.")
+      .def_readonly("dynamic_share", &FrameResult::dynamic_share,
+                    "Share of the valid points that are dynamic, 0 to 1.")
+      .def_readonly("objects", &FrameResult::objects, "List of TrackedObject, by id.")
+      .def_readonly("warnings", &FrameResult::warnings, "Lines about wheels and gyroscope.")
+      .def_property_readonly(
+          "points",
+          [](const py::object& r) { return view(r.cast<FrameResult&>().cloud.points, r); },
+          "N x 3 float32, sensor frame [m]; NaN without a return.")
+      .def_property_readonly(
+          "labels",
+          [](const py::object& r) { return view(r.cast<FrameResult&>().cloud.labels, r); },
+          "N uint8 of the points: 0 no return, 1 static, 2 dynamic.")
+      .def_property_readonly(
+          "colors",
+          [](const py::object& r) { return view(r.cast<FrameResult&>().cloud.colors, r); },
+          "N x 3 uint8 of the points; 0 x 3 without a camera.")
+      .def_property_readonly(
+          "stage_ms",
+          [](const FrameResult& r) {
+            py::dict times;
+            for (std::size_t i = 0; i < kStageCount; ++i) {
+              times[py::str(std::string(to_string(static_cast<Stage>(i))))] = r.stage_ms[i];
+            }
+            return times;
+          },
+          "Duration of each stage [ms].");
+  py::class_<MapCloud>(module, "MapCloud", "The static map as points. Its arrays are views.")
+      .def("__len__", &MapCloud::size)
+      .def_property_readonly(
+          "points", [](const py::object& m) { return view(m.cast<MapCloud&>().points, m); },
+          "N x 3 float32, world frame [m].")
+      .def_property_readonly(
+          "colors", [](const py::object& m) { return view(m.cast<MapCloud&>().colors, m); },
+          "N x 3 uint8; gray without a camera.")
+      .def_property_readonly(
+          "normals", [](const py::object& m) { return view(m.cast<MapCloud&>().normals, m); },
+          "N x 3 float32, unit, towards the sensor; zero if unknown.")
+      .def_property_readonly(
+          "observations",
+          [](const py::object& m) { return view(m.cast<MapCloud&>().observations, m); },
+          "N int32: number of views that measured the point.");
+}
+
+}  // namespace
+
+void bind_slam(py::module_& module) {
+  bind_results(module);
+  const py::call_guard<py::gil_scoped_release> no_gil;
+  py::class_<Slam>(
+      module, "Slam",
+      "Localizes and maps, one frame at a time. Threads may share it: they take turns.\n"
+      "Other threads of Python run meanwhile.")
+      .def(py::init<const std::optional<Path>&, std::shared_ptr<Calibration>, const py::dict&,
+                    const std::string&, const std::optional<std::string>&>(),
+           py::arg("config") = py::none(), py::arg("calibration") = py::none(), py::kw_only(),
+           py::arg("settings") = py::dict(), py::arg("segmenter") = "masks",
+           py::arg("weights") = py::none(),
+           "config: settings file, as of mms run --config; None: the defaults.\n"
+           "calibration: Calibration of the sensor; frames of recordings bring their own.\n"
+           "settings: single ones, as {'static_map.voxel_size': 0.05}.\n"
+           "segmenter: where masks come from: 'masks' (given ones), 'network' or 'none'.\n"
+           "weights: network file in place of the default one.\n"
+           "Raises ValueError, FileError, ConfigError, DataError.")
+      .def("process", &Slam::process, py::arg("color"), py::arg("depth"), py::arg("stamp"),
+           py::arg("masks") = py::none(),
+           "Localizes an image with depth and adds it to the maps.\n"
+           "color: height x width x 3 uint8, red green blue.\n"
+           "depth: height x width, registered to color: float32 [m], or uint16 in units of the\n"
+           "calibration; 0, NaN and inf mean no return.\n"
+           "stamp: int [ns], more than that of the frame before.\n"
+           "masks: height x width uint8: 0 static, 1 person, 2 vehicle; None: all is static.\n"
+           "Arrays have rows without gaps. Raises ValueError that names argument and value.")
+      .def("process_scan", &Slam::process_scan, py::arg("points"), py::arg("stamp"),
+           py::arg("times") = py::none(), py::arg("intensity") = py::none(),
+           py::arg("color") = py::none(), py::arg("masks") = py::none(),
+           "Localizes a LiDAR scan and adds it to the maps.\n"
+           "points: N x 3 float32, LiDAR frame [m]; NaN and inf mean no return.\n"
+           "stamp: int [ns], more than that of the frame before.\n"
+           "times: N float32, of the points after the stamp [s]; None: at once.\n"
+           "intensity: N float32, in the sensor's units.\n"
+           "color, masks: image of a camera beside it and its masks, as of process.\n"
+           "Raises ValueError that names argument and value.")
+      .def("process_frame", &Slam::process_frame, py::arg("frame"),
+           "Localizes a frame of a recording and adds it to the maps, without a copy.\n"
+           "Raises ValueError for a stamp that is not later, DataError for sizes that differ.")
+      .def(
+          "finish", [](Slam& slam) { slam.live().finish(); }, no_gil,
+          "Completes the maps after the last frame.")
+      .def(
+          "trajectory",
+          [](Slam& slam, bool corrected) { return slam.live().trajectory(corrected); },
+          py::arg("corrected") = false, no_gil,
+          "Trajectory of all frames. corrected: by loop closure, in the frame of the map.")
+      .def(
+          "static_map",
+          [](Slam& slam, bool corrected) { return slam.live().static_map(corrected); },
+          py::arg("corrected") = true, no_gil,
+          "MapCloud of what stands still. corrected: by loop closure, as result files are.")
+      .def(
+          "objects", [](Slam& slam) { return slam.live().objects(); }, no_gil,
+          "List of TrackedObject of the last frame, by id.");
+}
+
+}  // namespace mms::python

@@ -1,0 +1,110 @@
+"""Arrays are views of the library's memory; what an argument cannot be is said by name."""
+import gc
+
+import numpy as np
+import pytest
+
+import mms_slam
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+def test_arrays_of_frames_and_results_are_views(slam, frames):
+    frame, result = frames[0], slam.process_frame(frames[0])
+    slam.finish()
+    cloud, poses = slam.static_map(), slam.trajectory()
+    for owner, names in ((frame, ("color", "depth", "masks")), (result, ("points", "labels")),
+                         (cloud, ("points", "colors", "normals", "observations")),
+                         (poses, ("stamps", "poses"))):
+        for name in names:
+            first, second = getattr(owner, name), getattr(owner, name)
+            assert first.size > 0 and address(first) == address(second), name
+            assert not first.flags.owndata, name
+
+
+def test_views_outlive_their_owners(frames):
+    slam = mms_slam.Slam(calibration=frames[0].calibration)
+    points = slam.process_frame(frames[0]).points
+    expected = points.copy()
+    del slam
+    gc.collect()
+    for _ in range(20):
+        np.ones_like(expected)
+    assert np.array_equal(points, expected, equal_nan=True)
+
+
+def test_shapes_and_types(slam, frames):
+    frame = frames[0]
+    height, width = frame.depth.shape
+    assert frame.color.shape == (height, width, 3) and frame.color.dtype == np.uint8
+    assert frame.depth.dtype == np.float32 and frame.masks.dtype == np.uint8
+    assert frame.points.shape == (0, 3)
+    result = slam.process_frame(frame)
+    assert result.pose.shape == (4, 4) and result.information.shape == (6, 6)
+    assert result.points.shape == (len(result.labels), 3)
+    assert np.isnan(result.points[result.labels == 0]).all()
+    assert set(result.stage_ms) == {"segmentation", "fusion", "features", "odometry", "mapping"}
+    assert result.status == "initialized"
+    empty = mms_slam.Slam().trajectory()
+    assert len(empty) == 0 and empty.poses.shape == (0, 4, 4) and empty.stamps.shape == (0,)
+
+
+def broken(frame, **changes):
+    return {"color": frame.color, "depth": frame.depth, "stamp": frame.stamp, **changes}
+
+
+@pytest.mark.parametrize("change, text", [
+    (lambda f: {"color": f.color.astype(np.float32)},
+     "color: has the type float32, allowed: uint8"),
+    (lambda f: {"color": f.color[:, :, 0]}, "color: has the shape (240, 320), "
+     "allowed: (240, 320, 3)"),
+    (lambda f: {"color": f.color[:, :, ::-1]}, "color: has the strides (960, 3, -1), allowed: "),
+    (lambda f: {"depth": f.depth.astype(np.float64)}, "depth: has the type float64, "
+     "allowed: float32 [m] or uint16"),
+    (lambda f: {"depth": f.depth[:-1]}, "depth: has the shape (239, 320), allowed: (240, 320)"),
+    (lambda f: {"depth": f.depth.T.copy().T}, "depth: has the strides (4, 960), allowed: "),
+    (lambda f: {"masks": f.masks > 0}, "masks: has the type bool, allowed: uint8"),
+    (lambda f: {"masks": f.masks[None]}, "masks: has the shape (1, 240, 320), allowed: (240, 320)"),
+])
+def test_wrong_arrays_are_named(slam, frames, change, text):
+    with pytest.raises(ValueError) as fault:
+        slam.process(**broken(frames[0], **change(frames[0])))
+    assert text in str(fault.value)
+    assert len(slam.trajectory()) == 0
+
+
+def test_other_arguments_are_named(slam, frames):
+    frame = frames[1]
+    slam.process_frame(frame)
+    cases = [
+        (lambda: slam.process_frame(frame), f"stamp: is {frame.stamp}, allowed: more than"),
+        (lambda: mms_slam.Slam(segmenter="magic"), "segmenter: is 'magic', allowed: 'masks'"),
+        (lambda: mms_slam.Slam(weights="x.onnx"), "weights: is for masks of the network"),
+        (lambda: mms_slam.Slam().process(frame.color, frame.depth, 1), "calibration: has no camera"),
+        (lambda: mms_slam.Slam(segmenter="none", calibration=frame.calibration).process(
+            frame.color, frame.depth, 1, frame.masks), "masks: are given, but the masks come from"),
+        (lambda: slam.process_scan(np.zeros((5, 4), np.float32), 1),
+         "points: has the shape (5, 4), allowed: (N, 3)"),
+        (lambda: slam.process_scan(np.zeros((5, 3), np.float32), 1, np.zeros(4, np.float32)),
+         "times: has the shape (4,), allowed: (5,)"),
+        (lambda: mms_slam.Trajectory(np.array([1]), np.zeros((1, 4, 4))),
+         "poses: is no rigid transform"),
+        (lambda: mms_slam.Calibration(depth_scale=0.0), "depth_scale: is 0.0"),
+    ]
+    for call, text in cases:
+        with pytest.raises(ValueError) as fault:
+            call()
+        assert text in str(fault.value)
+    with pytest.raises(mms_slam.ConfigError, match="Camera"):
+        mms_slam.Camera(-1.0, 1.0, 0.0, 0.0, 10, 10)
+
+
+def test_trajectory_goes_there_and_back():
+    poses = np.tile(np.eye(4), (3, 1, 1))
+    poses[:, 0, 3] = [0.0, 0.5, 1.25]
+    poses[2, :3, :3] = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    trajectory = mms_slam.Trajectory(np.array([5, 6, 7]), poses)
+    assert np.array_equal(trajectory.poses, poses)
+    assert trajectory.stamps.tolist() == [5, 6, 7]

@@ -1,0 +1,150 @@
+"""Errors, warnings, threads, interrupts, closed recordings."""
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import mms_slam
+from conftest import SCENE
+
+
+def test_errors_have_the_text_of_the_program(mms, tmp_path):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "bad.yaml").write_text("odometry: {iterations: 2.5}\n")
+    cases = [
+        (mms_slam.DataError, lambda: mms_slam.Recording("no/such"), ("info", "no/such")),
+        (mms_slam.DataError, lambda: mms_slam.Recording(tmp_path / "empty"),
+         ("info", tmp_path / "empty")),
+        (mms_slam.ConfigError, lambda: mms_slam.Slam(tmp_path / "bad.yaml"),
+         ("run", SCENE, "-c", tmp_path / "bad.yaml")),
+        (mms_slam.FileError, lambda: mms_slam.Slam(tmp_path / "none.yaml"),
+         ("run", SCENE, "-c", tmp_path / "none.yaml")),
+        (mms_slam.FileError,
+         lambda: mms_slam.Slam(segmenter="network", weights=str(tmp_path / "w.safetensors")),
+         ("run", SCENE, "--weights", tmp_path / "w.safetensors")),
+    ]
+    for kind, call, words in cases:
+        with pytest.raises(kind) as fault:
+            call()
+        assert isinstance(fault.value, mms_slam.Error)
+        assert f"mms: {fault.value}\n" in mms(*words, fails=True)
+
+
+def test_unknown_setting_is_named():
+    with pytest.raises(mms_slam.DataError, match="settings: .*voxel_siz"):
+        mms_slam.Slam(settings={"static_map.voxel_siz": 0.1})
+
+
+def test_recording_is_an_iterator():
+    with mms_slam.Recording(SCENE) as recording:
+        assert len(recording) == 24 and recording.has_masks
+        recording.skip(20)
+        frames = list(recording)
+        assert [frame.index for frame in frames] == [20, 21, 22, 23]
+        assert len(recording.ground_truth) == 24
+        assert any("320" in line for line in recording.describe())
+    with pytest.raises(ValueError, match="this recording is closed"):
+        next(recording)
+    with pytest.raises(ValueError, match="this recording is closed"):
+        recording.skipped  # pylint: disable=pointless-statement
+    recording.close()
+    assert frames[0].color.any()  # frames stay valid
+
+
+def test_damaged_frames_are_warnings(mms, tmp_path):
+    mms("simulate", "crowd", "--frames", "6", "--seed", "1", "-o", tmp_path / "sim")
+    images = sorted((tmp_path / "sim").rglob("*.png"))
+    depth = [image for image in images if image.parent.name == "depth"]
+    depth[2].write_bytes(b"no image")
+    recording = mms_slam.Recording(tmp_path / "sim")
+    with pytest.warns(UserWarning, match=depth[2].name):
+        frames = list(recording)
+    assert len(frames) == 5 and recording.skipped == 1
+
+
+def test_other_threads_run_meanwhile(slam, frames):
+    """A thread that counts gets on while frames are processed: a held GIL would stop it."""
+    longest, stop = [], threading.Event()
+
+    def tick():
+        last = time.perf_counter()
+        while not stop.is_set():
+            time.sleep(0.0005)
+            now = time.perf_counter()
+            longest.append((last, now))
+            last = now
+
+    ticker = threading.Thread(target=tick)
+    ticker.start()
+    inside = 0
+    for frame in frames:
+        begin = time.perf_counter()
+        slam.process_frame(frame)
+        end = time.perf_counter()
+        inside += sum(begin < first and last < end for first, last in list(longest))
+        longest.clear()
+    stop.set()
+    ticker.join()
+    assert inside > len(frames)
+
+
+def test_threads_take_turns(frames):
+    """Frames of several threads, one after another; maps are read meanwhile."""
+    slam = mms_slam.Slam(calibration=frames[0].calibration)
+    turn, sizes, stop = threading.Condition(), [], threading.Event()
+    done = 0
+
+    def process(first):
+        nonlocal done
+        for i in range(first, len(frames), 2):
+            with turn:
+                turn.wait_for(lambda i=i: done == i)
+                slam.process_frame(frames[i])
+                done += 1
+                turn.notify_all()
+
+    def read():
+        while not stop.is_set():
+            sizes.append((len(slam.static_map()), len(slam.trajectory()), len(slam.objects())))
+
+    reader = threading.Thread(target=read)
+    threads = [threading.Thread(target=process, args=(i,)) for i in range(2)]
+    for thread in (reader, *threads):
+        thread.start()
+    for thread in threads:
+        thread.join()
+    stop.set()
+    reader.join()
+    alone = mms_slam.Slam(calibration=frames[0].calibration)
+    for frame in frames:
+        alone.process_frame(frame)
+    assert np.array_equal(slam.trajectory().poses, alone.trajectory().poses)
+    assert sizes[-1][0] > 0 and len({size[1] for size in sizes}) > 1
+
+
+def test_interrupt_leaves_a_whole_state(slam, frames):
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # shells ignore it in the background
+    interrupts = 0
+    timer = None
+    while (done := len(slam.trajectory())) < len(frames):
+        try:
+            if timer is None or not timer.is_alive():
+                timer = threading.Timer(0.003, os.kill, (os.getpid(), signal.SIGINT))
+                timer.start()
+            while done < len(frames):
+                slam.process_frame(frames[done])
+                done += 1
+        except KeyboardInterrupt:
+            interrupts += 1
+            timer.join()
+            if interrupts >= 3:
+                timer = threading.Timer(0.0, lambda: None)  # no more
+                timer.is_alive = lambda: True
+    assert interrupts >= 3
+    alone = mms_slam.Slam(calibration=frames[0].calibration)
+    for frame in frames:
+        alone.process_frame(frame)
+    assert np.array_equal(slam.trajectory().poses, alone.trajectory().poses)
