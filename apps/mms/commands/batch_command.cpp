@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/mms/batch/batch_folder.hpp"
@@ -52,6 +53,18 @@ Outcome execute(const BatchFolder& folder, const BatchRun& run, const std::strin
   return Outcome::kFailed;
 }
 
+/// Writes the tables until they have all finished runs: another process may have finished one, and
+/// written its tables, after these were made.
+BatchTables write_tables(const BatchFolder& folder, const std::vector<BatchRun>& runs) {
+  BatchTables tables = batch_tables(folder, runs);
+  while (true) {
+    write_batch_tables(folder, tables);
+    BatchTables now = batch_tables(folder, runs);
+    if (now.accuracy.rows == tables.accuracy.rows) return now;
+    tables = std::move(now);
+  }
+}
+
 void batch(const BatchOptions& options) {
   const std::vector<BatchRun> runs = read_batch_list(options.list);
   const Shard shard = parse_shard(options.shard);
@@ -63,9 +76,9 @@ void batch(const BatchOptions& options) {
     const Outcome outcome = execute(folder, runs[i], fmt::format("[{}/{}]", i + 1, runs.size()));
     failed += outcome == Outcome::kFailed ? 1 : 0;
     elsewhere += outcome == Outcome::kElsewhere ? 1 : 0;
-    if (outcome != Outcome::kElsewhere) write_batch_tables(folder, batch_tables(folder, runs));
+    if (outcome != Outcome::kElsewhere) write_tables(folder, runs);
   }
-  const BatchTables tables = batch_tables(folder, runs);
+  const BatchTables tables = write_tables(folder, runs);
   fmt::print("{}\n{}", text_of(tables.accuracy), text_of(tables.speed));
   if (!tables.failures.rows.empty()) fmt::print("\n{}", text_of(tables.failures));
   fmt::print("\nreport: {}\n", (folder.path() / "report.html").string());
