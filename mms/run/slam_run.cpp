@@ -190,7 +190,8 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   }
   check_lost();
   observer.on_frame(*log_);
-  if (view_) view_->show(std::move(processed), std::move(shown));
+  if (!view_) return;
+  view_->show(std::move(processed), log_->frames().back().interval_ms, std::move(shown));
 }
 
 void SlamRun::warn_if_not_localized(RunObserver& observer) {

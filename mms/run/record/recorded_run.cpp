@@ -19,9 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t kTimes = 1 + kStageCount;  ///< columns in milliseconds: read and the stages
+/// Columns in milliseconds: read, the stages, their sum, and the interval between frames.
+constexpr std::size_t kTimes = 3 + kStageCount;
 
-/// Rows of timing.csv: stamp, read, the stages, and others.
+/// Rows of timing.csv: stamp and times, without the sum.
 std::map<Timestamp, std::vector<float>> read_times(const fs::path& file) {
   const TextTable table(file);
   std::map<Timestamp, std::vector<float>> times;
@@ -35,6 +36,7 @@ std::map<Timestamp, std::vector<float>> read_times(const fs::path& file) {
     if (!stamp || values.size() != kTimes) {
       throw DataError(table.where(line), "is not a row of timing.csv");
     }
+    values.erase(values.end() - 2);
     times[*stamp] = std::move(values);
   }
   return times;

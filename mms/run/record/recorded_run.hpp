@@ -21,7 +21,7 @@ struct RunFiles {
   MapCloud map;
   ObjectHistory objects;
   Trajectory truth;
-  std::map<Timestamp, std::vector<float>> times;  ///< milliseconds of read and the stages
+  std::map<Timestamp, std::vector<float>> times;  ///< read, stages, interval [ms]
   std::map<Timestamp, FrameRecord> frames;
   std::optional<RunRecord> record;
   SystemConfig config;

@@ -37,10 +37,12 @@ SceneInfo info_of(const std::string& data, const FrameSource& source, const Syst
   return info;
 }
 
-std::vector<float> series_of(const Processed& processed, const SceneFrame& frame, bool has_truth) {
+std::vector<float> series_of(const Processed& processed, double interval_ms,
+                             const SceneFrame& frame, bool has_truth) {
   const FrameResult& result = processed.result;
   std::vector<float> values = {static_cast<float>(processed.read_ms)};
   for (const double ms : result.stage_ms) values.push_back(static_cast<float>(ms));
+  values.push_back(static_cast<float>(interval_ms));
   values.push_back(static_cast<float>(result.dynamic_share));
   values.push_back(static_cast<float>(result.overruled_share));
   values.push_back(static_cast<float>(result.objects.size()));
@@ -66,14 +68,15 @@ LiveView::LiveView(const ViewOptions& options, const std::string& data, const Fr
                                      config.static_map.min_observations)),
       server_(serve(options, scene_, "--view PORT", true)) {}
 
-void LiveView::show(Processed processed, std::shared_ptr<const MapChanges> map) {
+void LiveView::show(Processed processed, double interval_ms,
+                    std::shared_ptr<const MapChanges> map) {
   FrameResult& result = processed.result;
   SceneFrame frame;
   frame.stamp = processed.frame.stamp;
   frame.T_world_sensor = result.odometry.T_world_sensor;
   frame.status = result.odometry.status;
   frame.truth = truth_.at({frame.stamp, frame.T_world_sensor});
-  frame.series = series_of(processed, frame, !truth_.empty());
+  frame.series = series_of(processed, interval_ms, frame, !truth_.empty());
   frame.objects = objects_of(result, frame.stamp);
   if (frames_ == 0) {
     const bool depth_camera = result.cloud.organised();

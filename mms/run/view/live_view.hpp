@@ -22,7 +22,7 @@ class LiveView {
            const SystemConfig& config, std::size_t frames);
 
   /// @param map  changes of the map by the frame; null for none
-  void show(Processed processed, std::shared_ptr<const MapChanges> map);
+  void show(Processed processed, double interval_ms, std::shared_ptr<const MapChanges> map);
 
   /// Displays changes of the map after the last frame.
   void show_map(const MapChanges& map) { scene_->add_map(std::make_shared<const MapChanges>(map)); }

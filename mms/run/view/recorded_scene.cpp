@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t kTimes = 1 + kStageCount;  ///< series in milliseconds: read and the stages
+/// Series in milliseconds: read, the stages and the interval between frames.
+constexpr std::size_t kTimes = 2 + kStageCount;
 
 double voxel_size_of(const RunFiles& files) {
   return files.record && files.record->voxel_size > 0.0 ? files.record->voxel_size

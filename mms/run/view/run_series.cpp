@@ -11,6 +11,7 @@ std::vector<SeriesName> run_series(bool has_truth) {
   for (std::size_t i = 0; i < kStageCount; ++i) {
     series.push_back({std::string(to_string(static_cast<Stage>(i))), "ms"});
   }
+  series.push_back({"interval", "ms"});
   series.push_back({"dynamic_share", "ratio"});
   series.push_back({"overruled_share", "ratio"});
   series.push_back({"objects", "count"});

@@ -6,9 +6,10 @@
 
 namespace mms {
 
-/// The series of a run: milliseconds of reading and all stages, dynamic and overruled share,
-/// objects, distance from the start [cm], which is drift for a static sensor, and distance from the
-/// ground truth [cm] if available.
+/// The series of a run: milliseconds of reading, of all stages, and since the end of the previous
+/// frame (less than their sum, as stages overlap), dynamic and overruled share, objects, distance
+/// from the start [cm], which is drift for a static sensor, and distance from the ground truth [cm]
+/// if available.
 std::vector<SeriesName> run_series(bool has_truth);
 
 /// Appends a frame's distances to its other values. NaN without ground truth.

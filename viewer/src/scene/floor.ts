@@ -20,6 +20,12 @@ export function floorHeight(heights: Iterable<number>): number | null {
   return most < 20 ? null : best * kBin;
 }
 
+/** Heights of the colors: from the floor to that below which nearly all points lie, at least 2 m. */
+export function heightRange(heights: number[], floor: number): [number, number] {
+  const sorted = [...heights].sort((a, b) => a - b);
+  return [floor, Math.max(floor + 2, sorted[Math.floor(0.98 * sorted.length)] ?? floor)];
+}
+
 const kVertex = /* glsl */ `
   varying vec3 at;
   varying vec3 eye;

@@ -29,6 +29,12 @@ export class MapLayer {
     this.group.add(cloud);
   }
 
+  /** Colors by height in the scene frame, blue at `low` to red at `high` [m]; or the points' own colors. */
+  setHeights(shown: boolean, low: number, high: number): void {
+    this.material.uniforms.byHeight.value = shown;
+    this.material.uniforms.heights.value.set(low, Math.max(0.1, high - low));
+  }
+
   clear(): void {
     for (const key of [...this.chunks.keys()]) this.drop(key);
   }

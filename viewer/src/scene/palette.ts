@@ -11,6 +11,8 @@ export const kColors = {
   dynamicScan: '#ff9f43',
   camera: '#ffffff',
   grid: '#2a3646',
+  low: '#4040ff',
+  high: '#ff4040',
 } as const;
 
 /** Red for people, green for all vehicles, amber for unknown classes. */

@@ -1,4 +1,4 @@
-import { Color, ShaderMaterial } from 'three';
+import { Color, ShaderMaterial, Vector2 } from 'three';
 import { kColors } from './palette';
 
 /** Higher than any point [m]; shaders have no infinity. */
@@ -22,9 +22,15 @@ const kVertex = /* glsl */ `
   uniform float ceiling, nearer, haze;
   uniform vec3 background, tint;
   uniform float tintShare, saturation;
+  uniform bool byHeight;
+  uniform vec2 heights;
   attribute vec3 color;
   varying vec3 shade;
   varying float pixels;
+  vec3 colorOfHeight(float height) {
+    float hue = 0.66 * (1.0 - clamp((height - heights.x) / heights.y, 0.0, 1.0));
+    return 0.25 + 0.75 * clamp(abs(mod(6.0 * hue + vec3(0.0, 4.0, 2.0), 6.0) - 3.0) - 1.0, 0.0, 1.0);
+  }
   void main() {
     vec4 world = modelMatrix * vec4(position, 1.0);
     vec4 eye = viewMatrix * world;
@@ -32,7 +38,7 @@ const kVertex = /* glsl */ `
     pixels = clamp(size * pixelsPerMetre / (orthographic ? 1.0 : -eye.z), smallest, 48.0);
     gl_PointSize = pixels;
     if (world.y > ceiling) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    vec3 own = mix(vec3(dot(color, vec3(0.3, 0.59, 0.11))), color, saturation);
+    vec3 own = byHeight ? colorOfHeight(world.y) : mix(vec3(dot(color, vec3(0.3, 0.59, 0.11))), color, saturation);
     float far = orthographic ? 0.0 : smoothstep(haze, 4.0 * haze, -eye.z);
     shade = mix(mix(own, tint, tintShare), background, far);
   }`;
@@ -75,6 +81,8 @@ export function pointMaterial(look: PointLook): ShaderMaterial {
       tint: { value: new Color(look.tint ?? '#ffffff').convertLinearToSRGB() },
       tintShare: { value: look.tintShare ?? 0 },
       saturation: { value: look.saturation ?? 1 },
+      byHeight: { value: false },
+      heights: { value: new Vector2(0, 1) },
     },
   });
 }

@@ -3,7 +3,7 @@ import type { FrameMessage, Hello, MapMessage, SceneObject, Vector3 as Triple } 
 import { className } from '../state/class_words';
 import type { Run } from '../state/run';
 import type { Layer, Settings } from '../state/settings';
-import { floorGrid, floorHeight } from './floor';
+import { floorGrid, floorHeight, heightRange } from './floor';
 import type { Label } from './label_overlay';
 import { MapLayer } from './map_layer';
 import { ObjectLayer } from './object_layer';
@@ -36,6 +36,8 @@ export class SceneView {
   private lastFrame = -1;
   /** In the scene frame. */
   private ceiling = kHigh;
+  /** Of the floor and of the highest points, in the scene frame. */
+  private heights: [number, number] = [-1, 1];
 
   constructor(
     container: HTMLElement,
@@ -153,6 +155,13 @@ export class SceneView {
   private applyLayers(): void {
     for (const [layer, object] of Object.entries(this.layers)) object.visible = this.settings.shows(layer as Layer);
     pointUniforms.ceiling.value = this.settings.shows('ceiling') ? kHigh : this.ceiling;
+    this.applyHeights();
+  }
+
+  /** The colors are spread over the heights that are drawn. */
+  private applyHeights(): void {
+    const [low, high] = this.heights;
+    this.map.setHeights(this.settings.shows('heights'), low, Math.min(high, pointUniforms.ceiling.value));
   }
 
   /** Extent of the scene and height of its floor. */
@@ -173,6 +182,8 @@ export class SceneView {
       bounds.expandByPoint(point.applyMatrix4(this.world.matrixWorld));
     });
     this.grid.position.y = floorHeight(heights) ?? -1;
+    this.heights = heightRange(heights, this.grid.position.y);
+    this.applyHeights();
     this.stage.rig.setBounds(bounds);
   }
 

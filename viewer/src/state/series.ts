@@ -8,6 +8,9 @@ export interface Series {
   values: Rows;
 }
 
+/** Name of the time since the end of the previous frame; stages overlap, so that their sum is larger. */
+export const kInterval = 'interval';
+
 /** Plotted values per frame: one growing column per name. */
 export class SeriesTable {
   readonly all: Series[] = [];

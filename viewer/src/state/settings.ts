@@ -2,6 +2,7 @@ import { Emitter } from './emitter';
 
 export const kLayers = [
   'map',
+  'heights',
   'scan',
   'boxes',
   'labels',
@@ -20,8 +21,8 @@ export type CameraMode = (typeof kCameraModes)[number];
 
 type SettingEvents = { layer: Layer; camera: CameraMode };
 
-const kKey = 'mms-viewer';
-const kHiddenAtFirst: Layer[] = ['ceiling'];
+const kKey = 'mms-viewer-2'; // counts up with the layers
+const kHiddenAtFirst: Layer[] = ['heights', 'ceiling'];
 
 /** Display settings of the user, stored in the browser. */
 export class Settings extends Emitter<SettingEvents> {

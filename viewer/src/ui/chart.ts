@@ -20,6 +20,7 @@ const kFont = '11px system-ui, "Segoe UI", Roboto, sans-serif';
 /** One plot over the frames, with the values at the playhead in the heading; a click seeks. */
 export class Chart {
   readonly root: HTMLElement;
+  private readonly title = h('h3');
   private readonly value = h('b');
   private readonly legend = h('div', { class: 'legend' });
   private readonly area = h('div', { class: 'plot' });
@@ -30,9 +31,14 @@ export class Chart {
   private frame = 0;
 
   constructor(private readonly look: ChartLook) {
-    const heading = h('header', {}, h('h3', {}, look.title), this.value);
+    setText(this.title, look.title);
+    const heading = h('header', {}, this.title, this.value);
     this.root = h('div', { class: 'chart' }, heading, this.area, this.legend);
     new ResizeObserver(() => this.resize()).observe(this.area);
+  }
+
+  setTitle(title: string): void {
+    setText(this.title, title);
   }
 
   setLines(lines: Line[]): void {

@@ -2,7 +2,7 @@ import 'uplot/dist/uPlot.min.css';
 import type { Unit } from '../protocol/messages';
 import { kColors } from '../scene/palette';
 import type { Run } from '../state/run';
-import type { Series } from '../state/series';
+import { kInterval, type Series } from '../state/series';
 import { Chart } from './chart';
 import type { Line } from './chart_data';
 import { h, part, throttled } from './dom';
@@ -35,7 +35,7 @@ export class ChartPanel {
     private readonly seek: (frame: number) => void,
   ) {
     this.slots = [
-      { chart: this.chart('Time per frame', 'ms', true), unit: 'ms' },
+      { chart: this.chart('Time of the stages', 'ms', true), unit: 'ms' },
       { chart: this.chart('Dynamic share', 'ratio'), unit: 'ratio' },
       { chart: this.chart('Drift', 'cm'), unit: 'cm' },
       { chart: this.chart('Objects', 'count'), unit: 'count' },
@@ -69,7 +69,7 @@ export class ChartPanel {
 
   /** With ground truth, the error is more informative than the distance from the start. */
   private shown(unit: Unit): Series[] {
-    const all = this.run.series.of(unit);
+    const all = this.run.series.of(unit).filter(({ name }) => name !== kInterval);
     const error = all.filter(({ name }) => name === 'error_cm');
     return unit === 'cm' && error.length > 0 ? error : all;
   }
@@ -77,7 +77,11 @@ export class ChartPanel {
   private redraw(): void {
     this.plotted = this.run.series.frames;
     this.empty.hidden = this.plotted > 0;
-    for (const { chart, unit } of this.slots) chart.setLines(this.shown(unit).map(line));
+    for (const { chart, unit } of this.slots) {
+      const shown = this.shown(unit);
+      if (unit === 'cm') chart.setTitle(shown.some(({ name }) => name === 'error_cm') ? 'Position error' : 'Drift');
+      chart.setLines(shown.map(line));
+    }
   }
 }
 

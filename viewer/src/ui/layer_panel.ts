@@ -13,7 +13,8 @@ interface Row {
 }
 
 export const kRows: Row[] = [
-  { layer: 'map', name: 'Static map', key: 'M', colors: ['#8fa3b8'], hint: 'Static points in their colors' },
+  { layer: 'map', name: 'Static map', key: 'M', colors: ['#8fa3b8'], hint: 'Static points in the colors of the camera, or the intensity of the LiDAR' },
+  { layer: 'heights', name: 'Map by height', key: 'H', colors: [kColors.low, kColors.high], hint: 'Static points in colors by their height above the floor' },
   {
     layer: 'scan',
     name: 'Current scan',

@@ -101,9 +101,10 @@ export class Player {
     this.update();
   }
 
+  /** Sends the place itself: a throttled seek may still wait and would find no handle dragged. */
   private drop(): void {
-    this.drag();
     this.dragged = null;
+    this.seek(Number(this.range.value));
   }
 
   private goLive(): void {
@@ -111,19 +112,19 @@ export class Player {
   }
 
   private update(): void {
-    const { playback, hello, trajectory } = this.run;
+    const { playback, trajectory } = this.run;
     const frame = this.dragged ?? this.frame;
     this.range.max = String(this.last);
     this.range.value = String(frame);
     this.range.style.setProperty('--done', `${(100 * frame) / Math.max(1, this.last)}%`);
     const [now, end] = [trajectory.time(frame), trajectory.time(this.last)];
     setText(this.time, now === null ? '' : `${clock(now)} / ${clock(end ?? now)}`);
-    setText(this.frames, hello ? frameOf(frame, this.run.frames) : '');
+    setText(this.frames, this.run.frame ? frameOf(frame, this.run.frames) : '');
     this.speed.hidden = this.run.live;
     this.speed.value = String(playback.speed);
     this.updateLive(frame);
     this.updateButton();
-    part('player').classList.toggle('idle', hello === null);
+    part('player').classList.toggle('idle', this.run.frame === null);
   }
 
   private updateLive(frame: number): void {

@@ -1,6 +1,7 @@
 import { classColor } from '../scene/palette';
 import { classWord } from '../state/class_words';
 import type { Run } from '../state/run';
+import { kInterval } from '../state/series';
 import { h, part, setText } from './dom';
 import { quantity } from './format';
 
@@ -32,14 +33,14 @@ export class Readout {
     part('readout').hidden = frame === null;
     if (!frame) return;
     this.status.root.dataset.status = frame.lost ? 'lost' : frame.status;
-    fill(this.status, statusWord(frame.status, frame.lost), 'localisation');
+    fill(this.status, statusWord(frame.status, frame.lost), 'localization');
     setText(this.objects.label, 'tracked');
     this.showCounts();
     fill(this.dynamic, quantity(this.value('dynamic_share'), 'ratio'), 'dynamic');
     const [error, drift] = [this.value('error_cm'), this.value('drift_cm')];
     this.error.root.hidden = (error ?? drift) === undefined;
     fill(this.error, quantity(error ?? drift, 'cm'), error === undefined ? 'from the start' : 'position error');
-    fill(this.time, quantity(this.total(), 'ms'), 'a frame');
+    fill(this.time, quantity(this.value(kInterval), 'ms'), 'a frame');
   }
 
   /** From the frame, or else from the run's history. */
@@ -48,12 +49,6 @@ export class Readout {
     if (!frame) return undefined;
     const value = frame.series[name] ?? series.all.find((one) => one.name === name)?.values.row(frame.frame)[0];
     return value === undefined || value === null || !Number.isFinite(value) ? undefined : value;
-  }
-
-  private total(): number | undefined {
-    const stages = this.run.series.of('ms').map(({ name }) => this.value(name));
-    const known = stages.filter((value): value is number => value !== undefined);
-    return known.length ? known.reduce((sum, value) => sum + value, 0) : undefined;
   }
 
   private showCounts(): void {

@@ -108,7 +108,11 @@ test('draws points and boxes, and switches every layer', async () => {
   await show('boxes', false);
   await eventually('no boxes', pixels, ({ red, green }) => red < 0.1 * boxes.red && green < 0.1 * boxes.green);
   await show('map', true);
-  await eventually('the map again', pixels, ({ lit }) => lit > 0.5 * full.lit);
+  const own = await eventually('the map again', pixels, ({ lit }) => lit > 0.5 * full.lit);
+  await show('heights', true);
+  await eventually('the map by height', pixels, ({ red, green }) => red > own.red + 0.001 * full.all && green > own.green + 0.005 * full.all);
+  await show('heights', false);
+  await eventually('the map in its colors', pixels, ({ green }) => green <= own.green + 0.001 * full.all);
   for (const layer of ['scan', 'trails', 'labels', 'trajectory', 'truth', 'camera', 'grid', 'boxes']) await show(layer, true);
   await eventually('boxes again', pixels, ({ red, green }) => red > 0.3 * boxes.red && green > 0.3 * boxes.green);
   const masked = await image();

@@ -1,6 +1,6 @@
 import { Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { floorHeight } from '../../src/scene/floor';
+import { floorHeight, heightRange } from '../../src/scene/floor';
 import { drawnCounts } from '../../src/scene/level_of_detail';
 import { shuffled } from '../../src/scene/point_buffers';
 import { PointBudget } from '../../src/scene/point_budget';
@@ -57,6 +57,15 @@ describe('PointBudget', () => {
     expect(budget.points).toBe(60_000);
     for (let i = 0; i < 10; ++i) budget.learn(budget.points, 4);
     expect(budget.points).toBe(1_000_000);
+  });
+});
+
+describe('heightRange', () => {
+  it('leaves out the highest points and never has less than 2 m', () => {
+    const heights = Array.from({ length: 1000 }, (_, i) => (i < 990 ? -1 + i / 100 : 50));
+    expect(heightRange(heights, -1)).toEqual([-1, -1 + 9.8]);
+    expect(heightRange([-1, 0, 0.2], -1)).toEqual([-1, 1]);
+    expect(heightRange([], -1)).toEqual([-1, 1]);
   });
 });
 
