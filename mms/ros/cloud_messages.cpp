@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <optional>
+#include <span>
 
 #include "mms/core/error.hpp"
+#include "mms/io/cloud/point_fields.hpp"
 
 namespace mms {
 namespace {
@@ -75,9 +76,9 @@ class Column {
 };
 
 std::optional<Column> find_column(const msg::PointCloud2& cloud,
-                                  std::initializer_list<const char*> names,
+                                  std::span<const std::string_view> names,
                                   const std::string& where) {
-  for (const char* name : names) {
+  for (const std::string_view name : names) {
     for (const msg::PointField& field : cloud.point_fields) {
       if (field.name == name) return Column(cloud, field, where);
     }
@@ -85,13 +86,13 @@ std::optional<Column> find_column(const msg::PointCloud2& cloud,
   return std::nullopt;
 }
 
-Column coordinate(const msg::PointCloud2& cloud, const char* name, const std::string& where) {
-  if (const auto column = find_column(cloud, {name}, where)) return *column;
+Column coordinate(const msg::PointCloud2& cloud, std::string_view name, const std::string& where) {
+  if (const auto column = find_column(cloud, {&name, 1}, where)) return *column;
   std::string found;
   for (const msg::PointField& field : cloud.point_fields) {
     found += (found.empty() ? "" : ", ") + field.name;
   }
-  throw DataError(where, std::string("has no field '") + name + "'",
+  throw DataError(where, "has no field '" + std::string(name) + "'",
                   found.empty() ? "it has no fields" : "it has " + found);
 }
 
@@ -114,35 +115,6 @@ void for_points(const msg::PointCloud2& cloud, const Visit& visit) {
   }
 }
 
-/// Unit of point times [s], derived from the scan's duration.
-double unit_of(bool integer, double span) {
-  constexpr double kMinScanTime = 2e-3;  // duration of a scan [s]
-  constexpr double kMaxScanTime = 10.0;
-  if (!integer && span < kMaxScanTime) return 1.0;
-  return span * 1e-9 < kMinScanTime ? 1e-6 : 1e-9;
-}
-
-/// Times relative to the frame's stamp [s].
-std::vector<float> offsets(const std::vector<double>& times, bool integer, Timestamp stamp) {
-  double first = INFINITY;
-  double last = -INFINITY;
-  for (const double time : times) {
-    if (!std::isfinite(time)) continue;
-    first = std::min(first, time);
-    last = std::max(last, time);
-  }
-  if (!(first <= last)) return {};
-  const double unit = unit_of(integer, last - first);
-  constexpr double kAbsolute = 1e6;  // [s]: larger times are absolute, as no scan takes eleven days
-  const bool absolute = first * unit > kAbsolute;
-  std::vector<float> result(times.size());
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const double since = times[i] * unit - (absolute ? stamp.seconds() : 0.0);
-    result[i] = std::isfinite(since) ? static_cast<float>(since) : 0.0F;
-  }
-  return result;
-}
-
 void add_float_field(msg::PointCloud2& message, const char* name) {
   message.point_fields.push_back({name, message.point_step, kFloat32, 1});
   message.point_step += sizeof(float);
@@ -163,22 +135,18 @@ LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::s
     scan.points.push_back(
         Eigen::Vector3d(x(row, column), y(row, column), z(row, column)).cast<float>());
   });
-  const auto intensity =
-      find_column(message, {"intensity", "reflectivity", "reflectance", "i"}, where);
-  if (intensity) {
+  if (const auto intensity = find_column(message, kIntensityNames, where)) {
     scan.intensity.reserve(count);
     for_points(message, [&](std::size_t row, std::size_t column) {
       scan.intensity.push_back(static_cast<float>((*intensity)(row, column)));
     });
   }
-  const auto time =
-      find_column(message, {"t", "time", "timestamp", "time_offset", "offset_time"}, where);
-  if (time) {
+  if (const auto time = find_column(message, kPointTimeNames, where)) {
     std::vector<double> times;
     times.reserve(count);
     for_points(message,
                [&](std::size_t row, std::size_t column) { times.push_back((*time)(row, column)); });
-    scan.time_offset = offsets(times, time->is_integer(), stamp);
+    scan.time_offset = relative_point_times(times, time->is_integer(), stamp);
   }
   return scan;
 }

@@ -290,6 +290,8 @@ TEST(LidarScans, ReadsPcdAndPlyFilesWithNumbersAlone) {
   const TempFolder folder;
   PointCloudFile cloud;
   cloud.points.emplace_back(1.0F, 2.0F, 3.0F);
+  cloud.intensities = {0.5F};
+  cloud.time_offsets = {0.02F};
   write_pcd(folder.path() / "000000.pcd", cloud);
   write_pcd(folder.path() / "000001.pcd", cloud);
   write_pcd(folder.path() / "static_map.pcd", cloud);
@@ -297,6 +299,8 @@ TEST(LidarScans, ReadsPcdAndPlyFilesWithNumbersAlone) {
   const Playback played(open_dataset(folder.path()));
   EXPECT_EQ(played.names(), "000000 000001");
   EXPECT_EQ(played.frames[1].stamp, Timestamp(100'000'000));
+  EXPECT_EQ(played.frames[1].scan.intensity, cloud.intensities);
+  EXPECT_EQ(played.frames[1].scan.time_offset, cloud.time_offsets);
   EXPECT_EQ(truth_step(*played.source).translation().x(), 1.0);
   const TempFolder result;
   write_ply(result.path() / "static_map.ply", cloud);

@@ -117,7 +117,9 @@ TEST(SimulationWriter, GroundTruthMapComesWithLastFrame) {
 TEST(SimulationWriter, RejectsGroundTruthMapWithoutLabels) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(), 1);
-  write_ply(folder.path() / "map_truth.ply", {{{1.0F, 2.0F, 3.0F}}, {}, {}, {}, {}});
+  PointCloudFile map;
+  map.points = {{1.0F, 2.0F, 3.0F}};
+  write_ply(folder.path() / "map_truth.ply", map);
   const auto source = open_dataset(folder.path());
   source->next();
   expect_in("map_truth.ply: has no property 'label'",

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mms/core/error.hpp"
+#include "mms/io/cloud/lzf.hpp"
 #include "mms/io/cloud/pcd_io.hpp"
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/text/files.hpp"
@@ -26,6 +27,8 @@ PointCloudFile full_cloud() {
     cloud.colors.push_back({byte, 255, static_cast<std::uint8_t>(255 - byte)});
     cloud.labels.push_back(i % 7 - 1);
     cloud.observations.push_back(i * 1000);
+    cloud.intensities.push_back(static_cast<float>(i));
+    cloud.time_offsets.push_back(1e-3F * static_cast<float>(i));
   }
   return cloud;
 }
@@ -36,6 +39,8 @@ void expect_equal(const PointCloudFile& a, const PointCloudFile& b) {
   EXPECT_EQ(a.colors, b.colors);
   EXPECT_EQ(a.labels, b.labels);
   EXPECT_EQ(a.observations, b.observations);
+  EXPECT_EQ(a.intensities, b.intensities);
+  EXPECT_EQ(a.time_offsets, b.time_offsets);
 }
 
 TEST(PointCloudIo, RoundTripsExactly) {
@@ -81,6 +86,90 @@ TEST(PointCloudIo, RejectsVectorsOfDifferentLength) {
             message_of<DataError>([&] { write_ply(folder.path() / "a.ply", cloud); }));
   message_of<DataError>([&] { write_pcd(folder.path() / "a.pcd", cloud); });
   EXPECT_TRUE(list_folder(folder.path()).empty());
+}
+
+/// Columns of 40 points, compressed by LibLZF: x y z, a field of two bytes, and an index.
+const char* const kCompressed =
+    "010000e0070001803fe00503010040e005030040200fe003030080200fe0030300a0200fe0030300c0200fe0"
+    "030300e0200fe00303010041e005030010200fe003030020202fe09303400001803e2005213700402003413f"
+    "00a0200700c0200300e020034000e0721f010102e04402204c1f030405060708090a0b0c0d0e0f1011121314"
+    "15161718191a1b1c1d1e1f202122042324252627";
+
+std::string bytes_of(std::string_view hex) {
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
+    bytes += static_cast<char>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16));
+  }
+  return bytes;
+}
+
+/// @param size  of the data before compression, as the file states it
+std::string compressed_pcd(const std::string& data, std::uint32_t size, int points = 40) {
+  const auto compressed = static_cast<std::uint32_t>(data.size());
+  std::string sizes(8, '\0');
+  std::memcpy(sizes.data(), &compressed, 4);
+  std::memcpy(sizes.data() + 4, &size, 4);
+  return "VERSION 0.7\nFIELDS x y z _ intensity\nSIZE 4 4 4 1 1\nTYPE F F F U U\nCOUNT 1 1 1 2 1\n"
+         "POINTS " +
+         std::to_string(points) + "\nDATA binary_compressed\n" + sizes + data;
+}
+
+TEST(Pcd, ReadsCompressedPoints) {
+  const TempFolder folder;
+  const PointCloudFile cloud =
+      read_pcd(folder.write("a.pcd", compressed_pcd(bytes_of(kCompressed), 600)));
+  ASSERT_EQ(cloud.points.size(), 40U);
+  for (int i = 0; i < 40; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    EXPECT_EQ(cloud.points[at],
+              Eigen::Vector3f(static_cast<float>(i / 4), 2.5F, 0.25F * static_cast<float>(i % 8)));
+    EXPECT_EQ(cloud.intensities[at], static_cast<float>(i));
+  }
+}
+
+TEST(Pcd, RejectsDamagedCompressedPoints) {
+  const TempFolder folder;
+  const std::string data = bytes_of(kCompressed);
+  const std::pair<std::string, const char*> cases[] = {
+      {compressed_pcd(data, 601), "have 601 bytes for 40 points of 15"},
+      {compressed_pcd(data, 600, 41), "have 600 bytes for 41 points of 15"},
+      {compressed_pcd(data, 4'294'967'295U, 286'331'153), "cannot be decompressed"},
+      {compressed_pcd(data.substr(0, 100), 600), "cannot be decompressed"},
+      {compressed_pcd(data, 600).substr(0, 200), "bytes of 152"},
+  };
+  for (const auto& [bytes, expected] : cases) {
+    expect_in(expected, message_of<DataError>([&] { read_pcd(folder.write("a.pcd", bytes)); }));
+  }
+}
+
+TEST(Lzf, Decompresses) {
+  const std::string long_match = bytes_of("016161e0ff00e0ff00e0ff00e0c500026d6d73");
+  EXPECT_EQ(decompress_lzf(long_match, 1003), std::string(1000, 'a') + "mms");
+  EXPECT_FALSE(decompress_lzf(long_match, 1002));
+  EXPECT_FALSE(decompress_lzf(long_match, 1004));
+  EXPECT_FALSE(decompress_lzf(bytes_of("20"), 3));      // without a distance
+  EXPECT_FALSE(decompress_lzf(bytes_of("2000"), 3));    // from before the start
+  EXPECT_FALSE(decompress_lzf(bytes_of("e0"), 9));      // without a length
+  EXPECT_FALSE(decompress_lzf(bytes_of("056161"), 6));  // fewer literals
+  EXPECT_EQ(decompress_lzf("", 0), "");
+}
+
+TEST(PointCloudIo, ReadsIntensityAndTimeByTheirCustomaryNames) {
+  const TempFolder folder;
+  // as of an Ouster: reflectivity only counts without intensity
+  const auto pcd = folder.write("a.pcd",
+                                "VERSION 0.7\nFIELDS x y z reflectivity t intensity ring\n"
+                                "SIZE 4 4 4 2 4 4 1\nTYPE F F F U U F U\nWIDTH 2\nHEIGHT 1\n"
+                                "POINTS 2\nDATA ascii\n1 2 3 9 0 0.5 7\n1 2 3 9 50000000 0.25 8\n");
+  EXPECT_EQ(read_pcd(pcd).intensities, (std::vector<float>{0.5F, 0.25F}));
+  EXPECT_EQ(read_pcd(pcd).time_offsets, (std::vector<float>{0.0F, 0.05F}));
+  const auto ply = folder.write("a.ply",
+                                "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+                                "property float y\nproperty float z\nproperty double timestamp\n"
+                                "property uchar reflectance\nend_header\n"
+                                "1 2 3 1700000000.5 7\n1 2 3 1700000000.75 200\n");
+  EXPECT_EQ(read_ply(ply).intensities, (std::vector<float>{7.0F, 200.0F}));
+  EXPECT_EQ(read_ply(ply).time_offsets, (std::vector<float>{0.0F, 0.25F}));
 }
 
 TEST(Ply, ReadsForeignAscii) {
@@ -168,7 +257,8 @@ TEST(Pcd, RejectsInvalidHeaders) {
   const std::pair<std::string, const char*> cases[] = {
       {"hello\n", "the header does not end"},
       {"DATA binary\n", "missing FIELDS"},
-      {xyz + "POINTS 5\nDATA binary_compressed\n", "unsupported DATA 'binary_compressed'"},
+      {xyz + "POINTS 5\nDATA zipped\n", "unsupported DATA 'zipped'"},
+      {xyz + "POINTS 5\nDATA binary_compressed\n1234567", "compressed data are missing"},
       {xyz + "POINTS 5\nDATA binary\n0123456789ab",
        "promises 5 points, but has only the bytes of 1"},
       {xyz + "POINTS\nDATA binary\n", "is not a count"},

@@ -169,8 +169,12 @@ TEST(BadInput, SurvivesNonFiniteScanPoints) {
   expect_skipped(folder, 3, 0, "warning");
   const Trajectory poses = read_trajectory_tum(folder.path() / "out/trajectory.tum");
   EXPECT_NEAR(poses[1].T_world_sensor.translation().x(), 0.05, 0.02);
-  for (const auto& point : read_ply(folder.path() / "out/static_map.ply").points) {
-    ASSERT_TRUE(point.allFinite());
+  const PointCloudFile map = read_ply(folder.path() / "out/static_map.ply");
+  for (const auto& point : map.points) ASSERT_TRUE(point.allFinite());
+  ASSERT_EQ(map.intensities.size(), map.points.size());
+  for (const float intensity : map.intensities) {
+    ASSERT_GE(intensity, 0.0F);
+    ASSERT_LE(intensity, 1.0F);
   }
 }
 

@@ -76,12 +76,13 @@ void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
     const fs::path picture = check("changes.ply");
     const MapChangeCloud changes = find_changes(file, content, DepthNoise{}, warn);
     map = points_of(changes, {Change::kUnchanged, Change::kNew, Change::kUnknown});
-    write_ply(picture, file_of(picture_of(changes)), ply_comments(MapFrame::kCamera));
+    write_ply(picture, file_of(picture_of(changes), MapFrame::kCamera),
+              ply_comments(MapFrame::kCamera));
     fmt::print("{}: {} new, {} gone\n", picture.string(), points_of(changes, {Change::kNew}).size(),
                points_of(changes, {Change::kGone}).size());
   }
-  write_ply(ply, file_of(map), ply_comments(MapFrame::kCamera));
-  write_pcd(pcd, file_of(map));
+  write_ply(ply, file_of(map, MapFrame::kCamera), ply_comments(MapFrame::kCamera));
+  write_pcd(pcd, file_of(map, MapFrame::kCamera));
   fmt::print("{}: {} points of {} sessions\n", ply.string(), map.size(), joined.size());
   if (joined.size() == file.sessions().size()) return;
   warn(fmt::format("{} sessions are left out, since no loop joins them to the first one",

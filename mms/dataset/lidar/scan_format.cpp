@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "mms/core/error.hpp"
 #include "mms/io/cloud/pcd_io.hpp"
@@ -80,10 +81,9 @@ LidarScan read_nclt(const fs::path& path) {
 }
 
 LidarScan read_cloud_file(const fs::path& path) {
-  LidarScan scan;
-  scan.points = path.extension() == ".pcd" ? read_pcd(path).points : read_ply(path).points;
-  if (scan.points.empty()) throw DataError(path.string(), "has no points");
-  return scan;
+  PointCloudFile cloud = path.extension() == ".pcd" ? read_pcd(path) : read_ply(path);
+  if (cloud.points.empty()) throw DataError(path.string(), "has no points");
+  return {std::move(cloud.points), std::move(cloud.intensities), std::move(cloud.time_offsets)};
 }
 
 /// Scans with missing points have no such order.
@@ -104,7 +104,7 @@ LidarScan read_scan(const fs::path& path, const ScanFormat& format) {
   LidarScan scan = format.kind == ScanFormat::Kind::kNclt        ? read_nclt(path)
                    : format.kind == ScanFormat::Kind::kCloudFile ? read_cloud_file(path)
                                                                  : read_float_records(path, format);
-  if (format.has_columns) add_column_times(scan);
+  if (format.has_columns && scan.time_offset.empty()) add_column_times(scan);
   return scan;
 }
 

@@ -12,11 +12,12 @@ namespace fs = std::filesystem;
 namespace {
 
 PointCloudFile file_of(TruthCloud cloud) {
-  return {std::move(cloud.points),
-          std::move(cloud.normals),
-          std::move(cloud.colors),
-          std::move(cloud.labels),
-          {}};
+  PointCloudFile file;
+  file.points = std::move(cloud.points);
+  file.normals = std::move(cloud.normals);
+  file.colors = std::move(cloud.colors);
+  file.labels = std::move(cloud.labels);
+  return file;
 }
 
 /// Poses from the first to the last frame with at least `rate` [Hz].

@@ -1,8 +1,11 @@
 #include "mms/io/cloud/pcd_io.hpp"
 
+#include <cstring>
 #include <map>
+#include <numeric>
 
 #include "mms/core/error.hpp"
+#include "mms/io/cloud/lzf.hpp"
 #include "mms/io/cloud/point_record.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
@@ -24,6 +27,8 @@ const std::map<std::string, Channel> kPcdChannels = {{"x", Channel::kX},
                                                      {"normal_z", Channel::kNormalZ},
                                                      {"rgb", Channel::kPackedRgb},
                                                      {"label", Channel::kLabel},
+                                                     {"intensity", Channel::kIntensity},
+                                                     {"time", Channel::kTime},
                                                      {"observations", Channel::kObservations}};
 
 /// Header lines by keyword, up to and including DATA.
@@ -55,6 +60,7 @@ PointRecord read_record(const HeaderText& header, PcdHeader& lines) {
     header.fail("FIELDS, SIZE, TYPE and COUNT differ in length");
   }
   PointRecord record;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const auto type = kPcdTypes.find(types[i] + sizes[i]);
     if (type == kPcdTypes.end()) header.fail("unknown TYPE and SIZE '" + types[i] + sizes[i] + "'");
@@ -63,9 +69,52 @@ PointRecord read_record(const HeaderText& header, PcdHeader& lines) {
     if (count > kMaxColumns) header.fail("COUNT is " + counts[i] + ", allowed: up to 4096");
     const bool single = known != kPcdChannels.end() && count == 1;
     record.insert(record.end(), count, {single ? known->second : Channel::kOther, type->second});
+    names.insert(names.end(), count, count == 1 ? fields[i] : "");
   }
+  find_lidar_columns(record, names);
   check_record(record, header.where());
   return record;
+}
+
+std::uint32_t word_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + at, sizeof word);
+  return word;
+}
+
+/// The points of binary_compressed data: two sizes, then all values of the first field, those of
+/// the second and so on, compressed.
+/// @param widths  of the fields of a point [B]
+std::string decompressed(std::string_view data, std::uint64_t count,
+                         const std::vector<std::size_t>& widths, const std::string& where) {
+  constexpr std::size_t kSizes = 2 * sizeof(std::uint32_t);
+  const std::size_t stride = std::accumulate(widths.begin(), widths.end(), std::size_t{0});
+  const auto fail = [&](const std::string& what) {
+    throw DataError(where, "its compressed data " + what, "the file may be truncated or damaged");
+  };
+  if (data.size() < kSizes) fail("are missing");
+  const std::size_t compressed = word_at(data, 0);
+  const std::size_t size = word_at(data, sizeof(std::uint32_t));
+  if (compressed > data.size() - kSizes) {
+    fail("have " + std::to_string(data.size() - kSizes) + " bytes of " +
+         std::to_string(compressed));
+  }
+  if (size / stride != count || size % stride != 0) {
+    fail("have " + std::to_string(size) + " bytes for " + std::to_string(count) + " points of " +
+         std::to_string(stride));
+  }
+  const auto columns = decompress_lzf(data.substr(kSizes, compressed), size);
+  if (!columns) fail("cannot be decompressed");
+  std::string points(size, '\0');
+  std::size_t offset = 0;
+  const char* from = columns->data();
+  for (const std::size_t width : widths) {
+    for (std::size_t i = 0; i < count; ++i, from += width) {
+      std::memcpy(points.data() + i * stride + offset, from, width);
+    }
+    offset += width;
+  }
+  return points;
 }
 
 std::string_view pcd_name(Channel channel) {
@@ -84,11 +133,18 @@ PointCloudFile read_pcd(const std::filesystem::path& path) {
   const PointRecord record = read_record(text, lines);
   const auto word = [&](const std::string& key) { return lines[key].empty() ? "" : lines[key][0]; };
   const std::string data = word("DATA");
-  if (data != "ascii" && data != "binary") {
-    text.fail("unsupported DATA '" + data + "'", "supported: ascii, binary");
+  const std::uint64_t count = text.count(word("POINTS"));
+  if (data == "ascii") return decode_ascii(text.rest(), count, record, path.string());
+  if (data == "binary") return decode_binary(text.rest(), count, record, path.string());
+  if (data == "binary_compressed") {
+    std::vector<std::size_t> widths;
+    for (std::size_t i = 0; i < lines["SIZE"].size(); ++i) {
+      widths.push_back(text.count(lines["SIZE"][i]) * text.count(lines["COUNT"][i]));
+    }
+    return decode_binary(decompressed(text.rest(), count, widths, path.string()), count, record,
+                         path.string());
   }
-  const auto decode = data == "ascii" ? decode_ascii : decode_binary;
-  return decode(text.rest(), text.count(word("POINTS")), record, path.string());
+  text.fail("unsupported DATA '" + data + "'", "supported: ascii, binary, binary_compressed");
 }
 
 void write_pcd(const std::filesystem::path& path, const PointCloudFile& cloud) {

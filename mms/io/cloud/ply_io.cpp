@@ -31,6 +31,8 @@ const std::map<std::string, Channel> kPlyChannels = {{"x", Channel::kX},
                                                      {"green", Channel::kGreen},
                                                      {"blue", Channel::kBlue},
                                                      {"label", Channel::kLabel},
+                                                     {"intensity", Channel::kIntensity},
+                                                     {"time", Channel::kTime},
                                                      {"observations", Channel::kObservations}};
 
 struct PlyHeader {
@@ -68,6 +70,7 @@ PlyHeader read_ply_header(HeaderText& header) {
   PlyHeader result;
   result.ascii = read_format(header);
   std::string element;
+  std::vector<std::string> names;
   for (auto words = header.next_line(); words[0] != "end_header"; words = header.next_line()) {
     if (words[0] == "element") {
       if (words.size() != 3) header.fail("expected 'element NAME COUNT'");
@@ -79,8 +82,10 @@ PlyHeader read_ply_header(HeaderText& header) {
       header.fail("unexpected '" + words[0] + "' in the header");
     } else if (element == "vertex") {
       result.record.push_back(read_property(header, words));
+      names.push_back(words[2]);
     }
   }
+  find_lidar_columns(result.record, names);
   check_record(result.record, header.where());
   return result;
 }

@@ -31,6 +31,8 @@ std::size_t remove_invalid_points(PointCloudFile& cloud) {
   keep_valid(cloud.colors, valid);
   keep_valid(cloud.labels, valid);
   keep_valid(cloud.observations, valid);
+  keep_valid(cloud.intensities, valid);
+  keep_valid(cloud.time_offsets, valid);
   return invalid;
 }
 

@@ -17,7 +17,9 @@ struct PointCloudFile {
   std::vector<std::int32_t>
       labels;  ///< property label; ground-truth maps: 0 static, else object id
   std::vector<std::int32_t>
-      observations;  ///< property observations: frames that observed the point
+      observations;                   ///< property observations: frames that observed the point
+  std::vector<float> intensities{};   ///< property intensity; of the sensor, or [0, 1] in maps
+  std::vector<float> time_offsets{};  ///< property time: relative to the scan's stamp [s]
 };
 
 /// Removes points whose position is not finite, as PCL marks missing returns, and sets normals that

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "mms/core/error.hpp"
+#include "mms/io/cloud/point_fields.hpp"
 #include "mms/io/cloud/point_record.hpp"
 #include "mms/io/text/numbers.hpp"
 
@@ -68,7 +69,7 @@ class CloudBuilder {
   CloudBuilder(std::uint64_t count, const PointRecord& record, std::string where)
       : where_(std::move(where)) {
     cloud_.points.resize(count);
-    for (const PointColumn& column : record) resize(column.channel, count);
+    for (const PointColumn& column : record) resize(column, count);
   }
 
   void set(std::size_t i, Channel channel, double value) {
@@ -106,6 +107,12 @@ class CloudBuilder {
       case Channel::kObservations:
         cloud_.observations[i] = whole<std::int32_t>(value, where_);
         break;
+      case Channel::kIntensity:
+        cloud_.intensities[i] = coordinate(value);
+        break;
+      case Channel::kTime:
+        times_[i] = value;
+        break;
       case Channel::kPackedRgb:
       case Channel::kOther:
         break;
@@ -114,17 +121,27 @@ class CloudBuilder {
 
   void set_packed(std::size_t i, std::uint32_t packed) { cloud_.colors[i] = unpack(packed); }
 
-  PointCloudFile take() { return std::move(cloud_); }
+  PointCloudFile take() {
+    cloud_.time_offsets = relative_point_times(times_, integer_times_, std::nullopt);
+    return std::move(cloud_);
+  }
 
  private:
-  void resize(Channel channel, std::uint64_t count) {
+  void resize(const PointColumn& column, std::uint64_t count) {
+    const Channel channel = column.channel;
     if (channel == Channel::kNormalX) cloud_.normals.resize(count);
     if (channel == Channel::kRed || channel == Channel::kPackedRgb) cloud_.colors.resize(count);
     if (channel == Channel::kLabel) cloud_.labels.resize(count);
     if (channel == Channel::kObservations) cloud_.observations.resize(count);
+    if (channel == Channel::kIntensity) cloud_.intensities.resize(count);
+    if (channel != Channel::kTime) return;
+    times_.resize(count);
+    integer_times_ = column.type < ScalarType::kFloat32;
   }
 
   PointCloudFile cloud_;
+  std::vector<double> times_;  ///< as stored
+  bool integer_times_ = false;
   std::string where_;
 };
 

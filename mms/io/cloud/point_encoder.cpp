@@ -45,6 +45,10 @@ void put(std::string& bytes, const PointCloudFile& cloud, std::size_t i, Channel
       return put(bytes, cloud.labels[i]);
     case Channel::kObservations:
       return put(bytes, cloud.observations[i]);
+    case Channel::kIntensity:
+      return put(bytes, cloud.intensities[i]);
+    case Channel::kTime:
+      return put(bytes, cloud.time_offsets[i]);
     case Channel::kOther:
       return;
   }

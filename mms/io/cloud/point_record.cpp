@@ -4,6 +4,7 @@
 #include <span>
 
 #include "mms/core/error.hpp"
+#include "mms/io/cloud/point_fields.hpp"
 
 namespace mms {
 namespace {
@@ -63,7 +64,27 @@ PointRecord record_of(const PointCloudFile& cloud, bool packed_rgb) {
   if (has(cloud.observations, "observations")) {
     record.push_back({Channel::kObservations, ScalarType::kInt32});
   }
+  if (has(cloud.intensities, "intensities")) {
+    record.push_back({Channel::kIntensity, ScalarType::kFloat32});
+  }
+  if (has(cloud.time_offsets, "times")) record.push_back({Channel::kTime, ScalarType::kFloat32});
   return record;
+}
+
+void find_lidar_columns(PointRecord& record, const std::vector<std::string>& names) {
+  const auto find = [&](std::span<const std::string_view> known, Channel channel) {
+    for (PointColumn& column : record) {
+      if (column.channel == channel) column.channel = Channel::kOther;
+    }
+    for (const std::string_view name : known) {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end()) continue;
+      record[static_cast<std::size_t>(found - names.begin())].channel = channel;
+      return;
+    }
+  };
+  find(kIntensityNames, Channel::kIntensity);
+  find(kPointTimeNames, Channel::kTime);
 }
 
 void check_record(const PointRecord& record, const std::string& where) {

@@ -33,6 +33,8 @@ enum class Channel {
   kPackedRgb,
   kLabel,
   kObservations,
+  kIntensity,
+  kTime,
   kOther
 };
 
@@ -51,6 +53,10 @@ std::size_t stride_of(const PointRecord& record);
 /// The columns for a cloud, with packed or separate colors.
 /// @throws DataError if the cloud's vectors differ in size.
 PointRecord record_of(const PointCloudFile& cloud, bool packed_rgb);
+
+/// Gives the columns of intensity and time, which have many names, their channels.
+/// @param names  of the columns
+void find_lidar_columns(PointRecord& record, const std::vector<std::string>& names);
 
 /// Checks that x y z are present, that no channel appears twice and that colors are bytes.
 /// @throws DataError at `where`.

@@ -126,19 +126,10 @@ Image<std::uint8_t> near_dynamic(const Image<std::uint8_t>& dynamic, int radius)
   return dilated;
 }
 
-/// Grey for an intensity. Most surfaces reflect little: the root spreads these, and the darkest
-/// ones are still seen before a dark background.
-Rgb grey_of(std::uint8_t intensity) {
-  constexpr float kDarkest = 55.0F;
-  const float share = std::sqrt(static_cast<float>(intensity) / 255.0F);
-  const auto grey = static_cast<std::uint8_t>(std::lround(kDarkest + (255.0F - kDarkest) * share));
-  return {grey, grey, grey};
-}
-
 /// The intensity of a LiDAR without a camera is a grey.
 Rgb color_of(const LabeledCloud& cloud, std::size_t i) {
   if (!cloud.colors.empty()) return cloud.colors[i];
-  return cloud.intensity.empty() ? SurfacePoint{}.color : grey_of(cloud.intensity[i]);
+  return cloud.intensity.empty() ? kNoColor : grey_of(cloud.intensity[i]);
 }
 
 std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const SurfaceConfig& config,

@@ -6,6 +6,7 @@
 #include "mms/core/config_visitor.hpp"
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/geometry/sensor_noise.hpp"
+#include "mms/mapping/static_map/intensity_grey.hpp"
 
 namespace mms {
 
@@ -35,7 +36,7 @@ struct SurfacePoint {
   Eigen::Vector3f point;                             ///< [m]
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the sensor; zero if unknown
   float weight = 1.0F;                               ///< 1 / variance, 1 at the least noise
-  Rgb color{128, 128, 128};
+  Rgb color = kNoColor;
 };
 
 /// Weight of a point whose depth has that noise [m].

@@ -3,6 +3,7 @@
 #include "mms/io/cloud/pcd_io.hpp"
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
+#include "mms/mapping/static_map/intensity_grey.hpp"
 
 namespace mms {
 
@@ -17,13 +18,19 @@ std::vector<std::string> ply_comments(MapFrame frame) {
                           : "frame: world, the first LiDAR frame, x forward, y left, z up"};
 }
 
-PointCloudFile file_of(const MapCloud& map) {
-  return {map.points, map.normals, map.colors, {}, map.observations};
+PointCloudFile file_of(const MapCloud& map, MapFrame frame) {
+  PointCloudFile file;
+  file.points = map.points;
+  file.normals = map.normals;
+  file.colors = map.colors;
+  file.observations = map.observations;
+  if (frame == MapFrame::kLidar) file.intensities = intensities_of(map.colors);
+  return file;
 }
 
 void write_result_files(const std::filesystem::path& folder, const Trajectory& trajectory,
                         const Trajectory& keyframes, const MapCloud& map, MapFrame frame) {
-  const PointCloudFile file = file_of(map);
+  const PointCloudFile file = file_of(map, frame);
   write_trajectory_tum(folder / "trajectory.tum", trajectory);
   write_trajectory_kitti(folder / "trajectory_kitti.txt", trajectory);
   write_trajectory_tum(folder / "keyframes.tum", keyframes);

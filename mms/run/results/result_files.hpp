@@ -23,8 +23,8 @@ MapCloud result_map(const StaticMap& map, MapFrame frame, const StampCorrection&
 /// Comments of PLY files that say their frame.
 std::vector<std::string> ply_comments(MapFrame frame);
 
-/// The map as content of a point cloud file.
-PointCloudFile file_of(const MapCloud& map);
+/// The map as content of a point cloud file; that of a LiDAR without a camera with intensities.
+PointCloudFile file_of(const MapCloud& map, MapFrame frame);
 
 /// Writes trajectory.tum, trajectory_kitti.txt, keyframes.tum, static_map.ply and static_map.pcd.
 /// @throws FileError with the file that cannot be written.

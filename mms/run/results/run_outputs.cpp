@@ -112,7 +112,7 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
   write_robot_maps(folder, system.occupancy_map(), system.static_map().cloud(), log.has_image());
   write_file(folder / "objects.json", objects_json(log.objects()));
   const MapCloud with_objects = semantic_map(map, log.objects());
-  write_ply(folder / "semantic_map.ply", file_of(with_objects), ply_comments(frame));
+  write_ply(folder / "semantic_map.ply", file_of(with_objects, frame), ply_comments(frame));
   write_file(folder / "config.yaml", dump_config(config));
   write_metrics(folder / "metrics.json", log.metrics());
   if (log.metrics().loops) {

@@ -50,7 +50,10 @@ Trajectory trajectory_of(const Scene& scene) {
 
 PointCloudFile map_of(Scene& scene) {
   ColoredPoints cloud = scene.read_map([](const MapChunks& map) { return map.cloud(); });
-  return {std::move(cloud.points), {}, std::move(cloud.colors), {}, {}};
+  PointCloudFile file;
+  file.points = std::move(cloud.points);
+  file.colors = std::move(cloud.colors);
+  return file;
 }
 
 }  // namespace
