@@ -148,7 +148,9 @@ void SlamRun::warn(const std::string& message, RunObserver& observer) {
 /// Checks frames of about the first second; called in the reading thread.
 void SlamRun::check_plausibility(const Frame& frame, RunObserver& observer) {
   constexpr std::int64_t kStride = 4;  // frames; neighbors are too similar
-  if (!check_ || (frame.index - static_cast<std::int64_t>(options_.start)) % kStride != 0) return;
+  if (!check_) return;
+  if (check_->frames_in_sequence() < RecordingCheck::kSequence) check_->add_in_sequence(frame);
+  if ((frame.index - static_cast<std::int64_t>(options_.start)) % kStride != 0) return;
   check_->add(frame);
   if (check_->frames() >= RecordingCheck::kFrames) report_implausible(observer);
 }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "mms/dataset/open_dataset.hpp"
@@ -27,6 +29,40 @@ Frames frames_of(const std::string& data, std::size_t step = 0) {
   return frames;
 }
 
+/// Frames in sequence from the middle of a recording.
+Frames sequence_of(const std::string& data, std::size_t count = RecordingCheck::kSequence) {
+  const auto source = open_dataset(data, {});
+  source->skip((source->size() - count) / 2);
+  Frames frames;
+  while (frames.size() < count) frames.push_back(source->next().value());
+  return frames;
+}
+
+std::string text_of(const RecordingCheck& check) {
+  std::string text;
+  for (const std::string& fault : check.faults()) text += fault + "\n";
+  return text;
+}
+
+/// All faults of frames in sequence, in one text.
+std::string faults_in_sequence(const Frames& frames) {
+  RecordingCheck check;
+  for (const Frame& frame : frames) check.add_in_sequence(frame);
+  return text_of(check);
+}
+
+/// The frames with the depth images and masks of others, so many frames before; fewer frames.
+Frames delayed(const Frames& frames, std::ptrdiff_t depth, std::ptrdiff_t mask = 0) {
+  const std::ptrdiff_t margin = std::max(std::abs(depth), std::abs(mask));
+  Frames result;
+  for (auto frame = frames.begin() + margin; frame < frames.end() - margin; ++frame) {
+    result.push_back(*frame);
+    result.back().depth = (frame - depth)->depth;
+    result.back().mask = (frame - mask)->mask;
+  }
+  return result;
+}
+
 /// All faults of the frames, in one text.
 std::string faults_of(const Frames& frames, Change change = nullptr) {
   RecordingCheck check;
@@ -34,9 +70,7 @@ std::string faults_of(const Frames& frames, Change change = nullptr) {
     if (change != nullptr) change(frame);
     check.add(frame);
   }
-  std::string text;
-  for (const std::string& fault : check.faults()) text += fault + "\n";
-  return text;
+  return text_of(check);
 }
 
 template <int kPermille>
@@ -95,6 +129,13 @@ void change_camera(Frame& frame, void (*change)(CameraIntrinsics& camera)) {
   frame.calibration = calibration;
 }
 
+void mirror_mask(Frame& frame) {
+  const Image<std::uint8_t> right = frame.mask;
+  for (int y = 0; y < right.height(); ++y) {
+    for (int x = 0; x < right.width(); ++x) frame.mask(x, y) = right(right.width() - 1 - x, y);
+  }
+}
+
 void swap_center(Frame& frame) {
   change_camera(frame, [](CameraIntrinsics& camera) { std::swap(camera.cx, camera.cy); });
 }
@@ -148,6 +189,75 @@ INSTANTIATE_TEST_SUITE_P(All, PlausibleRecording,
                                          "sim:crowd?hz=1&frames=8", "sim:stop_and_go?hz=1&frames=8",
                                          "sim:corridor?hz=1&frames=8", "sim:static?hz=1&frames=8",
                                          "sim:fast?hz=1&frames=8", "sim:rack_aisle?hz=1&frames=8"));
+
+class PlausibleSequence : public testing::TestWithParam<const char*> {};
+
+TEST_P(PlausibleSequence, RaisesNoAlarmAndDelaysAreNoticed) {
+  std::string data = GetParam();
+  if (!data.starts_with("sim:")) {
+    data = (fs::path(MMS_SOURCE_DIR) / "../shared/data/rgbd" / data).string();
+    if (!fs::exists(data)) GTEST_SKIP() << data << " does not exist";
+  }
+  EXPECT_EQ(faults_in_sequence(sequence_of(data)), "");
+  const Frames frames = sequence_of(data, RecordingCheck::kSequence + 6);
+  for (const std::ptrdiff_t delay : {3, -3}) {
+    const std::string faults = faults_in_sequence(delayed(frames, delay));
+    const std::string expected = delay > 0 ? "behind" : "ahead of";
+    EXPECT_NE(faults.find("ms) " + expected + " the color images"), std::string::npos)
+        << delay << ": " << faults;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlausibleSequence,
+                         testing::Values("fr1_xyz_clip", "desk_crowd", "lab_crowd",
+                                         "sim:still_walker?frames=30", "sim:crowd?frames=30",
+                                         "sim:fast?frames=30", "sim:rack_aisle?frames=30"));
+
+/// With few edges in the depth, a delay may stay unnoticed.
+TEST(RecordingCheck, RaisesNoAlarmForFewEdges) {
+  for (const char* data : {"sim:corridor?seed=2&frames=80", "sim:stop_and_go?frames=30",
+                           "sim:warehouse_loop?frames=30", "sim:static?frames=30"}) {
+    EXPECT_EQ(faults_in_sequence(sequence_of(data)), "") << data;
+  }
+}
+
+TEST(RecordingCheck, NoticesMasksOfOtherFramesAndMirroredOnes) {
+  for (const char* data : {"sim:crowd?seed=42&frames=30", "sim:still_walker?seed=7&frames=30"}) {
+    const Frames frames = sequence_of(data, RecordingCheck::kSequence + 6);
+    EXPECT_EQ(faults_of(frames), "") << data;
+    EXPECT_NE(faults_of(frames, mirror_mask).find("the masks are mirrored left to right"),
+              std::string::npos)
+        << data << ": " << faults_of(frames, mirror_mask);
+    const std::string late = faults_in_sequence(delayed(frames, 0, 3));
+    EXPECT_NE(late.find("the masks are 3 frames (200 ms) behind"), std::string::npos)
+        << data << ": " << late;
+  }
+}
+
+TEST(RecordingCheck, NoticesFrameRateTooLowForTheMotion) {
+  const auto rate = [](const char* data) { return faults_in_sequence(sequence_of(data)); };
+  EXPECT_NE(rate("sim:fast?hz=5&frames=16").find("of its width between frames, 200 ms apart"),
+            std::string::npos)
+      << rate("sim:fast?hz=5&frames=16");
+  EXPECT_EQ(rate("sim:warehouse_loop?hz=5&frames=16"), "");
+}
+
+TEST(RecordingCheck, NoticesBlurredImages) {
+  Frames frames = sequence_of("sim:warehouse_loop?frames=30");
+  for (Frame& frame : frames) {
+    const Image<Rgb> sharp = frame.color;
+    for (int y = 0; y < sharp.height(); ++y) {
+      for (int x = 12; x + 12 < sharp.width(); ++x) {
+        int sum = 0;
+        for (int dx = -12; dx <= 12; ++dx) sum += sharp(x + dx, y).g;
+        const auto mean = static_cast<std::uint8_t>(sum / 25);
+        frame.color(x, y) = {mean, mean, mean};
+      }
+    }
+  }
+  EXPECT_NE(faults_in_sequence(frames).find("the images are blurred"), std::string::npos)
+      << faults_in_sequence(frames);
+}
 
 /// Recordings that were not used to choose the limits.
 TEST(RecordingCheck, NoticesMistakesInOtherScenes) {

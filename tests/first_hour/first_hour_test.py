@@ -324,6 +324,27 @@ def cx_and_cy_swapped(folder):
     set_key(path, "cy", cx)
 
 
+MOVING = ["run", "moving", "--segmenter", "masks", "-o", "out"]
+
+
+@case(0, "implausible: the depth images are 3 frames (200 ms) behind", args=MOVING)
+def depth_images_of_earlier_frames(folder):
+    simulate(folder, "moving", "--frames", "16")
+    path = folder / "moving/depth.txt"
+    stamps = [line.split()[0] for line in lines(path)]
+    images = [line.split()[1] for line in lines(path)]
+    pairs = zip(stamps[3:], images)
+    path.write_text("".join(f"{stamp} {image}\n" for stamp, image in pairs))
+
+
+@case(0, "implausible: the masks are 3 frames (200 ms) behind", args=MOVING)
+def masks_of_earlier_frames(folder):
+    simulate(folder, "moving", "--frames", "16")
+    masks = sorted((folder / "moving/masks").iterdir())
+    for late, early in reversed(list(zip(masks[3:], masks))):
+        shutil.copy(early, late)
+
+
 @case(1, "camera_matrix has 2 numbers, expected nine", args=RUN + ["--calibration", "camera.yaml"])
 def a_calibration_file_without_camera(folder):
     (folder / "camera.yaml").write_text("camera_matrix: {data: [1, 2]}\n")

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mms/core/random_stream.hpp"
-#include "mms/fusion/masks/image_blur.hpp"
+#include "mms/geometry/image_blur.hpp"
 
 namespace mms {
 namespace {

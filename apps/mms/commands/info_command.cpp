@@ -69,16 +69,26 @@ void check_frames(FrameSource& source, RecordingInfo& info) {
   }
 }
 
-/// Reads frames spread over the recording.
+/// Reads frames spread over the recording, and a sequence from its middle.
 void check_plausibility(const InfoOptions& options, RecordingInfo& info) {
+  const std::size_t first = (info.frames - std::min(info.frames, RecordingCheck::kSequence)) / 2;
+  std::set<std::size_t> spread;
+  for (std::size_t i = 0; i < RecordingCheck::kFrames; ++i) {
+    spread.insert(i * info.frames / RecordingCheck::kFrames);
+  }
+  std::set<std::size_t> indices = spread;
+  for (std::size_t i = 0; i < RecordingCheck::kSequence; ++i) indices.insert(first + i);
   RecordingCheck check;
   const auto source = options.open();
-  const std::size_t step = std::max<std::size_t>(1, info.frames / RecordingCheck::kFrames);
-  for (std::size_t i = 0; i < RecordingCheck::kFrames; ++i) {
+  std::size_t position = 0;
+  for (const std::size_t index : indices) {
+    if (index < position) continue;  // after frames that cannot be read
+    source->skip(index - position);
     const auto frame = source->next();
     if (!frame) break;
-    check.add(*frame);
-    source->skip(step - 1);
+    position = static_cast<std::size_t>(frame->index) + 1;
+    if (spread.contains(index)) check.add(*frame);
+    if (index >= first && index < first + RecordingCheck::kSequence) check.add_in_sequence(*frame);
   }
   info.implausible = check.faults();
   info.plausibility_frames = check.frames();

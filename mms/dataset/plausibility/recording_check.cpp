@@ -46,6 +46,11 @@ std::string rounded(double value, int decimals) {
   return format_number(std::round(value * power) / power);
 }
 
+template <class T>
+bool is_beside(const Image<T>& image, const Image<Rgb>& color) {
+  return !image.empty() && image.width() == color.width() && image.height() == color.height();
+}
+
 double mean_brightness(const Image<Rgb>& color) {
   double sum = 0.0;
   for (const Rgb& c : color.pixels()) sum += c.r + c.g + c.b;
@@ -88,12 +93,48 @@ void RecordingCheck::add(const Frame& frame) {
   ++frames_;
   calibration_ = frame.calibration;
   if (!frame.color.empty()) brightness_.push_back(mean_brightness(frame.color));
+  if (is_beside(frame.mask, frame.color)) mask_alignment_.add(mask_edges(frame.color, frame.mask));
   if (frame.depth.empty()) return;
   depth_pixels_ += frame.depth.size() / kDepthStride;
   for (std::size_t i = 0; i < frame.depth.size(); i += kDepthStride) {
     if (std::isfinite(frame.depth[i]) && frame.depth[i] > 0.0F) depths_.push_back(frame.depth[i]);
   }
-  if (!frame.color.empty()) alignment_.add(frame.color, frame.depth);
+  if (is_beside(frame.depth, frame.color)) {
+    depth_alignment_.add(depth_edges(frame.color, frame.depth));
+  }
+}
+
+void RecordingCheck::add_in_sequence(const Frame& frame) {
+  if (frame.color.empty()) return;
+  const bool begins = in_sequence_ == 0 || frame.index != last_index_ + 1;
+  ++in_sequence_;
+  last_index_ = frame.index;
+  motion_.add(frame.stamp, frame.color, begins);
+  if (is_beside(frame.depth, frame.color)) {
+    depth_delay_.add(frame.stamp, depth_edges(frame.color, frame.depth), begins);
+  }
+  if (is_beside(frame.mask, frame.color)) {
+    mask_delay_.add(frame.stamp, mask_edges(frame.color, frame.mask), begins);
+  }
+}
+
+std::vector<std::string> RecordingCheck::edge_faults() const {
+  std::vector<std::string> faults;
+  if (const auto fault = depth_alignment_.fault(depth_delay_.gain(depth_delay_.frames()))) {
+    faults.push_back("the depth is " + *fault +
+                     "; depth images must be registered to the color images, or their camera be "
+                     "stated as depth_camera in calibration.yaml");
+  } else if (const auto delay = depth_delay_.fault()) {
+    faults.push_back("the depth images are " + *delay +
+                     ": correct their stamps, or which of them belong together");
+  }
+  if (const auto fault = mask_alignment_.fault(mask_delay_.gain(mask_delay_.frames()))) {
+    faults.push_back("the masks are " + *fault + ": are they those of these images?");
+  } else if (const auto delay = mask_delay_.fault()) {
+    faults.push_back("the masks are " + *delay +
+                     ": do their names have the right stamps or numbers?");
+  }
+  return faults;
 }
 
 std::vector<std::string> RecordingCheck::depth_faults() const {
@@ -116,16 +157,13 @@ std::vector<std::string> RecordingCheck::depth_faults() const {
                      format_number(calibration_ ? calibration_->depth_scale : 0.0) +
                      " units per meter right (--depth-scale)?");
   }
-  if (const auto fault = alignment_.fault()) {
-    faults.push_back("the depth is " + *fault +
-                     "; depth images must be registered to the color images, or their camera be "
-                     "stated as depth_camera in calibration.yaml");
-  }
   return faults;
 }
 
 std::vector<std::string> RecordingCheck::faults() const {
   std::vector<std::string> faults = depth_faults();
+  for (std::string& fault : edge_faults()) faults.push_back(std::move(fault));
+  for (std::string& fault : motion_.faults()) faults.push_back(std::move(fault));
   if (calibration_ && calibration_->camera) {
     for (std::string& fault : camera_faults(*calibration_->camera)) {
       faults.push_back(std::move(fault));

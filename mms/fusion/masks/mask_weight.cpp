@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "mms/fusion/masks/image_blur.hpp"
+#include "mms/geometry/image_blur.hpp"
 
 namespace mms {
 namespace {

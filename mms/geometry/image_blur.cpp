@@ -1,4 +1,4 @@
-#include "mms/fusion/masks/image_blur.hpp"
+#include "mms/geometry/image_blur.hpp"
 
 #include <algorithm>
 #include <cmath>
