@@ -4,6 +4,9 @@ namespace mms {
 
 void SystemConfig::visit(ConfigVisitor& v) {
   v.group({"depth_noise", "", "the depth camera's noise, used by every module"}, noise.depth);
+  v.boolean({"measure_depth_noise", "",
+             "raise depth_noise to that of a run's first depth image, if that is larger"},
+            measure_depth_noise);
   v.number({"lidar_noise", "m", "one sigma of LiDAR range, used by every module"}, noise.range,
            {1e-4, 0.5});
   v.group({"segmentation", "", "people and vehicles in the picture (III-A)"}, segmentation);

@@ -20,6 +20,7 @@ namespace mms {
 /// meaning.
 struct SystemConfig {
   SensorNoise noise;                ///< depth_noise and lidar_noise
+  bool measure_depth_noise = true;  ///< see `measured_noise`
   SegmentationConfig segmentation;  ///< of the segmenter that the program makes
   FusionConfig fusion;
   FeatureConfig features;

@@ -9,6 +9,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/open_dataset.hpp"
+#include "mms/geometry/noise_measurement.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/run/record/run_record.hpp"
 #include "mms/run/results/result_files.hpp"
@@ -28,7 +29,7 @@ void check_range(const RunOptions& options, const FrameSource& source) {
 
 /// @param warnings  receives warnings about the settings
 SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
-                           std::vector<std::string>& warnings) {
+                           const std::optional<Frame>& first, std::vector<std::string>& warnings) {
   SystemConfig config =
       sensor_settings(source.calibration().get(), options.config, options.set, "--set", warnings);
   if (!options.weights.empty()) config.segmentation.weights = options.weights;
@@ -36,6 +37,9 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
   if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;
   if (!options.loops.empty()) config.global_map.enabled = options.loops == "on";
+  if (first && config.measure_depth_noise) {
+    config.noise.depth = measured_noise(config.noise.depth, first->depth);
+  }
   return config;
 }
 
@@ -47,6 +51,15 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
                                             .motion = options.motion});
   check_range(options, *source);
   return source;
+}
+
+/// The first frame of the run.
+/// @param warnings  receives those of frames that cannot be read
+std::optional<Frame> read_first(const RunOptions& options, FrameSource& source,
+                                std::vector<std::string>& warnings) {
+  source.on_warning([&](const std::string& message) { warnings.push_back(message); });
+  source.skip(options.start);
+  return source.next();
 }
 
 AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
@@ -63,7 +76,8 @@ AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
 SlamRun::SlamRun(const RunOptions& options)
     : options_(options),
       source_(open_source(options)),
-      config_(load_settings(options, *source_, warnings_)),
+      first_(read_first(options, *source_, warnings_)),
+      config_(load_settings(options, *source_, first_, warnings_)),
       system_(config_, make_segmenter(options.segmenter, options.data, config_, *source_)),
       map_(options_, source_->calibration().get(), config_),
       frames_(std::min(options.frames, source_->size() - options.start)) {
@@ -125,11 +139,10 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
 
 /// The requested frames; none after the observer ended the run, or the run gave up.
 AsyncPipeline::Source SlamRun::frames_for(RunObserver& observer) {
-  source_->skip(options_.start);
   return [this, &observer, left = options_.frames]() mutable -> std::optional<Frame> {
     if (left == 0 || observer.stop_requested() || gave_up_) return std::nullopt;
     --left;
-    std::optional<Frame> frame = source_->next();
+    std::optional<Frame> frame = first_ ? std::exchange(first_, std::nullopt) : source_->next();
     if (frame) check_plausibility(*frame, observer);
     return frame;
   };

@@ -71,6 +71,7 @@ class SlamRun {
   std::unique_ptr<FrameSource> source_;
   std::vector<std::string> warnings_;  // of the settings, then of the run
   std::mutex warnings_mutex_;
+  std::optional<Frame> first_;  // read for the settings, null once processed
   SystemConfig config_;
   SlamSystem system_;
   RunMap map_;

@@ -258,6 +258,20 @@ TEST(Run, RunsWarehouseWithoutData) {
   expect_in("report: results/", outcome.out);
 }
 
+TEST(Run, MeasuresNoiseOfDepthCamera) {
+  const TempFolder folder;
+  const auto lost = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = {
+        "run",        "sim:crowd?sensor=d435&frames=8", "--segmenter", "masks", "-o", "out",
+        "--overwrite"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    expect_success(run_mms(folder.path(), words));
+    return json_file(folder.path() / "out/metrics.json")["status"]["lost"].get<int>();
+  };
+  EXPECT_EQ(lost({}), 0);
+  EXPECT_GT(lost({"--set", "measure_depth_noise=false"}), 0) << "the noise matters here";
+}
+
 TEST(Run, LatestLinksToLastRun) {
   const TempFolder folder;
   const std::string small = "sim:corridor?width=320&frames=2";

@@ -4,14 +4,16 @@
 #include <string>
 #include <utility>
 
+#include "mms/geometry/noise_measurement.hpp"
 #include "mms/run/results/result_files.hpp"
 
 namespace mms::python {
 
 /// The last call may have come from another thread.
 SlamSystem& LiveSlam::system() {
-  system_.release_threads();
-  return system_;
+  if (!system_) system_.emplace(config_, std::move(segmenter_));
+  system_->release_threads();
+  return *system_;
 }
 
 FrameResult LiveSlam::process_locked(const Frame& frame) {
@@ -19,6 +21,9 @@ FrameResult LiveSlam::process_locked(const Frame& frame) {
     throw std::invalid_argument("stamp: is " + std::to_string(frame.stamp.nanoseconds()) +
                                 ", allowed: more than that of the frame before, " +
                                 std::to_string(trajectory_.back().stamp.nanoseconds()));
+  }
+  if (!system_ && config_.measure_depth_noise) {
+    config_.noise.depth = measured_noise(config_.noise.depth, frame.depth);
   }
   FrameResult result = system().process(frame);
   trajectory_.push_back({frame.stamp, result.odometry.T_world_sensor});

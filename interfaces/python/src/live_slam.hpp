@@ -16,7 +16,7 @@ namespace mms::python {
 class LiveSlam {
  public:
   LiveSlam(const SystemConfig& config, std::unique_ptr<Segmenter> segmenter)
-      : system_(config, std::move(segmenter)) {}
+      : config_(config), segmenter_(std::move(segmenter)) {}
 
   /// Localizes the frame that `fill` makes of the last one, whose memory is used again.
   /// @throws std::invalid_argument for a stamp that is not later than that before
@@ -52,7 +52,9 @@ class LiveSlam {
   SlamSystem& system();
 
   std::mutex mutex_;
-  SlamSystem system_;
+  SystemConfig config_;
+  std::unique_ptr<Segmenter> segmenter_;  ///< null once there is a system
+  std::optional<SlamSystem> system_;      ///< made with the noise of the first frame
   Frame frame_;
   Trajectory trajectory_;
   std::vector<TrackedObject> objects_;

@@ -6,7 +6,7 @@
 
 namespace mms {
 
-/// [-]: color of points without camera and intensity. Source: the middle of 8 bits.
+/// [-]: color of points without camera and intensity. Source: half of 8 bits.
 inline constexpr Rgb kNoColor{128, 128, 128};
 
 /// Grey for the intensity of a LiDAR's point. Most surfaces reflect little: the root spreads these,
