@@ -69,7 +69,7 @@ void check_frames(FrameSource& source, RecordingInfo& info) {
   }
 }
 
-/// Reads frames spread over the recording, and a sequence from its middle.
+/// Reads frames spread over the recording, and a sequence from its center.
 void check_plausibility(const InfoOptions& options, RecordingInfo& info) {
   const std::size_t first = (info.frames - std::min(info.frames, RecordingCheck::kSequence)) / 2;
   std::set<std::size_t> spread;
