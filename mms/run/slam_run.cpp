@@ -59,7 +59,9 @@ std::optional<Frame> read_first(const RunOptions& options, FrameSource& source,
                                 std::vector<std::string>& warnings) {
   source.on_warning([&](const std::string& message) { warnings.push_back(message); });
   source.skip(options.start);
-  return source.next();
+  std::optional<Frame> first = source.next();
+  source.on_warning({});  // a live one goes on
+  return first;
 }
 
 AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
@@ -73,9 +75,11 @@ AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
 
 }  // namespace
 
-SlamRun::SlamRun(const RunOptions& options)
+SlamRun::SlamRun(const RunOptions& options) : SlamRun(options, open_source(options)) {}
+
+SlamRun::SlamRun(const RunOptions& options, std::unique_ptr<FrameSource> source)
     : options_(options),
-      source_(open_source(options)),
+      source_(std::move(source)),
       first_(read_first(options, *source_, warnings_)),
       config_(load_settings(options, *source_, first_, warnings_)),
       system_(config_, make_segmenter(options.segmenter, options.data, config_, *source_)),
@@ -88,7 +92,9 @@ SlamRun::SlamRun(const RunOptions& options)
 void SlamRun::play(const std::filesystem::path& folder, RunObserver& observer) {
   try {
     process(folder, observer);
+    source_->on_warning({});  // a live one goes on
   } catch (...) {
+    source_->on_warning({});
     journal_.reset();  // it keeps existing frames; closed before its folder is removed
     recorder_.reset();
     throw;
@@ -181,7 +187,7 @@ void SlamRun::check_lost() {
   constexpr double kMaxShare = 0.95;  // of lost frames
   const auto& frames = log_->frames();
   if (frames.back().status == Status::kLost) ++lost_;
-  if (gave_up_ || frames.size() < kMinFrames) return;
+  if (gave_up_ || frames.size() < kMinFrames || source_->size() == FrameSource::kEndless) return;
   if (to_seconds(frames.back().stamp - frames.front().stamp) < kMinTime) return;
   if (static_cast<double>(lost_) < kMaxShare * static_cast<double>(frames.size())) return;
   failure_ = fmt::format("{} of its first {} frames were lost, so the run ended there", lost_,
@@ -204,6 +210,7 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
     warn(fmt::format("frame {}: relocalized", processed.frame.name), observer);
   }
   check_lost();
+  if (sink_) sink_(processed, system_);
   observer.on_frame(*log_);
   if (!view_) return;
   view_->show(std::move(processed), log_->frames().back().interval_ms, std::move(shown));

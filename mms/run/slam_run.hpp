@@ -2,9 +2,11 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "mms/dataset/plausibility/recording_check.hpp"
 #include "mms/dataset/source/frame_source.hpp"
@@ -26,6 +28,14 @@ class SlamRun {
   /// Opens the recording and creates the system.
   /// @throws Error on failure.
   explicit SlamRun(const RunOptions& options);
+
+  /// The same on another source, in place of the recording that the options name.
+  SlamRun(const RunOptions& options, std::unique_ptr<FrameSource> source);
+
+  /// Receives every frame with its results, and the static map as of that frame, in the thread of
+  /// the run. To be set before `play`.
+  using ResultSink = std::function<void(const Processed& processed, const SlamSystem& system)>;
+  void on_result(ResultSink sink) { sink_ = std::move(sink); }
 
   /// Processes the recording with a journal in `folder`, and compares the results with available
   /// ground truth. If the observer ends it early, the frames so far count.
@@ -80,6 +90,7 @@ class SlamRun {
   std::unique_ptr<RunJournal> journal_;
   std::unique_ptr<RunRecorder> recorder_;  // null without --mcap
   std::unique_ptr<LiveView> view_;         // null without --view
+  ResultSink sink_;
   bool interrupted_ = false;
   std::optional<RecordingCheck> check_;  // null after its report
   std::size_t lost_ = 0;                 // frames

@@ -189,6 +189,9 @@ IncludeRules make_rules() {
   };
   rules.modules["run"] = all_of(rules);
   rules.modules["run"].erase("training");
+  rules.modules["ros2"] = {"core",           "geometry", "io",       "ros",     "fusion",
+                           "localization",   "mapping",  "pipeline", "dataset", "simulation",
+                           "result_messages"};
   const std::set<std::string> library = all_of(rules);
   for (const char* user : {"apps", "interfaces", "benchmarks", "examples"}) {
     rules.modules[user] = library;
@@ -211,8 +214,8 @@ IncludeRules make_rules() {
       {"simulation",
        {"models", "people", "vehicles", "sensors", "config", "building", "world", "truth", ""}},
       {"dataset",
-       {"source", "recorder", "bag", "folder", "lidar", "numbered", "simulated", "tum", "video",
-        "capture", "plausibility", ""}},
+       {"source", "live", "recorder", "bag", "folder", "lidar", "numbered", "simulated", "tum",
+        "video", "capture", "plausibility", ""}},
       {"evaluation", {"scores", "trajectory", "map", "segmentation", "tracking", ""}},
       {"training", {"data", "run"}},
       {"server", {"scene", "viewer", "http"}},

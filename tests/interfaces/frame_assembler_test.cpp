@@ -1,4 +1,4 @@
-#include "interfaces/ros1/src/frame_assembler.hpp"
+#include "mms/dataset/live/frame_assembler.hpp"
 
 #include <gtest/gtest.h>
 

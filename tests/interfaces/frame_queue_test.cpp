@@ -1,4 +1,4 @@
-#include "interfaces/ros1/src/frame_queue.hpp"
+#include "mms/dataset/live/frame_queue.hpp"
 
 #include <gtest/gtest.h>
 

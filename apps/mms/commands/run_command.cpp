@@ -1,89 +1,22 @@
 #include "apps/mms/commands/calibration_options.hpp"
 #include "apps/mms/commands/commands.hpp"
 
-#include <fmt/core.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/mms/commands/run_session.hpp"
 #include "apps/mms/commands/topic_options.hpp"
 #include "apps/mms/console/common_options.hpp"
-#include "apps/mms/console/interrupt.hpp"
-#include "apps/mms/console/progress.hpp"
 #include "apps/mms/console/viewing.hpp"
-#include "apps/mms/console/warnings.hpp"
-#include "mms/core/error.hpp"
 #include "mms/io/text/numbers.hpp"
-#include "mms/run/record/run_options.hpp"
-#include "mms/run/results/result_folder.hpp"
-#include "mms/run/slam_run.hpp"
 
 namespace mms {
 namespace {
 
-/// What a run prints.
-struct ConsoleOptions {
-  bool quiet = false;
-  bool json = false;
-};
-
-/// Prints the summary of a run and its folder on stdout.
-void print_summary(const std::filesystem::path& folder, const RunMetrics& metrics,
-                   const ConsoleOptions& console) {
-  if (console.json) {
-    fmt::print("{}", to_json(metrics));
-    return;
-  }
-  if (console.quiet) return;
-  fmt::print("{}", to_table(metric_sections(metrics)));
-  fmt::print("report: {}\nmap:    {}\n", (folder / "report.html").string(),
-             (folder / "static_map.ply").string());
-}
-
-/// Passes the result folder to viewers. On a terminal it keeps serving until Ctrl-C; in a script it
-/// returns.
-void keep_showing(const SlamRun& run, const std::filesystem::path& folder) {
-  run.view()->end(folder, run.log());
-  if (run.interrupted()) return;
-  if (isatty(STDIN_FILENO) == 0) {
-    fmt::print(stderr, "the viewer ends with the run; mms view {} shows it again\n",
-               folder.string());
-    return;
-  }
-  fmt::print(stderr, "the viewer runs at {} until Ctrl-C\n", run.view()->server().url());
-  wait_for_interrupt();
-}
-
-void run(const RunOptions& options, const ConsoleOptions& console) {
-  SlamRun run(options);
-  if (run.view() != nullptr) announce(run.view()->server(), *options.view);
-  const InterruptGuard interrupt;  // also while the results are written
-  ResultFolder folder(options.output, options.data, options.overwrite);
-  const std::string place = folder.path().string();
-  Progress progress(console.quiet);
-  run.play(folder.path(), progress);
-  if (folder.restore()) {
-    print_warnings({place + " was removed during the run; the results are written to " +
-                    folder.path().string()});
-  }
-  run.write(folder.path());
-  folder.make_latest();
-  print_summary(folder.path(), run.log().metrics(), console);
-  if (run.save_map(progress) && !console.json && !console.quiet) {
-    fmt::print("saved:  {}\n",
-               (options.save_map.empty() ? options.map : options.save_map).string());
-  }
-  if (!run.failure().empty()) {
-    throw DataError(options.data, run.failure(),
-                    "check its calibration and depth with mms info, and see the warnings above");
-  }
-  if (run.view() != nullptr) keep_showing(run, folder.path());
-}
-
 /// The argument of `--view` is a port, or DATA if that is not given elsewhere.
-ViewOptions view_of(const CLI::App& command, const std::string& word, ViewOptions place,
-                    RunOptions& options) {
+ViewOptions view_of(const CLI::App& command, const ViewChoice& view, RunOptions& options) {
+  const std::string& word = view.word;
+  ViewOptions place = view.place;
   if (word.empty()) return place;
   const std::optional<std::int64_t> port = parse_integer(word);
   if (!port && command.count("DATA") == 0) {
@@ -106,13 +39,7 @@ void add_run_command(CLI::App& app) {
       ->capture_default_str();
   const auto sequence = std::make_shared<std::string>();
   add_sequence_option(*command, *sequence);
-  command->add_option("-c,--config", options->config,
-                      "settings file (mms config dump prints all settings)");
-  add_set_option(*command, options->set);
-  command->add_option("-o,--output", options->output,
-                      "folder for the results (default: results/<time>_<name>)");
-  command->add_flag("--overwrite", options->overwrite,
-                    "replace the results of an earlier run in this folder");
+  add_result_options(*command, *options);
   command
       ->add_option("--segmenter", options->segmenter,
                    "source of the masks of people and vehicles: a network, the recording's masks/ "
@@ -123,52 +50,21 @@ void add_run_command(CLI::App& app) {
                       "network instead of that of the settings: our safetensors, or an ONNX model "
                       "with YOLO-seg outputs");
   command->add_option("--masks", options->masks, "folder of label images, named as the frames");
-  command
-      ->add_option("--fusion", options->fusion,
-                   "how points are labeled dynamic (default: that of the settings, multimodal)")
-      ->check(CLI::IsMember({"multimodal", "vision", "none"}));
-  command
-      ->add_option("--loops", options->loops,
-                   "close loops and write the corrected trajectory_map.tum (default: that of the "
-                   "settings, on)")
-      ->check(CLI::IsMember({"on", "off"}));
-  command
-      ->add_option("--save-map", options->save_map,
-                   "write the map to this file, to localize in it later (depth images)")
-      ->type_name("FILE");
-  command
-      ->add_option("--map", options->map,
-                   "localize in this map, and add the run to it; with --save-map to a copy")
-      ->type_name("FILE");
-  command->add_flag("--localize,--localise", options->localize,
-                    "localize in the map of --map without changing it");
+  add_mapping_options(*command, *options);
   add_frames_option(*command, options->frames, "process at most N frames");
   command->add_option("--start", options->start, "skip the first K frames")
       ->check(CLI::Range(std::size_t{0}, kMaxFrames))
       ->capture_default_str();
   command->add_flag("--realtime", options->realtime, "play in real time and drop late frames");
-  add_threads_option(
-      *command, options->threads,
-      "threads to use (default: one per core); the results are the same for any number");
-  command->add_flag(
-      "--keep-journal", options->keep_journal,
-      "keep journal.bin, from which mms convert recovers a killed run, after the run");
-  command->add_flag("--mcap", options->mcap,
-                    "record poses, maps, objects and images in run.mcap, for Foxglove and ROS 2");
+  add_recording_options(*command, *options);
   add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
   add_motion_options(*command, options->motion);
   const auto console = std::make_shared<ConsoleOptions>();
-  command->add_flag("-q,--quiet", console->quiet, "print only warnings and errors");
-  command->add_flag("--json", console->json, "print metrics.json in place of the summary");
-  const auto view = std::make_shared<std::string>();
-  const auto place = std::make_shared<ViewOptions>();
-  command->add_option("--view", *view, "show the live run in a browser, at this port (8080)")
-      ->expected(0, 1)
-      ->type_name("[PORT]");
-  add_bind_option(*command, *place);
+  const auto view = std::make_shared<ViewChoice>();
+  add_console_options(*command, *console, *view);
   command->callback([=] {
-    if (command->count("--view") > 0) options->view = view_of(*command, *view, *place, *options);
+    if (command->count("--view") > 0) options->view = view_of(*command, *view, *options);
     options->data = with_sequence(options->data, *sequence);
     if (options->segmenter.empty())
       options->segmenter = options->masks.empty() ? "network" : "masks";
@@ -176,7 +72,8 @@ void add_run_command(CLI::App& app) {
       throw CLI::ValidationError(
           "--weights", "is for masks of the network, but they come from " + options->segmenter);
     }
-    run(*options, *console);
+    SlamRun run(*options);
+    play_and_write(run, *console);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/mms/console/duration_text.hpp"
+#include "mms/dataset/source/frame_source.hpp"
 
 namespace mms {
 namespace {
@@ -54,6 +55,10 @@ std::string Progress::line(const RunLog& log) const {
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
   const std::size_t done = log.frames().size();
   const double rate = static_cast<double>(done) / elapsed.count();
+  if (total_ == FrameSource::kEndless) {
+    return fmt::format("frame {}  {:.1f} Hz  {}{}", done, rate,
+                       to_string(log.frames().back().status), objects_text(log.objects_now()));
+  }
   return fmt::format("frame {}/{}  {:.1f} Hz  {} left  {}{}", done, total_, rate,
                      duration_text(static_cast<double>(total_ - done) / rate),
                      to_string(log.frames().back().status), objects_text(log.objects_now()));

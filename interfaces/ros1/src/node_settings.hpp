@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "interfaces/ros1/src/frame_assembler.hpp"
+#include "mms/dataset/live/frame_assembler.hpp"
 #include "mms/pipeline/system_config.hpp"
 
 namespace mms {

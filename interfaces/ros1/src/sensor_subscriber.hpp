@@ -6,8 +6,8 @@
 #include <mutex>
 #include <string>
 
-#include "interfaces/ros1/src/frame_assembler.hpp"
 #include "interfaces/ros1/src/node_settings.hpp"
+#include "mms/dataset/live/frame_assembler.hpp"
 #include "mms/ros/display_messages.hpp"
 #include "mms/ros/transform_tree.hpp"
 

@@ -10,12 +10,12 @@
 #include <optional>
 #include <thread>
 
-#include "interfaces/ros1/src/frame_queue.hpp"
 #include "interfaces/ros1/src/mask_exchange.hpp"
 #include "interfaces/ros1/src/result_publisher.hpp"
 #include "interfaces/ros1/src/ros_traits.hpp"
 #include "interfaces/ros1/src/sensor_subscriber.hpp"
 #include "mms/core/trajectory.hpp"
+#include "mms/dataset/live/frame_queue.hpp"
 
 namespace mms {
 

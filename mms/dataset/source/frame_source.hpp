@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,12 +23,15 @@ class FrameSource {
   /// Receives one line with file and fault.
   using WarningHandler = std::function<void(const std::string&)>;
 
+  /// Size of a source without end, as of a sensor.
+  static constexpr std::size_t kEndless = std::numeric_limits<std::size_t>::max();
+
   virtual ~FrameSource() = default;
 
   /// The next readable frame; nullopt at the end of the recording.
   virtual std::optional<Frame> next() = 0;
 
-  /// Number of frames in the recording, including damaged ones.
+  /// Number of frames in the recording, including damaged ones; kEndless if there is no end.
   virtual std::size_t size() const = 0;
 
   /// Frames skipped so far because they could not be read.

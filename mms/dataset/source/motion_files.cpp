@@ -124,16 +124,21 @@ void MotionFeed::add(MotionSamples samples) {
   wheels_ = imu_ = 0;
 }
 
-void MotionFeed::attach(Frame& frame) {
-  if (samples_.empty()) return;
+Timestamp motion_end(const Frame& frame) {
   Timestamp end = frame.stamp;
   if (!frame.scan.time_offset.empty()) {
     const float last =
         *std::max_element(frame.scan.time_offset.begin(), frame.scan.time_offset.end());
     end = end + (Timestamp::from_seconds(std::max(0.0, static_cast<double>(last))) - Timestamp());
   }
-  frame.motion.wheels = take_until(samples_.wheels, wheels_, end + kAfterFrame);
-  frame.motion.imu = take_until(samples_.imu, imu_, end + kAfterFrame);
+  return end + kAfterFrame;
+}
+
+void MotionFeed::attach(Frame& frame) {
+  if (samples_.empty()) return;
+  const Timestamp end = motion_end(frame);
+  frame.motion.wheels = take_until(samples_.wheels, wheels_, end);
+  frame.motion.imu = take_until(samples_.imu, imu_, end);
 }
 
 }  // namespace mms

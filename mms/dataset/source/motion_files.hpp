@@ -33,6 +33,10 @@ void describe_motion(MotionRecording& recording, const std::string& wheels, cons
 MotionRecording read_motion_files(const std::filesystem::path& folder,
                                   const MotionOptions& options);
 
+/// The last stamp of measurements that belong to a frame: a little after its last point, so that
+/// times in between can be interpolated.
+Timestamp motion_end(const Frame& frame);
+
 /// Hands measurements to frames in order: each gets those since the frame before.
 class MotionFeed {
  public:

@@ -28,7 +28,7 @@ SceneInfo info_of(const std::string& data, const FrameSource& source, const Syst
   info.data = data;
   info.id = run_id();
   info.live = true;
-  info.frames = frames;
+  if (frames != FrameSource::kEndless) info.frames = frames;
   info.has_truth = has_truth;
   info.voxel_size = config.static_map.voxel_size;
   info.series = run_series(has_truth);

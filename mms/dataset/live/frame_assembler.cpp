@@ -1,4 +1,4 @@
-#include "interfaces/ros1/src/frame_assembler.hpp"
+#include "mms/dataset/live/frame_assembler.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,17 +8,17 @@
 namespace mms {
 namespace {
 
-constexpr Duration kReach = std::chrono::milliseconds(20);
-constexpr Duration kCloudReach = std::chrono::milliseconds(50);
-constexpr Duration kExact = std::chrono::milliseconds(5);  // closer than any later image can be
-constexpr std::size_t kMaxWaiting = 30;                    // largest number per kind
+constexpr Duration kImageReach = std::chrono::milliseconds(20);
+constexpr Duration kScanReach = std::chrono::milliseconds(50);
+constexpr Duration kSameTime = std::chrono::milliseconds(5);  // closer than any later image can be
+constexpr std::size_t kMaxUnmatched = 30;                     // largest number per kind
 
-Duration distance(Timestamp a, Timestamp b) {
+Duration time_between(Timestamp a, Timestamp b) {
   return a < b ? b - a : a - b;
 }
 
 template <class T>
-void check_size(const Image<T>& image, const Calibration& calibration, const char* what) {
+void check_registered(const Image<T>& image, const Calibration& calibration, const char* what) {
   const CameraIntrinsics& camera = *calibration.camera;
   if (image.width() == camera.width && image.height() == camera.height) return;
   throw DataError(what,
@@ -28,7 +28,7 @@ void check_size(const Image<T>& image, const Calibration& calibration, const cha
                   "depth must be registered to the color image");
 }
 
-std::string counted(const char* what, std::size_t arrived, double seconds) {
+std::string rate_text(const char* what, std::size_t arrived, double seconds) {
   if (arrived == 0) return std::string(what) + ": none received";
   char rate[32];
   std::snprintf(rate, sizeof rate, "%.1f", static_cast<double>(arrived) / seconds);
@@ -42,7 +42,7 @@ void FrameAssembler::Stream<T>::add(Timestamp stamp, T data) {
   ++arrived;
   if (!waiting.empty() && stamp <= waiting.back().stamp) return;
   waiting.push_back({stamp, std::move(data)});
-  if (waiting.size() > kMaxWaiting) waiting.pop_front();
+  if (waiting.size() > kMaxUnmatched) waiting.pop_front();
 }
 
 void FrameAssembler::set_camera(const CameraIntrinsics& camera) {
@@ -71,7 +71,8 @@ void FrameAssembler::add_cloud(Timestamp stamp, LidarScan scan) {
 template <class T>
 bool FrameAssembler::is_decided(Timestamp stamp, const Stream<T>& partners, Duration reach) const {
   for (const auto& partner : partners.waiting) {
-    if (distance(partner.stamp, stamp) <= kExact || partner.stamp > stamp + reach) return true;
+    if (time_between(partner.stamp, stamp) <= kSameTime || partner.stamp > stamp + reach)
+      return true;
     if (partner.stamp >= stamp) return true;
   }
   return false;
@@ -83,11 +84,11 @@ std::optional<FrameAssembler::Stamped<T>> FrameAssembler::take_nearest(Timestamp
                                                                        Duration reach) {
   auto& waiting = partners.waiting;
   const auto nearest = std::min_element(waiting.begin(), waiting.end(), [&](auto& a, auto& b) {
-    return distance(a.stamp, stamp) < distance(b.stamp, stamp);
+    return time_between(a.stamp, stamp) < time_between(b.stamp, stamp);
   });
   if (nearest == waiting.end()) return std::nullopt;
-  if (distance(nearest->stamp, stamp) > reach) {
-    nearest_miss_ = distance(nearest->stamp, stamp);
+  if (time_between(nearest->stamp, stamp) > reach) {
+    nearest_miss_ = time_between(nearest->stamp, stamp);
     return std::nullopt;
   }
   std::optional<Stamped<T>> taken = std::move(*nearest);
@@ -109,16 +110,16 @@ Frame FrameAssembler::frame_at(Timestamp stamp) {
 std::optional<Frame> FrameAssembler::next_depth_frame() {
   while (calibration_.camera && !color_.waiting.empty()) {
     const Timestamp stamp = color_.waiting.front().stamp;
-    if (!is_decided(stamp, depth_, kReach)) return std::nullopt;
-    auto depth = take_nearest(stamp, depth_, kReach);
+    if (!is_decided(stamp, depth_, kImageReach)) return std::nullopt;
+    auto depth = take_nearest(stamp, depth_, kImageReach);
     Image<Rgb> color = std::move(color_.waiting.front().data);
     color_.waiting.pop_front();
     if (!depth) {
       ++unmatched_;
       continue;
     }
-    check_size(color, calibration_, "color image");
-    check_size(depth->data, calibration_, "depth image");
+    check_registered(color, calibration_, "color image");
+    check_registered(depth->data, calibration_, "depth image");
     Frame frame = frame_at(stamp);
     frame.color = std::move(color);
     frame.depth = std::move(depth->data);
@@ -133,14 +134,14 @@ std::optional<Frame> FrameAssembler::next_cloud_frame() {
   const bool calibrated = calibration_.camera && extrinsics_known_;
   if (cloud_.waiting.empty() || (camera && !calibrated)) return std::nullopt;
   const Timestamp stamp = cloud_.waiting.front().stamp;
-  const bool waits = camera && cloud_.waiting.size() < 3 && !is_decided(stamp, color_, kCloudReach);
+  const bool waits = camera && cloud_.waiting.size() < 3 && !is_decided(stamp, color_, kScanReach);
   if (waits) return std::nullopt;
   Frame frame = frame_at(stamp);
   frame.scan = std::move(cloud_.waiting.front().data);
   cloud_.waiting.pop_front();
   if (!camera) return frame;
-  if (auto color = take_nearest(stamp, color_, kCloudReach)) {
-    check_size(color->data, calibration_, "color image");
+  if (auto color = take_nearest(stamp, color_, kScanReach)) {
+    check_registered(color->data, calibration_, "color image");
     frame.color = std::move(color->data);
   } else {
     ++unmatched_;
@@ -157,11 +158,11 @@ std::string FrameAssembler::report(double seconds) {
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   const bool both_arrive = color_.arrived > 0 && depth_.arrived > 0;
   if (sensor_ != Sensor::kCloud) {
-    add(counted("color images", color_.arrived, seconds));
+    add(rate_text("color images", color_.arrived, seconds));
     if (!calibration_.camera) add("camera_info: none received");
   }
   if (sensor_ == Sensor::kDepth) {
-    add(counted("depth images", depth_.arrived, seconds));
+    add(rate_text("depth images", depth_.arrived, seconds));
     if (made_ == 0 && both_arrive && calibration_.camera) {
       char apart[64];
       std::snprintf(apart, sizeof apart, "no two within 0.02 s, the last ones are %.3f s apart",
@@ -169,7 +170,7 @@ std::string FrameAssembler::report(double seconds) {
       add(apart);
     }
   } else {
-    add(counted("clouds", cloud_.arrived, seconds));
+    add(rate_text("clouds", cloud_.arrived, seconds));
     const bool both = cloud_.arrived > 0 && color_.arrived > 0;
     if (sensor_ == Sensor::kCloudWithCamera && both && !extrinsics_known_) {
       add("no transform from the cloud's frame to the camera's");

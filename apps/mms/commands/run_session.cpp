@@ -1,0 +1,125 @@
+#include "apps/mms/commands/run_session.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/mms/console/common_options.hpp"
+#include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/progress.hpp"
+#include "apps/mms/console/viewing.hpp"
+#include "apps/mms/console/warnings.hpp"
+#include "mms/core/error.hpp"
+#include "mms/run/results/result_folder.hpp"
+
+namespace mms {
+namespace {
+
+/// Prints the summary of a run and its folder on stdout.
+void print_summary(const std::filesystem::path& folder, const RunMetrics& metrics,
+                   const ConsoleOptions& console) {
+  if (console.json) {
+    fmt::print("{}", to_json(metrics));
+    return;
+  }
+  if (console.quiet) return;
+  fmt::print("{}", to_table(metric_sections(metrics)));
+  fmt::print("report: {}\nmap:    {}\n", (folder / "report.html").string(),
+             (folder / "static_map.ply").string());
+}
+
+/// Passes the result folder to viewers. On a terminal it keeps serving until Ctrl-C; in a script it
+/// returns.
+void keep_showing(const SlamRun& run, const std::filesystem::path& folder) {
+  run.view()->end(folder, run.log());
+  if (run.interrupted()) return;
+  if (isatty(STDIN_FILENO) == 0) {
+    fmt::print(stderr, "the viewer ends with the run; mms view {} shows it again\n",
+               folder.string());
+    return;
+  }
+  fmt::print(stderr, "the viewer runs at {} until Ctrl-C\n", run.view()->server().url());
+  wait_for_interrupt();
+}
+
+}  // namespace
+
+void add_result_options(CLI::App& command, RunOptions& options) {
+  command.add_option("-c,--config", options.config,
+                     "settings file (mms config dump prints all settings)");
+  add_set_option(command, options.set);
+  command.add_option("-o,--output", options.output,
+                     "folder for the results (default: results/<time>_<name>)");
+  command.add_flag("--overwrite", options.overwrite,
+                   "replace the results of an earlier run in this folder");
+}
+
+void add_mapping_options(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--fusion", options.fusion,
+                  "how points are labeled dynamic (default: that of the settings, multimodal)")
+      ->check(CLI::IsMember({"multimodal", "vision", "none"}));
+  command
+      .add_option("--loops", options.loops,
+                  "close loops and write the corrected trajectory_map.tum (default: that of the "
+                  "settings, on)")
+      ->check(CLI::IsMember({"on", "off"}));
+  command
+      .add_option("--save-map", options.save_map,
+                  "write the map to this file, to localize in it later (depth images)")
+      ->type_name("FILE");
+  command
+      .add_option("--map", options.map,
+                  "localize in this map, and add the run to it; with --save-map to a copy")
+      ->type_name("FILE");
+  command.add_flag("--localize,--localise", options.localize,
+                   "localize in the map of --map without changing it");
+}
+
+void add_recording_options(CLI::App& command, RunOptions& options) {
+  add_threads_option(
+      command, options.threads,
+      "threads to use (default: one per core); the results are the same for any number");
+  command.add_flag("--keep-journal", options.keep_journal,
+                   "keep journal.bin, from which mms convert recovers a killed run, after the run");
+  command.add_flag("--mcap", options.mcap,
+                   "record poses, maps, objects and images in run.mcap, for Foxglove and ROS 2");
+}
+
+void add_console_options(CLI::App& command, ConsoleOptions& console, ViewChoice& view) {
+  command.add_flag("-q,--quiet", console.quiet, "print only warnings and errors");
+  command.add_flag("--json", console.json, "print metrics.json in place of the summary");
+  command.add_option("--view", view.word, "show the live run in a browser, at this port (8080)")
+      ->expected(0, 1)
+      ->type_name("[PORT]");
+  add_bind_option(command, view.place);
+}
+
+void play_and_write(SlamRun& run, const ConsoleOptions& console) {
+  const RunOptions& options = run.options();
+  if (run.view() != nullptr) announce(run.view()->server(), *options.view);
+  const InterruptGuard interrupt;  // also while the results are written
+  ResultFolder folder(options.output, options.data, options.overwrite);
+  const std::string place = folder.path().string();
+  Progress progress(console.quiet);
+  run.play(folder.path(), progress);
+  if (folder.restore()) {
+    print_warnings({place + " was removed during the run; the results are written to " +
+                    folder.path().string()});
+  }
+  run.write(folder.path());
+  folder.make_latest();
+  print_summary(folder.path(), run.log().metrics(), console);
+  if (run.save_map(progress) && !console.json && !console.quiet) {
+    fmt::print("saved:  {}\n",
+               (options.save_map.empty() ? options.map : options.save_map).string());
+  }
+  if (!run.failure().empty()) {
+    throw DataError(options.data, run.failure(),
+                    "check its calibration and depth with mms info, and see the warnings above");
+  }
+  if (run.view() != nullptr) keep_showing(run, folder.path());
+}
+
+}  // namespace mms

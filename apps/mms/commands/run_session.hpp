@@ -1,0 +1,40 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <string>
+
+#include "mms/run/slam_run.hpp"
+
+namespace mms {
+
+// What mms run and mms ros2 have in common.
+
+/// What a run prints.
+struct ConsoleOptions {
+  bool quiet = false;
+  bool json = false;
+};
+
+/// The word after --view.
+struct ViewChoice {
+  std::string word;  ///< a port; empty: as `place`
+  ViewOptions place;
+};
+
+/// Adds --config, --set, --output and --overwrite.
+void add_result_options(CLI::App& command, RunOptions& options);
+
+/// Adds --fusion, --loops, --save-map, --map and --localize.
+void add_mapping_options(CLI::App& command, RunOptions& options);
+
+/// Adds --threads, --keep-journal and --mcap.
+void add_recording_options(CLI::App& command, RunOptions& options);
+
+/// Adds --quiet, --json, --view and --bind.
+void add_console_options(CLI::App& command, ConsoleOptions& console, ViewChoice& view);
+
+/// Plays the run, writes its results and prints their summary.
+void play_and_write(SlamRun& run, const ConsoleOptions& console);
+
+}  // namespace mms
