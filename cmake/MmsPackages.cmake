@@ -50,6 +50,9 @@ endif()
 if(Libpcap_FOUND)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libpcap-dev")
 endif()
+if(Cyclonedds_FOUND)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", cyclonedds-dev")
+endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "visual and LiDAR SLAM among moving people and vehicles (development files)
 MMS-SLAM localizes a depth camera or LiDAR among walking people and moving

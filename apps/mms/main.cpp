@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", MMS_VERSION);
   app.require_subcommand(1);
   mms::add_run_command(app);
+  mms::add_ros2_command(app);
   mms::add_batch_command(app);
   mms::add_eval_command(app);
   mms::add_reproduce_command(app);

@@ -6,17 +6,5 @@ readonly here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 readonly mms="$(realpath "$1")"
 readonly work="$2"
 
-skip() {
-  echo "skipped: $*"
-  exit 77
-}
-
-command -v node > /dev/null || skip "node is not installed"
-command -v npm > /dev/null || skip "npm is not installed"
-mkdir -p "$work"
-if ! cmp -s "$here/package-lock.json" "$work/installed"; then
-  cp "$here/package.json" "$here/package-lock.json" "$here/.npmrc" "$work/"
-  (cd "$work" && npm ci --ignore-scripts --loglevel=error) || skip "npm cannot fetch packages here"
-  cp "$here/package-lock.json" "$work/installed"
-fi
+"$here/install.sh" "$work"
 exec node "$here/readers_test.mjs" "$mms" "$work/node_modules"

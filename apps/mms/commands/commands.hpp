@@ -49,6 +49,9 @@ void add_quantize_command(CLI::App& app);
 /// Adds `mms reproduce`: the paper's tables and figures.
 void add_reproduce_command(CLI::App& app);
 
+/// Adds `mms ros2`: runs the system on topics of ROS 2, and publishes the results.
+void add_ros2_command(CLI::App& app);
+
 /// Adds `mms run [DATA]`: runs the system on a recording, with results in a folder.
 void add_run_command(CLI::App& app);
 

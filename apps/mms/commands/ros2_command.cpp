@@ -1,0 +1,267 @@
+#include "apps/mms/commands/commands.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "apps/mms/commands/run_session.hpp"
+#include "apps/mms/console/common_options.hpp"
+#include "apps/mms/console/interrupt.hpp"
+#include "apps/mms/console/viewing.hpp"
+#include "apps/mms/console/warnings.hpp"
+#include "mms/core/error.hpp"
+#include "mms/dataset/bag/bag_topics.hpp"
+#include "mms/ros2/ros2_results.hpp"
+#include "mms/ros2/ros2_source.hpp"
+#include "mms/run/results/result_files.hpp"
+#include "mms/run/results/robot_maps.hpp"
+
+namespace mms {
+namespace {
+
+struct Ros2CommandOptions {
+  Ros2NodeOptions node;
+  Ros2Inputs inputs;
+  Ros2ResultOptions results;
+  std::size_t queue = 100;
+  std::filesystem::path save_folder = ".";
+  RunOptions run;
+  ConsoleOptions console;
+  ViewChoice view;
+};
+
+#ifdef MMS_WITH_ROS2
+
+/// Answers the service ~/save_map with the next frame: the maps belong to the thread of the run.
+class MapSaver {
+ public:
+  MapSaver(std::filesystem::path folder, bool is_camera)
+      : folder_(std::move(folder)), frame_(is_camera ? MapFrame::kCamera : MapFrame::kLidar) {}
+
+  /// In the node's thread.
+  void request(const Ros2Node::Reply& reply) {
+    const std::scoped_lock lock(mutex_);
+    waiting_.push_back({reply, Clock::now()});
+  }
+
+  /// Refuses requests where no frame comes; in the node's thread.
+  void refuse_late() {
+    constexpr auto kMaxWait = std::chrono::seconds(5);
+    const std::scoped_lock lock(mutex_);
+    if (waiting_.empty() || Clock::now() - waiting_.front().since < kMaxWait) return;
+    for (const Request& request : waiting_) {
+      request.reply({false, "no frame arrives: the map is saved with the next one"});
+    }
+    waiting_.clear();
+  }
+
+  /// In the thread of the run.
+  void add(const Processed& processed, const SlamSystem& system) {
+    const FrameResult& result = processed.result;
+    trajectory_.push_back({processed.frame.stamp, result.odometry.T_world_sensor});
+    if (result.keyframe) keyframes_.push_back(trajectory_.back());
+    std::vector<Request> requests;
+    {
+      const std::scoped_lock lock(mutex_);
+      requests.swap(waiting_);
+    }
+    if (requests.empty()) return;
+    const TriggerResult answer = save(system);
+    for (const Request& request : requests) request.reply(answer);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Request {
+    Ros2Node::Reply reply;
+    Clock::time_point since;
+  };
+
+  TriggerResult save(const SlamSystem& system) const {
+    try {
+      const MapCloud map = result_map(system.static_map(), frame_);
+      std::filesystem::create_directories(folder_);
+      write_result_files(folder_, trajectory_, keyframes_, map, frame_);
+      write_robot_maps(folder_, system.occupancy_map(), system.static_map().cloud(),
+                       frame_ == MapFrame::kCamera);
+      return {true, fmt::format("{} points, {} poses in {}", map.size(), trajectory_.size(),
+                                std::filesystem::absolute(folder_).string())};
+    } catch (const std::exception& error) {
+      return {false, error.what()};
+    }
+  }
+
+  std::filesystem::path folder_;
+  MapFrame frame_;
+  Trajectory trajectory_, keyframes_;  // of the thread of the run
+  std::mutex mutex_;                   ///< guards all below
+  std::vector<Request> waiting_;
+};
+
+/// Publishes diagnostics once a second, and warns where nothing arrives.
+void add_diagnosis(Ros2Node& node, Ros2Source& source, Ros2Results& results) {
+  constexpr double kPeriod = 1.0;  // [s]
+  constexpr int kRepeat = 5;       // periods without frames between warnings
+  node.every(kPeriod, [&source, &results, seen = std::size_t{0}, idle = 0]() mutable {
+    const Ros2InputCounts counts = source.counts();
+    const std::string inputs = source.report();
+    idle = counts.frames > std::exchange(seen, counts.frames) ? 0 : idle + 1;
+    if (idle > 0 && idle % kRepeat == 0) source.warn("no frames arrive: " + inputs);
+    results.diagnose(inputs, counts);
+  });
+}
+
+void run_node(const Ros2CommandOptions& options) {
+  const InterruptGuard interrupt;
+  Ros2Source* source = nullptr;  // set before the node starts
+  Ros2Node node(options.node,
+                [&source](const std::string& fault) { source->count_damaged(fault); });
+  Ros2Results results(node, options.results);
+  auto owned = std::make_unique<Ros2Source>(node, options.inputs, options.queue,
+                                            [] { return InterruptGuard::requested(); });
+  source = owned.get();
+  MapSaver saver(options.save_folder, source->is_camera());
+  node.serve("~/save_map", [&saver](const Ros2Node::Reply& reply) { saver.request(reply); });
+  node.every(1.0, [&saver] { saver.refuse_late(); });
+  add_diagnosis(node, *source, results);
+  node.start();
+  if (!options.console.quiet) {
+    fmt::print(stderr, "node {} in domain {} waits for frames\n", node.full_name(), node.domain());
+  }
+  if (!source->wait([](const std::string& message) { print_warnings({message}); })) {
+    throw Interrupted("no frame was received, so there are no results");
+  }
+  SlamRun run(options.run, std::move(owned));
+  run.on_result([&](const Processed& processed, const SlamSystem& system) {
+    results.publish(processed, system, source->sensor_frame(), source->is_camera());
+    saver.add(processed, system);
+  });
+  play_and_write(run, options.console);
+}
+
+#else
+
+void run_node(const Ros2CommandOptions&) {
+  throw DataError("mms ros2", "is not part of this build",
+                  "install cyclonedds-dev, then configure and build again");
+}
+
+#endif
+
+void add_input_options(CLI::App& command, Ros2Inputs& inputs) {
+  const auto add = [&](const char* name, std::string& topic, const char* help) {
+    return command.add_option(name, topic, help)
+        ->group("Topics of the sensors")
+        ->type_name("TOPIC");
+  };
+  add("--color", inputs.color,
+      "color images, Image; CompressedImage where the name ends with /compressed")
+      ->default_str("/camera/color/image_raw; none with --points");
+  add("--depth", inputs.depth,
+      "depth images registered to them, Image; CompressedImage: .../compressedDepth")
+      ->default_str("/camera/aligned_depth_to_color/image_raw");
+  add("--camera-info", inputs.camera_info, "CameraInfo of the color images")
+      ->default_str("camera_info beside --color");
+  add("--points", inputs.points, "LiDAR scans in place of depth images, PointCloud2");
+  add("--imu", inputs.imu, "gyroscope, Imu");
+  add("--odometry", inputs.wheels, "dead reckoning of the wheels, Odometry");
+  add("--mask", inputs.mask, "label images: 0 static, 1 person, 2 vehicle");
+}
+
+void add_node_options(CLI::App& command, Ros2CommandOptions& options) {
+  const auto group = [](CLI::Option* option) { return option->group("Node"); };
+  group(command.add_option("--node-name", options.node.name, "name of the node"))
+      ->capture_default_str();
+  group(command.add_option("--namespace", options.node.name_space, "namespace of the node"))
+      ->capture_default_str();
+  group(command.add_option("--ros-distro", options.node.distro,
+                           "distribution of the other nodes: Humble has another discovery"))
+      ->check(CLI::IsMember({"humble", "iron", "jazzy", "kilted", "rolling"}))
+      ->envname("ROS_DISTRO")
+      ->capture_default_str();
+  group(command.add_option("--map-frame", options.results.map_frame, "frame with z up"))
+      ->capture_default_str();
+  group(command.add_option("--world-frame", options.results.world_frame,
+                           "frame of the results: the first sensor frame"))
+      ->capture_default_str();
+  group(command.add_option("--map-period", options.results.map_period, "between two maps [s]"))
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  group(command.add_flag("!--no-tf", options.results.transforms, "publish no transforms"));
+  group(command.add_option("--queue", options.queue,
+                           "frames that may wait; the oldest is dropped then"))
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  group(command.add_option("--save-folder", options.save_folder,
+                           "where the service ~/save_map writes"))
+      ->capture_default_str();
+}
+
+/// Fills in the topics that are not given.
+void complete_inputs(Ros2Inputs& inputs, const std::string& segmenter) {
+  if (inputs.points.empty()) {
+    if (inputs.color.empty()) inputs.color = "/camera/color/image_raw";
+    if (inputs.depth.empty()) inputs.depth = "/camera/aligned_depth_to_color/image_raw";
+  } else if (!inputs.depth.empty()) {
+    throw CLI::ValidationError("--points", "is in place of --depth: give one of them");
+  }
+  if (inputs.camera_info.empty() && !inputs.color.empty()) {
+    inputs.camera_info = camera_info_beside(inputs.color);
+  }
+  if (segmenter == "masks" && inputs.mask.empty()) {
+    throw CLI::ValidationError("--segmenter", "is masks, so their topic is needed: --mask TOPIC");
+  }
+  if (segmenter != "masks") inputs.mask.clear();
+}
+
+}  // namespace
+
+void add_ros2_command(CLI::App& app) {
+  const auto options = std::make_shared<Ros2CommandOptions>();
+  RunOptions& run = options->run;
+  run.data = "ros2";
+  CLI::App* command = app.add_subcommand(
+      "ros2", "Localize the sensors of a robot, as a node of ROS 2 that needs no ROS");
+  add_input_options(*command, options->inputs);
+  add_node_options(*command, *options);
+  add_result_options(*command, run);
+  command
+      ->add_option("--segmenter", run.segmenter,
+                   "source of the masks of people and vehicles: a network, the topic --mask, or "
+                   "none")
+      ->check(CLI::IsMember({"network", "masks", "none"}))
+      ->default_str("network, or masks with --mask");
+  command->add_option("--weights", run.weights,
+                      "network instead of that of the settings: our safetensors, or an ONNX model "
+                      "with YOLO-seg outputs");
+  add_mapping_options(*command, run);
+  add_frames_option(*command, run.frames, "end after N frames");
+  add_recording_options(*command, run);
+  add_console_options(*command, options->console, options->view);
+  command->callback([options, command] {
+    RunOptions& run_options = options->run;
+    if (run_options.segmenter.empty()) {
+      run_options.segmenter = options->inputs.mask.empty() ? "network" : "masks";
+    }
+    if (!run_options.weights.empty() && run_options.segmenter != "network") {
+      throw CLI::ValidationError(
+          "--weights", "is for masks of the network, but they come from " + run_options.segmenter);
+    }
+    complete_inputs(options->inputs, run_options.segmenter);
+    if (command->count("--view") > 0) {
+      run_options.view = options->view.place;
+      if (!options->view.word.empty()) {
+        run_options.view->port = checked_port("--view", options->view.word);
+      }
+    }
+    run_node(*options);
+  });
+}
+
+}  // namespace mms

@@ -1,0 +1,335 @@
+#include "mms/ros2/ros2_source.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "mms/core/error.hpp"
+#include "mms/ros/camera_messages.hpp"
+#include "mms/ros/cloud_messages.hpp"
+#include "mms/ros/image_messages.hpp"
+
+namespace mms {
+namespace {
+
+constexpr double kPoll = 0.1;               // between checks of the end and of waiting frames [s]
+constexpr std::size_t kMaxMasks = 60;       // that wait for their frames
+constexpr std::size_t kMaxMotion = 10'000;  // samples that wait for frames: 10 s at 1 kHz
+constexpr auto kMaxWait = std::chrono::milliseconds(500);  // of a frame for masks and motion
+constexpr auto kMountingWait = std::chrono::seconds(2);    // of the first one for transforms
+
+FrameAssembler::Sensor sensor_of(const Ros2Inputs& inputs) {
+  if (inputs.points.empty()) return FrameAssembler::Sensor::kDepth;
+  return inputs.color.empty() ? FrameAssembler::Sensor::kCloud
+                              : FrameAssembler::Sensor::kCloudWithCamera;
+}
+
+/// Of sensors, with so many messages that may wait.
+TopicQos sensor_qos(int depth) {
+  return {TopicQos::Reliability::kAsPublishers, false, depth};
+}
+
+template <class Sample>
+void add_sample(std::deque<Sample>& samples, Sample sample) {
+  if (!samples.empty() && sample.stamp <= samples.back().stamp) return;
+  samples.push_back(std::move(sample));
+  if (samples.size() > kMaxMotion) samples.pop_front();
+}
+
+template <class Sample>
+std::vector<Sample> take_samples(std::deque<Sample>& samples, Timestamp end) {
+  auto last = samples.begin();
+  while (last != samples.end() && last->stamp <= end) ++last;
+  std::vector<Sample> taken(samples.begin(), last);
+  samples.erase(samples.begin(), last);
+  return taken;
+}
+
+}  // namespace
+
+Ros2Source::Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t queue,
+                       std::function<bool()> stop)
+    : node_(node),
+      inputs_(inputs),
+      queue_(queue),
+      stop_(std::move(stop)),
+      assembler_(sensor_of(inputs)) {
+  if (!inputs_.color.empty()) subscribe_color();
+  if (is_camera()) {
+    subscribe_depth();
+  } else {
+    subscribe_points();
+  }
+  subscribe_motion();
+  const bool needs_transforms =
+      (!is_camera() && !inputs_.color.empty()) || !inputs_.imu.empty() || !inputs_.wheels.empty();
+  if (needs_transforms) subscribe_transforms();
+  node_.every(kPoll, [this] {
+    if (stop_()) queue_.close();
+    advance();
+  });
+}
+
+void Ros2Source::subscribe_color() {
+  const auto add = [this](const auto& message) {
+    color_frame_ = message.header.frame_id;
+    assembler_.add_color(message.header.stamp, color_of(message, "color image"));
+    advance();
+  };
+  const TopicQos qos = sensor_qos(30);
+  if (inputs_.color.ends_with("/compressed")) {
+    node_.subscribe<msg::CompressedImage>(inputs_.color, qos, add);
+  } else {
+    node_.subscribe<msg::Image>(inputs_.color, qos, add);
+  }
+  node_.subscribe<msg::CameraInfo>(
+      inputs_.camera_info, qos, [this](const msg::CameraInfo& message) {
+        const bool rectified = inputs_.color.find("rect") != std::string::npos;
+        assembler_.set_camera(intrinsics_of(message, rectified, "camera_info"));
+        advance();
+      });
+  if (inputs_.mask.empty()) return;
+  node_.subscribe<msg::Image>(inputs_.mask, qos, [this](const msg::Image& message) {
+    masks_.emplace_back(message.header.stamp, mask_of(message, "mask"));
+    if (masks_.size() > kMaxMasks) masks_.pop_front();
+    advance();
+  });
+}
+
+void Ros2Source::subscribe_depth() {
+  const auto add = [this](const auto& message) {
+    assembler_.add_depth(message.header.stamp, depth_of(message, "depth image"));
+    advance();
+  };
+  if (inputs_.depth.ends_with("/compressedDepth")) {
+    node_.subscribe<msg::CompressedImage>(inputs_.depth, sensor_qos(30), add);
+  } else {
+    node_.subscribe<msg::Image>(inputs_.depth, sensor_qos(30), add);
+  }
+}
+
+void Ros2Source::subscribe_points() {
+  node_.subscribe<msg::PointCloud2>(
+      inputs_.points, sensor_qos(30), [this](const msg::PointCloud2& message) {
+        cloud_frame_ = message.header.frame_id;
+        LidarScan scan = scan_of(message, message.header.stamp, "cloud");
+        if (scan.points.empty()) throw DataError("cloud", "has no points");
+        assembler_.add_cloud(message.header.stamp, std::move(scan));
+        advance();
+      });
+}
+
+void Ros2Source::subscribe_motion() {
+  constexpr int kQueue = 1000;  // a second of a fast gyroscope
+  if (!inputs_.imu.empty()) {
+    node_.subscribe<msg::Imu>(inputs_.imu, sensor_qos(kQueue), [this](const msg::Imu& message) {
+      imu_frame_ = message.header.frame_id;
+      const ImuSample sample{message.header.stamp,
+                             Eigen::Map<const Eigen::Vector3d>(message.angular_velocity.data()),
+                             Eigen::Map<const Eigen::Vector3d>(message.linear_acceleration.data())};
+      if (sample.rate.allFinite()) add_sample(imu_, sample);
+      advance();
+    });
+  }
+  if (inputs_.wheels.empty()) return;
+  node_.subscribe<msg::Odometry>(
+      inputs_.wheels, sensor_qos(kQueue), [this](const msg::Odometry& message) {
+        wheel_frame_ = message.child_frame_id;
+        const WheelSample sample{message.header.stamp,
+                                 Transform<Odometer, Base>(isometry_of(message.pose))};
+        if (sample.T_odom_base.is_finite()) add_sample(wheels_, sample);
+        advance();
+      });
+}
+
+void Ros2Source::subscribe_transforms() {
+  const auto add = [this](const msg::Transforms& message) {
+    // Those of a moving robot would fill the memory; mountings do not change.
+    const bool needed =
+        (!is_camera() && !inputs_.color.empty() && !assembler_.extrinsics_known()) || !mounting_;
+    if (needed) transforms_.add(message);
+    advance();
+  };
+  node_.subscribe<msg::Transforms>("/tf_static", {TopicQos::Reliability::kReliable, true, 100},
+                                   add);
+  node_.subscribe<msg::Transforms>("/tf", sensor_qos(100), add);
+}
+
+/// Moves on what has become complete.
+void Ros2Source::advance() {
+  const auto hand_on = [this] {
+    while (!pending_.empty() && is_complete(pending_.front())) {
+      Frame frame = std::move(pending_.front().frame);
+      pending_.pop_front();
+      release(std::move(frame));
+    }
+  };
+  try {
+    take_frames();
+  } catch (const Error&) {
+    hand_on();
+    throw;
+  }
+  hand_on();
+}
+
+void Ros2Source::take_frames() {
+  if (sensor_of(inputs_) == FrameAssembler::Sensor::kCloudWithCamera && !find_extrinsics()) return;
+  while (std::optional<Frame> frame = assembler_.next()) {
+    if (last_stamp_ && frame->stamp <= *last_stamp_) {
+      warn("frame " + frame->name + " skipped: its stamp is not later than the previous one, " +
+           last_stamp_->to_string());
+      const std::scoped_lock lock(mutex_);
+      ++counts_.not_later;
+      continue;
+    }
+    last_stamp_ = frame->stamp;
+    pending_.push_back({std::move(*frame), Clock::now()});
+  }
+}
+
+bool Ros2Source::find_extrinsics() {
+  if (assembler_.extrinsics_known()) return true;
+  if (color_frame_.empty() || cloud_frame_.empty()) return false;
+  const auto T = transforms_.lookup(color_frame_, cloud_frame_, Timestamp());
+  if (T) assembler_.set_extrinsics(Transform<Camera, Lidar>(*T));
+  return T.has_value();
+}
+
+/// Whether the frame's mask and motion have arrived, or will not.
+bool Ros2Source::is_complete(const Pending& pending) {
+  const auto waited = Clock::now() - pending.since;
+  if (!mounting_) {
+    const std::string& sensor = is_camera() ? color_frame_ : cloud_frame_;
+    const auto lookup = [&](const std::string& frame) {
+      return frame.empty() ? std::nullopt : transforms_.lookup(sensor, frame, pending.frame.stamp);
+    };
+    const auto T_wheels = lookup(wheel_frame_);
+    const auto T_imu = lookup(imu_frame_);
+    const bool found = (inputs_.wheels.empty() || T_wheels) && (inputs_.imu.empty() || T_imu);
+    if (!found && waited < kMountingWait) return false;
+    if (!found) {
+      warn("no transform on /tf_static or /tf to '" + sensor +
+           "' from the frame of the wheels or gyroscope: it is estimated");
+    }
+    mounting_.emplace();
+    if (T_wheels) mounting_->T_sensor_base = Transform<Sensor, Base>(*T_wheels);
+    if (T_imu) mounting_->T_sensor_imu = Transform<Sensor, Imu>(*T_imu);
+  }
+  const Timestamp end = motion_end(pending.frame);
+  const bool mask = inputs_.mask.empty() || pending.frame.color.empty() ||
+                    (!masks_.empty() && masks_.back().first >= pending.frame.stamp);
+  const bool wheels = inputs_.wheels.empty() || (!wheels_.empty() && wheels_.back().stamp > end);
+  const bool imu = inputs_.imu.empty() || (!imu_.empty() && imu_.back().stamp > end);
+  if (mask && wheels && imu) return true;
+  if (waited < kMaxWait) return false;
+  const std::scoped_lock lock(mutex_);
+  ++counts_.incomplete;
+  return true;
+}
+
+void Ros2Source::release(Frame frame) {
+  complete(frame);
+  {
+    const std::scoped_lock lock(mutex_);
+    sensor_frame_ = is_camera() ? color_frame_ : cloud_frame_;
+    ++counts_.frames;
+  }
+  queue_.push(std::move(frame));
+}
+
+void Ros2Source::complete(Frame& frame) {
+  frame.calibration = calibration_of(frame);
+  while (!masks_.empty() && masks_.front().first <= frame.stamp) {
+    const bool size = masks_.front().second.width() == frame.color.width() &&
+                      masks_.front().second.height() == frame.color.height();
+    if (masks_.front().first == frame.stamp && size) frame.mask = std::move(masks_.front().second);
+    masks_.pop_front();
+  }
+  const Timestamp end = motion_end(frame);
+  frame.motion.wheels = take_samples(wheels_, end);
+  frame.motion.imu = take_samples(imu_, end);
+}
+
+std::shared_ptr<const Calibration> Ros2Source::calibration_of(const Frame& frame) {
+  if (mounting_->empty()) return frame.calibration;
+  if (received_ != frame.calibration) {
+    Calibration calibration = *frame.calibration;
+    calibration.motion = *mounting_;
+    received_ = frame.calibration;
+    completed_ = std::make_shared<const Calibration>(std::move(calibration));
+  }
+  return completed_;
+}
+
+bool Ros2Source::wait(const std::function<void(const std::string&)>& report) {
+  {
+    const std::scoped_lock lock(mutex_);
+    handler_ = report;
+  }
+  first_ = queue_.pop();
+  if (first_) calibration_ = first_->calibration;
+  return first_.has_value();
+}
+
+std::optional<Frame> Ros2Source::next() {
+  if (first_) return std::exchange(first_, std::nullopt);
+  return queue_.pop();
+}
+
+void Ros2Source::skip(std::size_t count) {
+  while (count > 0 && next()) --count;
+}
+
+std::vector<std::string> Ros2Source::describe() const {
+  const std::string topics = is_camera()             ? inputs_.color + ", " + inputs_.depth
+                             : inputs_.color.empty() ? inputs_.points
+                                                     : inputs_.points + ", " + inputs_.color;
+  std::vector<std::string> lines = {"layout: topics of ROS 2"};
+  if (is_camera()) {
+    const CameraIntrinsics& camera = *calibration_->camera;
+    lines.push_back("sensor: depth camera, " + std::to_string(camera.width) + "x" +
+                    std::to_string(camera.height));
+  } else {
+    lines.push_back("sensor: LiDAR" + std::string(inputs_.color.empty() ? "" : " with a camera"));
+  }
+  lines.push_back("topics: " + topics);
+  return lines;
+}
+
+void Ros2Source::on_warning(WarningHandler handler) {
+  const std::scoped_lock lock(mutex_);
+  handler_ = std::move(handler);
+}
+
+void Ros2Source::warn(const std::string& message) {
+  const std::scoped_lock lock(mutex_);
+  if (handler_) handler_(message);
+}
+
+void Ros2Source::count_damaged(const std::string& fault) {
+  const std::scoped_lock lock(mutex_);
+  ++counts_.damaged;
+  if (handler_) handler_(fault);
+}
+
+std::string Ros2Source::report() {
+  const auto now = Clock::now();
+  const std::chrono::duration<double> passed = now - reported_;
+  reported_ = now;
+  return assembler_.report(passed.count());
+}
+
+Ros2InputCounts Ros2Source::counts() const {
+  const std::scoped_lock lock(mutex_);
+  Ros2InputCounts counts = counts_;
+  counts.unmatched = assembler_.unmatched();
+  counts.dropped = queue_.dropped();
+  return counts;
+}
+
+std::string Ros2Source::sensor_frame() const {
+  const std::scoped_lock lock(mutex_);
+  return sensor_frame_;
+}
+
+}  // namespace mms

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mms/dataset/live/frame_assembler.hpp"
+#include "mms/dataset/live/frame_queue.hpp"
+#include "mms/dataset/source/frame_source.hpp"
+#include "mms/ros/transform_tree.hpp"
+#include "mms/ros2/ros2_node.hpp"
+
+namespace mms {
+
+/// Topics of the sensor, as given on the command line; an empty name: none. Names that end with
+/// "/compressed" or "/compressedDepth" are of the type CompressedImage.
+struct Ros2Inputs {
+  std::string color;
+  std::string depth;        ///< registered to the color images; without `points`
+  std::string camera_info;  ///< of the color images
+  std::string points;       ///< LiDAR scans, with or without color images
+  std::string imu;
+  std::string wheels;  ///< nav_msgs/Odometry
+  std::string mask;    ///< label images: 0 static, 1 person, 2 vehicle
+};
+
+/// Counts since the start.
+struct Ros2InputCounts {
+  std::size_t frames = 0;      ///< complete ones
+  std::size_t unmatched = 0;   ///< images without counterpart
+  std::size_t damaged = 0;     ///< messages that could not be read
+  std::size_t not_later = 0;   ///< frames whose stamps did not increase
+  std::size_t incomplete = 0;  ///< frames that went on without mask or motion
+  std::size_t dropped = 0;     ///< frames that found no room
+};
+
+/// The sensor of the topics of a node as a source of frames, which are assembled by the rules for
+/// recordings. When the queue is full, the oldest frame is dropped. Its end stops the node.
+class Ros2Source final : public FrameSource {
+ public:
+  /// Subscribes to the topics.
+  /// @param queue  frames that may wait
+  /// @param stop   whether the source should end; called in the node's thread
+  Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t queue,
+             std::function<bool()> stop);
+  ~Ros2Source() override { node_.stop(); }
+
+  /// Waits for the first frame, with which the calibration is known.
+  /// @param report  called every few seconds with what is missing
+  /// @returns false if the source ended before
+  bool wait(const std::function<void(const std::string&)>& report);
+
+  /// The next frame, for which it waits; nullopt at the end.
+  std::optional<Frame> next() override;
+  std::size_t size() const override { return kEndless; }
+  std::size_t skipped() const override { return 0; }
+  void skip(std::size_t count) override;
+  bool has_masks() const override { return !inputs_.mask.empty(); }
+  std::shared_ptr<const Calibration> calibration() const override { return calibration_; }
+  const Trajectory& ground_truth() const override { return no_truth_; }
+  void add_motion(MotionRecording) override {}
+  std::vector<std::string> describe() const override;
+  void on_warning(WarningHandler handler) override;
+
+  /// Passes a line to the warning handler; in any thread.
+  void warn(const std::string& message);
+
+  /// Counts a message that could not be read, and warns.
+  void count_damaged(const std::string& fault);
+
+  // In the node's thread:
+
+  /// Rates of the inputs since the last call, and what is missing.
+  std::string report();
+  Ros2InputCounts counts() const;
+
+  /// frame_id of the images or clouds that are localized.
+  std::string sensor_frame() const;
+  bool is_camera() const { return inputs_.points.empty(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Pending {
+    Frame frame;
+    Clock::time_point since;
+  };
+
+  void subscribe_color();
+  void subscribe_depth();
+  void subscribe_points();
+  void subscribe_motion();
+  void subscribe_transforms();
+  void advance();
+  void take_frames();
+  bool find_extrinsics();
+  bool is_complete(const Pending& pending);
+  void release(Frame frame);
+  void complete(Frame& frame);
+  std::shared_ptr<const Calibration> calibration_of(const Frame& frame);
+
+  Ros2Node& node_;
+  Ros2Inputs inputs_;
+  FrameQueue queue_;
+  std::function<bool()> stop_;
+  Trajectory no_truth_;
+
+  // Of the node's thread:
+  FrameAssembler assembler_;
+  TransformTree transforms_;
+  std::string color_frame_, cloud_frame_, wheel_frame_, imu_frame_;
+  std::deque<Pending> pending_;  ///< frames that wait for masks or motion
+  std::deque<std::pair<Timestamp, Image<std::uint8_t>>> masks_;
+  std::deque<WheelSample> wheels_;
+  std::deque<ImuSample> imu_;
+  std::optional<Timestamp> last_stamp_;
+  std::shared_ptr<const Calibration> received_;   ///< that of the last frame
+  std::shared_ptr<const Calibration> completed_;  ///< the same with the mounting of the motion
+  std::optional<MotionCalibration> mounting_;     ///< as of the first frame
+  Clock::time_point reported_ = Clock::now();
+
+  // Of the thread of the run:
+  std::optional<Frame> first_;
+  std::shared_ptr<const Calibration> calibration_;
+
+  mutable std::mutex mutex_;  ///< guards all below
+  std::string sensor_frame_;
+  Ros2InputCounts counts_;
+  WarningHandler handler_;
+};
+
+}  // namespace mms

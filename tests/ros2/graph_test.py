@@ -1,0 +1,232 @@
+#!/usr/bin/env python3
+"""Runs `mms ros2` in a graph with a program on Fast DDS, which plays a recording to it and receives
+its results. usage: graph_test.py MMS PARTNER WORK_DIR
+
+Checks that the poses and the map are those of `mms run` of the recording, bit for bit; that the
+partner gets all results, which the libraries of Foxglove decode (where Node is installed); what
+nodes of ROS 2 see of the node; the service; and that the node goes on when the partner is killed
+and another one starts. WORK_DIR keeps the packages of Node.
+"""
+
+import json
+import os
+import re
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+MMS, PARTNER, WORK = (os.path.abspath(path) for path in sys.argv[1:4])
+READERS = Path(__file__).resolve().parent.parent / "ros2_readers"
+FRAMES = 40
+WAIT = 100  # longest of all steps on a machine under load [s]
+TOPICS = {
+    "/mms_slam/odometry": "nav_msgs/Odometry",
+    "/tf": "tf2_msgs/TFMessage",
+    "/tf_static": "tf2_msgs/TFMessage",
+    "/mms_slam/path": "nav_msgs/Path",
+    "/mms_slam/static_cloud": "sensor_msgs/PointCloud2",
+    "/mms_slam/dynamic_cloud": "sensor_msgs/PointCloud2",
+    "/mms_slam/map": "sensor_msgs/PointCloud2",
+    "/mms_slam/object_markers": "visualization_msgs/MarkerArray",
+    "/mms_slam/objects": "mms_msgs/Objects",
+    "/mms_slam/mask": "sensor_msgs/Image",
+    "/diagnostics": "diagnostic_msgs/DiagnosticArray",
+}
+HASHES = {  # as Jazzy shows them
+    "rt/mms_slam/odometry": "3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0",
+    "rt/tf": "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087",
+    "rt/mms_slam/map": "9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5",
+    "ros_discovery_info": "91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e",
+}
+
+os.environ["ROS_LOCALHOST_ONLY"] = "1"
+os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 100)
+os.environ.pop("CYCLONEDDS_URI", None)
+os.environ.pop("ROS_DISTRO", None)
+os.chdir(tempfile.mkdtemp(prefix="mms_ros2_"))
+
+
+def check(condition, what):
+    if not condition:
+        sys.exit(f"failed: {what} (in {os.getcwd()})")
+
+
+def run_mms(*words):
+    subprocess.run([MMS, *words], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+
+
+def start_node(folder, *words):
+    log = open(folder + ".log", "w")
+    return subprocess.Popen(
+        [MMS, "ros2", "--mask", "/camera/mask/image_raw", "-o", folder, *words],
+        stdout=log, stderr=log)
+
+
+def start_partner(*words):
+    return subprocess.Popen([PARTNER, "masks", "on", "timeout", str(WAIT), *words],
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def finish(process, what, status=0):
+    try:
+        output = process.communicate(timeout=WAIT)[0]
+    except subprocess.TimeoutExpired:
+        process.kill()
+        sys.exit(f"failed: {what} takes longer than {WAIT} s (in {os.getcwd()})")
+    check(process.returncode == status, f"{what} ended with {process.returncode}: {output}")
+    return output
+
+
+def wait_for(condition, what):
+    end = time.monotonic() + WAIT
+    while not condition():
+        check(time.monotonic() < end, what)
+        time.sleep(0.05)
+
+
+def poses(folder):
+    return [line for line in Path(folder, "trajectory.tum").read_text().splitlines()
+            if not line.startswith("#")]
+
+
+def check_same_results():
+    """The partner plays the recording; the node ends by itself after its last frame."""
+    node = start_node("live", "--frames", str(FRAMES))
+    topics = ",".join(f"{topic}={kind}" for topic, kind in TOPICS.items())
+    partner = start_partner("play", "x.mcap", "receive", "received", "topics", topics,
+                            "expect", str(FRAMES))
+    output = finish(partner, "the partner")
+    finish(node, "the node")
+    for name in ("trajectory.tum", "static_map.ply"):
+        check(Path("live", name).read_bytes() == Path("run", name).read_bytes(),
+              f"{name} differs from that of mms run")
+    counts = dict(line.split() for line in output.splitlines() if line.startswith("/"))
+    check(counts["/mms_slam/odometry"] == str(FRAMES), f"counts of messages: {counts}")
+    check(all(int(count) > 0 for count in counts.values()), f"counts of messages: {counts}")
+    print(f"ok: {FRAMES} poses and the map are those of mms run; received: {counts}")
+
+
+def check_decoded():
+    """By other libraries than ours."""
+    installed = subprocess.run([READERS / "install.sh", WORK], stdout=subprocess.PIPE, text=True)
+    if installed.returncode == 77:
+        print(f"not decoded by the libraries of Foxglove, {installed.stdout.strip()}")
+        return
+    check(installed.returncode == 0, "the packages of Node cannot be installed")
+    topics = ",".join(f"{topic}={kind}" for topic, kind in TOPICS.items())
+    result = subprocess.run(
+        ["node", READERS / "decode_samples.mjs", Path(WORK) / "node_modules", "received", topics,
+         "x.mcap", "run/run.mcap"], stdout=subprocess.PIPE, text=True)
+    check(result.returncode == 0, "a message is not what the libraries of Foxglove expect")
+    last = {}
+    for line in result.stdout.splitlines():
+        decoded = json.loads(line)
+        last[decoded["topic"]] = decoded["last"]
+    check(last.keys() == TOPICS.keys(), f"decoded: {list(last)}")
+    odometry = last["/mms_slam/odometry"]
+    check(odometry["header"]["frame_id"] == "mms_world", f"odometry: {odometry['header']}")
+    check(odometry["child_frame_id"] == "camera_color_optical_frame", "child of the odometry")
+    pose = [float(number) for number in poses("run")[-1].split()]
+    position = odometry["pose"]["pose"]["position"]
+    check(all(abs(position[axis] - pose[1 + i]) < 1e-6 for i, axis in enumerate("xyz")),
+          f"the last odometry is {position}, the last pose {pose}")
+    check(last["/mms_slam/map"]["width"] > 1000, "points of the map")
+    check(last["/mms_slam/objects"]["objects"], "objects of the last frame")
+    names = [status["name"] for status in last["/diagnostics"]["status"]]
+    check("/mms_slam: inputs" in names, f"diagnostics: {names}")
+    print(f"ok: the libraries of Foxglove decode {', '.join(last)}")
+
+
+def endpoints(folder):
+    """The lines of graph.txt as (kind, topic) -> (type, qos, identifier, user data)."""
+    found = {}
+    participants = []
+    for line in Path(folder, "graph.txt").read_text().splitlines():
+        words = line.split(" ")
+        if words[0] == "participant":
+            participants.append(words[1])
+        else:
+            found[words[0], words[1]] = (words[2], words[3:5], words[5], " ".join(words[6:]))
+    return participants, found
+
+
+def check_graph(folder, distro):
+    """What ros2 node list, ros2 topic list and ros2 topic info --verbose read."""
+    participants, found = endpoints(folder)
+    check("enclave=/;" in participants, f"user data of the participants: {participants}")
+    for topic, number in HASHES.items():
+        kind, qos, _, data = found["writer", topic]
+        expected = "" if distro == "humble" else f"typehash=RIHS01_{number};"
+        check(data == expected, f"user data of {topic}: {data}")
+        check(qos[0] == "reliable", f"{topic} is {qos}")
+    check(found["writer", "rt/mms_slam/map"][1][1] == "transient_local", "durability of the map")
+    check(found["writer", "rt/mms_slam/odometry"][0] == "nav_msgs::msg::dds_::Odometry_", "type")
+    check(found["reader", "rt/camera/color/image_raw"][0] == "sensor_msgs::msg::dds_::Image_",
+          "type of the color images")
+    size = 24 if distro == "humble" else 16
+    info = max(Path(folder).glob("ros_discovery_info.*.cdr"),
+               key=lambda file: int(file.name.split(".")[1])).read_bytes()
+    names = re.findall(rb"mms_slam\0|/robot\0", info)
+    check(b"mms_slam\0" in names, f"no name of the node in {info[:80]}")
+    at = info.index(b"mms_slam\0") + len(b"mms_slam\0")
+    at += -(at - 4) % 4
+    listed = []
+    for _ in range(2):  # readers, writers
+        count = struct.unpack_from("<I", info, at)[0]
+        at += 4
+        listed += [info[at + i * size:at + i * size + 16] for i in range(count)]
+        at += count * size
+    check(at <= len(info) < at + 4, f"{len(info)} bytes of discovery, expected {at}")
+    for key, (_, _, identifier, _) in found.items():
+        if key[1].startswith("rt/"):
+            raw = bytes(int(byte, 16) for byte in identifier.strip(".").split("."))
+            check(raw in listed, f"{key} is not one of the node's in ros_discovery_info")
+    print(f"ok: the graph of {distro} has the node with {len(listed)} endpoints")
+
+
+def check_discovery():
+    discovery = "ros_discovery_info=rmw_dds_common/ParticipantEntitiesInfo"
+    for distro in ("humble", "jazzy"):
+        node = start_node("none_" + distro, "--ros-distro", distro)
+        folder = "graph_" + distro
+        finish(start_partner("receive", folder, "topics", discovery, "expect", "1", "call",
+                             "/mms_slam/save_map"), "a call without frames")
+        check_graph(folder, distro)
+        node.send_signal(signal.SIGINT)
+        finish(node, "a node without frames", 130)
+        check(not Path("none_" + distro).exists(), "results without frames")
+
+
+def check_restart():
+    """A partner is killed and another one starts; the service works; Ctrl-C writes the results."""
+    node = start_node("restarted", "--save-folder", "saved")
+    odometry = "/mms_slam/odometry=nav_msgs/Odometry"
+    first = start_partner("play", "x.mcap", "receive", "first", "topics", odometry)
+    wait_for(lambda: len(list(Path("first").glob("*.cdr"))) >= 5, "frames of the first partner")
+    first.kill()
+    first.communicate()
+    second = start_partner("play", "x.mcap", "skip", "0.9", "receive", "second", "topics",
+                           odometry, "expect", "5", "call", "/mms_slam/save_map")
+    output = finish(second, "the second partner")
+    check("reply: success 1" in output and "points" in output, f"save_map: {output}")
+    check(Path("saved/static_map.ply").exists(), "a saved map")
+    node.send_signal(signal.SIGINT)
+    finish(node, "the interrupted node")
+    stamps = [float(line.split()[0]) for line in poses("restarted")]
+    check(stamps == sorted(set(stamps)), f"stamps: {stamps}")
+    check(stamps[-1] > 0.9, f"the last stamp is {stamps[-1]}")
+    for name in ("static_map.ply", "report.html", "metrics.json"):
+        check(Path("restarted", name).exists(), f"{name} after Ctrl-C")
+    print(f"ok: {len(stamps)} poses with a partner that was killed, up to {stamps[-1]} s")
+
+
+run_mms("convert", f"sim:warehouse_loop?frames={FRAMES}&width=320", "-o", "x.mcap")
+run_mms("run", "x.mcap", "--segmenter", "masks", "--mcap", "-o", "run")
+check_same_results()
+check_decoded()
+check_discovery()
+check_restart()
