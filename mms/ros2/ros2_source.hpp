@@ -20,13 +20,13 @@ namespace mms {
 /// Topics of the sensor, as given on the command line; an empty name: none. Names that end with
 /// "/compressed" or "/compressedDepth" are of the type CompressedImage.
 struct Ros2Inputs {
-  std::string color;
-  std::string depth;        ///< registered to the color images; without `points`
-  std::string camera_info;  ///< of the color images
-  std::string points;       ///< LiDAR scans, with or without color images
-  std::string imu;
-  std::string wheels;  ///< nav_msgs/Odometry
-  std::string mask;    ///< label images: 0 static, 1 person, 2 vehicle
+  std::string color{};
+  std::string depth{};        ///< registered to the color images; without `points`
+  std::string camera_info{};  ///< of the color images
+  std::string points{};       ///< LiDAR scans, with or without color images
+  std::string imu{};
+  std::string wheels{};  ///< nav_msgs/Odometry
+  std::string mask{};    ///< label images: 0 static, 1 person, 2 vehicle
 };
 
 /// Counts since the start.

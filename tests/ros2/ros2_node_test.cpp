@@ -30,6 +30,7 @@ class Ros2NodeTest : public ::testing::Test {
 Ros2NodeOptions named(const std::string& name) {
   Ros2NodeOptions options;
   options.name = name;
+  options.name_space = "test" + std::to_string(getpid());  // of parallel tests
   return options;
 }
 
@@ -66,7 +67,7 @@ TEST_F(Ros2NodeTest, LargeMessagesArriveUnchanged) {
   const Ros2Writer writer = talker.advertise<msg::Image>("image", {});
   std::mutex mutex;
   std::vector<msg::Image> received;
-  listener.subscribe<msg::Image>("/image", {}, [&](const msg::Image& image) {
+  listener.subscribe<msg::Image>("image", {}, [&](const msg::Image& image) {
     const std::scoped_lock lock(mutex);
     received.push_back(image);
   });
