@@ -72,7 +72,9 @@ std::string dds_settings() {
     settings +=
         R"(<Interfaces><NetworkInterface address="127.0.0.1" multicast="false"/></Interfaces>)";
   }
-  settings += "</General></Domain></CycloneDDS>";
+  // A color and a depth image of 640x480 have 1.5 MB; as much as the system allows.
+  settings +=
+      "</General><Internal><SocketReceiveBufferSize max=\"16MB\"/></Internal></Domain></CycloneDDS>";
   const std::string own = environment("CYCLONEDDS_URI");
   return own.empty() ? settings : settings + "," + own;
 }
