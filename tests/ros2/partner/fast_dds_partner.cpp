@@ -380,8 +380,13 @@ int run(int argc, char** argv) {
   }
   if (!options["expect"].empty()) {
     const auto expected = static_cast<std::size_t>(std::atoll(options["expect"].c_str()));
-    wait_until([&] { return receivers.front().second->count() >= expected; }, end,
-               "only " + std::to_string(receivers.front().second->count()) + " messages");
+    const Receiver& first = *receivers.front().second;
+    try {
+      wait_until([&] { return first.count() >= expected; }, end, "messages are missing");
+    } catch (const std::exception&) {
+      std::printf("%s %zu\n", receivers.front().first.c_str(), first.count());
+      throw;
+    }
   }
   if (call) call->print_reply();
   for (const auto& [topic, receiver] : receivers) {
