@@ -74,7 +74,8 @@ std::string dds_settings() {
   }
   // A color and a depth image of 640x480 have 1.5 MB; as much as the system allows.
   settings +=
-      "</General><Internal><SocketReceiveBufferSize max=\"16MB\"/></Internal></Domain></CycloneDDS>";
+      "</General><Internal><SocketReceiveBufferSize "
+      "max=\"16MB\"/></Internal></Domain></CycloneDDS>";
   const std::string own = environment("CYCLONEDDS_URI");
   return own.empty() ? settings : settings + "," + own;
 }

@@ -110,11 +110,12 @@ TEST(CommandLine, VersionIsOneLine) {
 TEST(CommandLine, InvalidArgumentsAreUsageErrors) {
   const TempFolder folder;
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
-  expect_usage_error(run({}),
-                     "no command given, expected run, batch, eval, reproduce, simulate, segment, "
-                     "quantize, import, ");
+  expect_usage_error(
+      run({}),
+      "no command given, expected run, ros2, batch, eval, reproduce, simulate, segment, "
+      "quantize, import, ");
   expect_usage_error(run({"rum"}), "unknown command 'rum', did you mean 'run'?");
-  expect_usage_error(run({"zzzzzz"}), "unknown command 'zzzzzz', expected run, batch, eval");
+  expect_usage_error(run({"zzzzzz"}), "unknown command 'zzzzzz', expected run, ros2, batch, eval");
   expect_usage_error(run({"help", "evl"}), "no command 'evl'; did you mean 'eval'?");
   expect_usage_error(
       run({"eval"}),
