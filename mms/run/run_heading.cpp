@@ -39,14 +39,11 @@ std::vector<std::string> run_heading(const RunOptions& options, const FrameSourc
   const std::vector<std::string> facts = source.describe();
   const std::string count =
       frames == FrameSource::kEndless ? "until Ctrl-C" : fmt::format("{} frames", frames);
-  const double noise = config.noise.depth.quadratic / DepthNoise{}.quadratic;
-  const std::string noisy =
-      config.measure_depth_noise && noise > 1.0 ? fmt::format("; depth noise x{:.1f}", noise) : "";
-  return {fmt::format("recording  {}, {} ({})", options.data, count,
-                      first_part(fact_of(facts, "layout"))),
-          fmt::format("sensor     {}{}; masks: {}", fact_of(facts, "sensor"), noisy,
-                      masks_of(options, config)),
-          fmt::format("results    {}", folder.string())};
+  return {
+      fmt::format("recording  {}, {} ({})", options.data, count,
+                  first_part(fact_of(facts, "layout"))),
+      fmt::format("sensor     {}; masks: {}", fact_of(facts, "sensor"), masks_of(options, config)),
+      fmt::format("results    {}", folder.string())};
 }
 
 }  // namespace mms

@@ -124,7 +124,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   map_.load(system_, handler);
   if (options_.realtime) warm_up();
   AsyncPipeline pipeline(threads_of(options_, config_));
-  // The check takes about 0.2 s, which a run in real time does not have.
+  // The check takes about 0.5 s, which a run in real time does not have.
   if (!options_.realtime) check_.emplace();
   pipeline.run(system_, frames_for(observer),
                [&](Processed&& processed) { finish_frame(std::move(processed), observer); });

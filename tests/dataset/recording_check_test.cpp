@@ -259,6 +259,17 @@ TEST(RecordingCheck, NoticesBlurredImages) {
       << faults_in_sequence(frames);
 }
 
+/// They are dark, which is another fault.
+TEST(RecordingCheck, SeesNoMotionOfCoveredLens) {
+  Frames frames = sequence_of("sim:warehouse_loop?frames=20");
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (Rgb& color : frames[i].color.pixels()) {
+      color = {0, static_cast<std::uint8_t>((i + color.g) % 3), 0};
+    }
+  }
+  EXPECT_EQ(faults_in_sequence(frames), "");
+}
+
 /// Recordings that were not used to choose the limits.
 TEST(RecordingCheck, NoticesMistakesInOtherScenes) {
   for (const char* data :

@@ -18,6 +18,7 @@
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/dataset/plausibility/recording_check.hpp"
 #include "mms/dataset/simulated/simulated_source.hpp"
+#include "mms/geometry/noise_measurement.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/io/weights/safetensors.hpp"
 #include "mms/map_file/map_file.hpp"
@@ -69,6 +70,14 @@ void check_frames(FrameSource& source, RecordingInfo& info) {
   }
 }
 
+void add_noise(const Image<float>& depth, RecordingInfo& info) {
+  const double ratio = measured_noise({}, depth).base / DepthNoise{}.base;
+  if (ratio > 1.0) {
+    info.facts.push_back(
+        fmt::format("depth noise: {:.1f} times the default, raised in runs", ratio));
+  }
+}
+
 /// Reads frames spread over the recording, and a sequence from its center.
 void check_plausibility(const InfoOptions& options, RecordingInfo& info) {
   const std::size_t first = (info.frames - std::min(info.frames, RecordingCheck::kSequence)) / 2;
@@ -87,6 +96,7 @@ void check_plausibility(const InfoOptions& options, RecordingInfo& info) {
     const auto frame = source->next();
     if (!frame) break;
     position = static_cast<std::size_t>(frame->index) + 1;
+    if (index == 0) add_noise(frame->depth, info);
     if (spread.contains(index)) check.add(*frame);
     if (index >= first && index < first + RecordingCheck::kSequence) check.add_in_sequence(*frame);
   }

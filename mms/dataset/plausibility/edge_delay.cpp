@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kMinEdgesOfFrame = 40;
 /// Frames that were compared at least.
 constexpr std::size_t kMinPairs = 4;
-/// [-]: gain in rank that proves a delay. Source: right depth of eight scenes and two recordings,
-/// 16 frames each: at most 0.002; late or early by 3 frames: at least 0.08.
+/// [-]: gain in rank that proves a delay. Source: right depth of two recordings and three scenes:
+/// none; late or early by 3 frames: at least 0.07.
 constexpr double kMinGain = 0.02;
 /// [-]: the same with few edges in a frame, which may fit other edges by chance. Source: scene
 /// `corridor`, 110 edges, 0.08 with right depth.
