@@ -32,7 +32,7 @@ td{font-variant-numeric:tabular-nums;font-weight:600;white-space:nowrap}
 .plain th:first-child,.plain td:first-child{text-align:left}
 .plot{display:block;width:100%;height:auto}
 .plot text{fill:var(--dim);font-size:12px}
-@media(max-width:600px){.plot text{font-size:16px}}
+@media(max-width:600px){.plot text{font-size:var(--narrow,25px)}.plot .second{display:none}}
 .grid{stroke:var(--rule);stroke-width:1;fill:none}
 .line{fill:none;stroke-width:1.6;stroke-linejoin:round;stroke-linecap:round}
 .marker{fill:none;stroke-width:10;stroke-linecap:round}

@@ -17,7 +17,7 @@ class SvgCanvas {
   void make_equal_aspect();
 
   /// Margins of the drawing area [px].
-  static constexpr int kLeft = 72;
+  static constexpr int kLeft = 92;
   static constexpr int kRight = 16;
 
   double left() const { return kLeft; }
@@ -31,11 +31,13 @@ class SvgCanvas {
   /// Frame, grid, tick labels and axis labels (plain text, escaped here).
   std::string axes(std::string_view x_label, std::string_view y_label) const;
 
-  static std::string text(double x, double y, std::string_view anchor, std::string_view content);
+  /// @param name  class of the element; empty for none
+  static std::string text(double x, double y, std::string_view anchor, std::string_view content,
+                          std::string_view name = "");
 
  private:
   static constexpr double kTop = 10.0;
-  static constexpr double kBottom = 44.0;
+  static constexpr double kBottom = 58.0;
 
   double pixel_x(double value) const;
   double pixel_y(double value) const;

@@ -8,6 +8,8 @@ namespace mms {
 namespace {
 
 constexpr int kColors = 8;
+/// Width of a plot over the height of its text on narrow screens: 10 px at 360 px.
+constexpr int kNarrowText = 36;
 /// Margin between data and frame, as a share of the data's extent.
 constexpr double kMargin = 0.04;
 /// A line with more points is downsampled; twice what a screen can show.
@@ -137,8 +139,10 @@ std::string SvgPlot::render() const {
   if (!area) return "<p class=\"note\">no data</p>";
   const std::string width = std::to_string(layout_.width);
   const std::string height = std::to_string(layout_.height);
+  const std::string narrow = std::to_string(layout_.width / kNarrowText);
   std::string svg = legend() + "<svg class=\"plot\" role=\"img\" aria-label=\"" +
-                    escape_html(layout_.title) + "\" viewBox=\"0 0 " + width + " " + height + "\">";
+                    escape_html(layout_.title) + "\" style=\"--narrow:" + narrow +
+                    "px\" viewBox=\"0 0 " + width + " " + height + "\">";
   svg += area->axes(layout_.x_label, layout_.y_label);
   for (const Series& series : series_) svg += draw(series, *area);
   return svg + "</svg>";

@@ -81,8 +81,16 @@ TEST(SvgPlot, DownsamplesLongSeriesAndKeepsPeaks) {
   plot.add_line("a", 0, x, y);
   const std::string svg = plot.render();
   EXPECT_LT(svg.size(), 60'000U);
-  // The peak at 100 of 0..104.04 plotted over 246 px from the bottom at 256 px.
-  EXPECT_NE(svg.find(",19.6"), std::string::npos);
+  // The peak at 100 of 0..104.04 plotted over 232 px from the bottom at 242 px.
+  EXPECT_NE(svg.find(",19.0"), std::string::npos);
+}
+
+TEST(SvgPlot, HasLargerTextAndFewerLabelsForNarrowScreens) {
+  SvgPlot plot({.width = 900});
+  plot.add_line("a", 0, {0, 1}, {0, 1});
+  const std::string svg = plot.render();
+  EXPECT_NE(svg.find("style=\"--narrow:25px\""), std::string::npos);
+  EXPECT_EQ(count(svg, "<text class=\"second\""), (count(svg, "<text") - 2) / 2);
 }
 
 TEST(SvgPlot, DrawsClosedBandsAndMarkers) {
