@@ -15,6 +15,8 @@ constexpr std::size_t kDepthStride = 37;
 /// [-]: share of the pixels with depth below which a recording has none. The least of a recording
 /// here, `still_walker`, is 0.46.
 constexpr double kMinValidShare = 0.03;
+/// Larger images are not checked in sequence, which would take seconds.
+constexpr std::size_t kMaxPixels = 1'500'000;
 /// [m]: far depth (98 % are nearer) that depth cameras have in rooms. The recordings and scenes
 /// here have 2.9 to 8.5 m; with a scale wrong by 5, at most 1.7 or at least 14 m.
 constexpr double kNearestFar = 2.0;
@@ -105,7 +107,7 @@ void RecordingCheck::add(const Frame& frame) {
 }
 
 void RecordingCheck::add_in_sequence(const Frame& frame) {
-  if (frame.color.empty()) return;
+  if (frame.color.empty() || frame.color.size() > kMaxPixels) return;
   const bool begins = in_sequence_ == 0 || frame.index != last_index_ + 1;
   ++in_sequence_;
   last_index_ = frame.index;
