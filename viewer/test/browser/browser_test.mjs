@@ -37,10 +37,16 @@ const frame = async () => Number(/frame (\d+)/.exec(await page.textContent('.fra
 const image = () => countPixels(page, page.locator('#image'));
 const pill = () => page.textContent('#connection');
 
+/** The run may end before the click, which then starts it again: only a title that stays counts. */
 async function pause() {
-  await page.getByTitle(/^(Pause|Play|Replay)/).waitFor();
-  if ((await page.locator('.play').getAttribute('title')).startsWith('Pause')) await page.locator('.play').click();
-  await eventually('pausing', () => page.locator('.play').getAttribute('title'), (title) => !title.startsWith('Pause'));
+  let calm = 0;
+  const stay = async () => {
+    const title = await page.locator('.play').getAttribute('title');
+    calm = title && !title.startsWith('Pause') ? calm + 1 : 0;
+    if (title?.startsWith('Pause')) await page.locator('.play').click();
+    return calm;
+  };
+  await eventually('pausing', stay, (times) => times >= 5);
 }
 
 /** Clicks the slider at a share of its length. */
