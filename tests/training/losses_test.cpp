@@ -89,28 +89,38 @@ torch::Tensor rectangle(int x0, int y0, int x1, int y1) {
 
 /// An image that is white in the rectangle and black elsewhere.
 torch::Tensor picture(const torch::Tensor& rectangle) {
-  return rectangle.expand({3, -1, -1}) * 4.0F;
+  return rectangle.unsqueeze(1).expand({-1, 3, -1, -1}) * 4.0F;
 }
 
 TEST(BoxLoss, IsZeroForTheObjectThatFillsItsBox) {
   const torch::Tensor box = rectangle(4, 3, 12, 13);
-  EXPECT_NEAR(box_loss(box, box, picture(box)).item<double>(), 0.0, 1e-2);
+  EXPECT_NEAR(box_loss(box, box, picture(box), {0}).item<double>(), 0.0, 1e-2);
 }
 
 TEST(BoxLoss, PrefersTheObjectsColorsInsideTheBox) {
   // A cross of one color touches all sides of its box.
   const torch::Tensor cross = torch::maximum(rectangle(6, 3, 10, 13), rectangle(4, 6, 12, 10));
   const torch::Tensor box = rectangle(4, 3, 12, 13);
-  const double right = box_loss(cross, box, picture(cross)).item<double>();
+  const double right = box_loss(cross, box, picture(cross), {0}).item<double>();
   EXPECT_NEAR(right, 0.0, 1e-2);
-  EXPECT_GT(box_loss(box, box, picture(cross)).item<double>(), right + 0.3);
+  EXPECT_GT(box_loss(box, box, picture(cross), {0}).item<double>(), right + 0.3);
 }
 
 TEST(BoxLoss, PunishesAMaskThatReachesBeyondTheBox) {
   const torch::Tensor box = rectangle(4, 3, 12, 13);
   const torch::Tensor wide = rectangle(1, 3, 18, 13);
-  EXPECT_GT(box_loss(wide, box, picture(box)).item<double>(),
-            box_loss(box, box, picture(box)).item<double>() + 0.1);
+  EXPECT_GT(box_loss(wide, box, picture(box), {0}).item<double>(),
+            box_loss(box, box, picture(box), {0}).item<double>() + 0.1);
+}
+
+TEST(BoxLoss, TakesTheImageOfEachObject) {
+  const torch::Tensor cross = torch::maximum(rectangle(6, 3, 10, 13), rectangle(4, 6, 12, 10));
+  const torch::Tensor box = rectangle(4, 3, 12, 13);
+  const torch::Tensor images = torch::cat({picture(box), picture(cross)});
+  const torch::Tensor losses =
+      box_loss(torch::cat({box, box}), torch::cat({box, box}), images, {1, 0});
+  EXPECT_FLOAT_EQ(losses[0].item<float>(), box_loss(box, box, picture(cross), {0}).item<float>());
+  EXPECT_FLOAT_EQ(losses[1].item<float>(), box_loss(box, box, picture(box), {0}).item<float>());
 }
 
 TEST(SoloLoss, DoesNotCountTheBackgroundOfAnIncompleteClass) {

@@ -1,5 +1,7 @@
 #include "mms/training/data/batch.hpp"
 
+#include <torch/cuda.h>
+
 #include "mms/core/hash_noise.hpp"
 #include "mms/geometry/parallel.hpp"
 #include "mms/segmentation/solo/prepared_image.hpp"
@@ -35,6 +37,10 @@ Sample augmented(const SampleStore& store, const TrainingConfig& config, const C
 
 }  // namespace
 
+bool uses_cuda(const TrainingConfig& config) {
+  return config.use_cuda && torch::cuda::is_available();
+}
+
 Batch make_batch(const SampleStore& store, const TrainingConfig& config, int number) {
   const auto seed =
       hash_of(static_cast<std::uint64_t>(config.seed), static_cast<std::uint64_t>(number));
@@ -43,7 +49,9 @@ Batch make_batch(const SampleStore& store, const TrainingConfig& config, int num
   const auto count = static_cast<std::size_t>(config.schedule.batch);
   Batch batch;
   batch.targets.resize(count);
-  batch.images = torch::zeros({config.schedule.batch, 3, canvas.height, canvas.width});
+  // Pinned memory is copied to a GPU in the background.
+  batch.images = torch::zeros({config.schedule.batch, 3, canvas.height, canvas.width},
+                              torch::TensorOptions().pinned_memory(uses_cuda(config)));
   float* planes = batch.images.data_ptr<float>();
   const std::size_t image_size =
       3 * static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);

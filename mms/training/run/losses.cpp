@@ -74,14 +74,68 @@ std::array<int, HeadConfig::kLevels> level_offsets(const ImageTargets& targets) 
   return offsets;
 }
 
-/// Masks of an image's objects, (objects, pixels) in {0, 1}.
-torch::Tensor mask_targets(const ImageTargets& targets) {
-  std::vector<torch::Tensor> masks;
-  for (const Image<std::uint8_t>& mask : targets.masks) {
-    masks.push_back(torch::from_blob(const_cast<std::uint8_t*>(mask.pixels().data()),
-                                     {static_cast<std::int64_t>(mask.size())}, torch::kByte));
+/// The pairs of cell and object of a batch, in the order of the images.
+struct BatchPairs {
+  std::vector<std::int64_t> counts;   // of each image
+  std::vector<std::int64_t> cells;    // index among the cells of all images
+  std::vector<std::int64_t> objects;  // index among the objects of all images
+  std::vector<std::int64_t> images;
+  std::vector<std::int64_t> with_mask;  // indices of the pairs whose object has a mask
+  std::vector<std::int64_t> with_box;   // and of those with a box only
+};
+
+BatchPairs pairs_of(const std::vector<ImageTargets>& targets, std::int64_t cells_per_image) {
+  BatchPairs all;
+  std::int64_t objects = 0;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const auto image = static_cast<std::int64_t>(i);
+    const auto offsets = level_offsets(targets[i]);
+    const std::vector<ImageTargets::Pair> pairs = limited_pairs(targets[i].pairs);
+    all.counts.push_back(static_cast<std::int64_t>(pairs.size()));
+    for (const ImageTargets::Pair& pair : pairs) {
+      const bool box_only = targets[i].box_only[static_cast<std::size_t>(pair.object)];
+      (box_only ? all.with_box : all.with_mask)
+          .push_back(static_cast<std::int64_t>(all.cells.size()));
+      all.cells.push_back(image * cells_per_image + offsets[static_cast<std::size_t>(pair.level)] +
+                          pair.cell);
+      all.objects.push_back(objects + pair.object);
+      all.images.push_back(image);
+    }
+    objects += static_cast<std::int64_t>(targets[i].masks.size());
   }
-  return torch::stack(masks).to(torch::kFloat);
+  return all;
+}
+
+/// Masks of all objects, (objects, pixels) in {0, 1}.
+torch::Tensor mask_targets(const std::vector<ImageTargets>& targets, std::int64_t pixels) {
+  std::vector<torch::Tensor> masks;
+  for (const ImageTargets& image : targets) {
+    for (const Image<std::uint8_t>& mask : image.masks) {
+      masks.push_back(torch::from_blob(const_cast<std::uint8_t*>(mask.pixels().data()), {pixels},
+                                       torch::kByte));
+    }
+  }
+  return torch::stack(masks);
+}
+
+/// Rows of a tensor.
+torch::Tensor rows(const torch::Tensor& all, const std::vector<std::int64_t>& some) {
+  return all.index_select(0, torch::tensor(some).to(all.device()));
+}
+
+/// Masks that the pairs' kernels find, (pairs, pixels).
+/// @param kernels   (B, cells, E)
+/// @param features  (B, E, height, width)
+torch::Tensor found_masks(const torch::Tensor& kernels, const torch::Tensor& features,
+                          const BatchPairs& pairs) {
+  // `unbind` and `split`: the gradient of single rows would fill a tensor of full size for each.
+  const auto chosen = rows(kernels.flatten(0, 1), pairs.cells).split_with_sizes(pairs.counts);
+  const auto flat = features.flatten(2).unbind();
+  std::vector<torch::Tensor> found;
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    if (pairs.counts[i] > 0) found.push_back(torch::mm(chosen[i], flat[i]));
+  }
+  return torch::sigmoid(torch::cat(found));
 }
 
 /// Dice losses of the projections on both axes: the projection term of BoxInst.
@@ -93,7 +147,8 @@ torch::Tensor projection_loss(const torch::Tensor& probability, const torch::Ten
 /// Cross-entropy of "both have one label" over neighbors of nearly equal color, of which one is in
 /// the box: the pairwise term of BoxInst.
 torch::Tensor pairwise_loss(const torch::Tensor& probability, const torch::Tensor& box,
-                            const torch::Tensor& image) {
+                            const torch::Tensor& images,
+                            const std::vector<std::int64_t>& image_of) {
   using torch::indexing::Slice;
   constexpr std::int64_t kReach = 2;  // [px of the mask features], as in BoxInst
   constexpr std::array<std::array<std::int64_t, 2>, 4> kNeighbors = {
@@ -101,18 +156,18 @@ torch::Tensor pairwise_loss(const torch::Tensor& probability, const torch::Tenso
   torch::Tensor sum = torch::zeros({probability.size(0)}, probability.options());
   torch::Tensor count = torch::zeros_like(sum);
   for (const auto& [dy, dx] : kNeighbors) {
-    const std::int64_t height = image.size(1) - dy;
-    const std::int64_t width = image.size(2) - std::abs(dx);
+    const std::int64_t height = images.size(2) - dy;
+    const std::int64_t width = images.size(3) - std::abs(dx);
     const std::int64_t left = std::max<std::int64_t>(0, -dx);
     const auto here = [&](const torch::Tensor& t) {
-      return t.index({Slice(), Slice(0, height), Slice(left, left + width)});
+      return t.narrow(-2, 0, height).narrow(-1, left, width);
     };
     const auto there = [&, dy = dy, dx = dx](const torch::Tensor& t) {
-      return t.index({Slice(), Slice(dy, dy + height), Slice(left + dx, left + dx + width)});
+      return t.narrow(-2, dy, height).narrow(-1, left + dx, width);
     };
     const torch::Tensor alike =
-        ((here(image) - there(image)).norm(2, {0}) < kSameColor).to(torch::kFloat);
-    const torch::Tensor counted = torch::maximum(here(box), there(box)) * alike.unsqueeze(0);
+        ((here(images) - there(images)).norm(2, {1}) < kSameColor).to(torch::kFloat);
+    const torch::Tensor counted = torch::maximum(here(box), there(box)) * rows(alike, image_of);
     const torch::Tensor p = here(probability);
     const torch::Tensor q = there(probability);
     const torch::Tensor same = p * q + (1 - p) * (1 - q);
@@ -122,45 +177,38 @@ torch::Tensor pairwise_loss(const torch::Tensor& probability, const torch::Tenso
   return sum / count.clamp_min(1);
 }
 
-/// Mask losses of one image's pairs.
-/// @param image  (3, height, width) at the size of the features, normalized
-torch::Tensor image_mask_loss(const torch::Tensor& kernels, const torch::Tensor& features,
-                              const ImageTargets& targets, const torch::Tensor& image) {
-  const auto offsets = level_offsets(targets);
-  std::vector<std::int64_t> cells;
-  std::vector<std::int64_t> objects;
-  std::vector<std::int64_t> boxes;  // indices of the pairs with a box only
-  std::vector<std::int64_t> masks;
-  for (const ImageTargets::Pair& pair : limited_pairs(targets.pairs)) {
-    cells.push_back(offsets[static_cast<std::size_t>(pair.level)] + pair.cell);
-    const bool box_only = targets.box_only[static_cast<std::size_t>(pair.object)];
-    (box_only ? boxes : masks).push_back(static_cast<std::int64_t>(objects.size()));
-    objects.push_back(pair.object);
-  }
-  const auto device = features.device();
-  const torch::Tensor chosen = kernels.index_select(0, torch::tensor(cells).to(device));
-  const torch::Tensor probability = torch::sigmoid(torch::mm(chosen, features.flatten(1)));
+/// Mask losses of all pairs.
+torch::Tensor mask_losses(const torch::Tensor& kernels, const torch::Tensor& features,
+                          const std::vector<ImageTargets>& targets, const BatchPairs& pairs,
+                          const torch::Tensor& images) {
+  const torch::Tensor probability = found_masks(kernels, features, pairs);
   const torch::Tensor wanted =
-      mask_targets(targets).to(device).index_select(0, torch::tensor(objects).to(device));
-  if (boxes.empty()) return dice_loss(probability, wanted);
-  const auto rows = [&](const torch::Tensor& all, const std::vector<std::int64_t>& some) {
-    return all.index_select(0, torch::tensor(some).to(device));
-  };
-  const auto planes = [&](const torch::Tensor& all) {
-    return rows(all, boxes).view({-1, features.size(1), features.size(2)});
-  };
-  const torch::Tensor found = planes(probability);
-  const torch::Tensor box = planes(wanted);
-  const torch::Tensor of_boxes = box_loss(found, box, image);
-  if (masks.empty()) return of_boxes;
-  return torch::cat({dice_loss(rows(probability, masks), rows(wanted, masks)), of_boxes});
+      rows(mask_targets(targets, probability.size(1)).to(probability.device()), pairs.objects)
+          .to(torch::kFloat);
+  std::vector<torch::Tensor> parts;
+  if (!pairs.with_mask.empty()) {
+    parts.push_back(dice_loss(rows(probability, pairs.with_mask), rows(wanted, pairs.with_mask)));
+  }
+  if (!pairs.with_box.empty()) {
+    const auto planes = [&](const torch::Tensor& all) {
+      return rows(all, pairs.with_box).view({-1, features.size(2), features.size(3)});
+    };
+    const torch::Tensor small =
+        torch::adaptive_avg_pool2d(images.to(torch::kFloat), {features.size(2), features.size(3)});
+    std::vector<std::int64_t> image_of;
+    for (const std::int64_t pair : pairs.with_box) {
+      image_of.push_back(pairs.images[static_cast<std::size_t>(pair)]);
+    }
+    parts.push_back(box_loss(planes(probability), planes(wanted), small, image_of));
+  }
+  return torch::cat(parts);
 }
 
 }  // namespace
 
 torch::Tensor box_loss(const torch::Tensor& probability, const torch::Tensor& box,
-                       const torch::Tensor& image) {
-  return projection_loss(probability, box) + pairwise_loss(probability, box, image);
+                       const torch::Tensor& images, const std::vector<std::int64_t>& image_of) {
+  return projection_loss(probability, box) + pairwise_loss(probability, box, images, image_of);
 }
 
 torch::Tensor dice_loss(const torch::Tensor& probability, const torch::Tensor& target) {
@@ -184,16 +232,10 @@ SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTar
   loss.category = category_loss(cells_of(output.categories), targets);
   const torch::Tensor kernels = cells_of(output.kernels);
   const torch::Tensor features = output.mask_features.to(torch::kFloat);
-  const torch::Tensor small =
-      torch::adaptive_avg_pool2d(images.to(torch::kFloat), {features.size(2), features.size(3)});
-  std::vector<torch::Tensor> parts;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (targets[i].pairs.empty()) continue;
-    const auto image = static_cast<std::int64_t>(i);
-    parts.push_back(image_mask_loss(kernels[image], features[image], targets[i], small[image]));
-  }
+  const BatchPairs pairs = pairs_of(targets, kernels.size(1));
   // Without objects the loss is 0, but remains a function of the network.
-  loss.mask = parts.empty() ? 0 * (features.sum() + kernels.sum()) : torch::cat(parts).mean();
+  loss.mask = pairs.cells.empty() ? 0 * (features.sum() + kernels.sum())
+                                  : mask_losses(kernels, features, targets, pairs, images).mean();
   return loss;
 }
 

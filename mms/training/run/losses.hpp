@@ -19,10 +19,11 @@ torch::Tensor focal_loss(const torch::Tensor& logits, const torch::Tensor& targe
 /// Loss of the masks of objects of which only the box is known: projection and pairwise color terms
 /// of BoxInst (Tian et al., CVPR 2021).
 /// @param probability, box  (objects, height, width), the box in {0, 1}
-/// @param image             (3, height, width), normalized
+/// @param images            (B, 3, height, width), normalized
+/// @param image_of          index of each object's image
 /// @returns (objects)
 torch::Tensor box_loss(const torch::Tensor& probability, const torch::Tensor& box,
-                       const torch::Tensor& image);
+                       const torch::Tensor& images, const std::vector<std::int64_t>& image_of);
 
 /// Unweighted parts of SOLOv2's loss for a batch.
 struct SoloLoss {
@@ -32,7 +33,7 @@ struct SoloLoss {
 };
 
 /// @param targets  one per image
-/// @param images   (B, 3, height, width), normalized
+/// @param images   (B, 3, height, width), normalized, on the device of the output
 SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTargets>& targets,
                    const torch::Tensor& images);
 

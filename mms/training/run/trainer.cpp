@@ -1,12 +1,11 @@
 #include "mms/training/run/trainer.hpp"
 
+#include <ATen/Context.h>
 #include <torch/cuda.h>
-#include <torch/nn/utils/clip_grad.h>
 #include <torch/optim/adamw.h>
 #include <torch/optim/sgd.h>
 #include <torch/serialize.h>
 
-#include <cmath>
 #include <sstream>
 
 #include "mms/core/error.hpp"
@@ -22,8 +21,10 @@ namespace {
 constexpr const char* kStepsKey = "steps";
 
 torch::Device choose_device(const TrainingConfig& config) {
-  const bool cuda = config.use_cuda && torch::cuda::is_available();
-  return cuda ? torch::Device(torch::kCUDA) : torch::Device(torch::kCPU);
+  if (!uses_cuda(config)) return torch::kCPU;
+  // All batches have one of two shapes, so that a search for the fastest convolutions pays.
+  at::globalContext().setBenchmarkCuDNN(true);
+  return torch::kCUDA;
 }
 
 void prepare_backbones(network::SoloNetwork& network, const ScheduleConfig& schedule) {
@@ -94,29 +95,40 @@ void Trainer::initialise(const Weights& weights, const std::string& where) {
   network::load_partial_weights(*average_, weights, where);
 }
 
-StepResult Trainer::step(const Batch& batch) {
+torch::Tensor Trainer::step(const Batch& batch) {
   set_learning_rate(*optimizer_, config_.schedule, steps_);
   forget_gradients(*network_);
   network_->train();
+  const torch::Tensor images =
+      batch.images.to(device_, /*non_blocking=*/true).contiguous(at::MemoryFormat::ChannelsLast);
   network::HeadOutput output;
   {
     const network::MixedPrecision precision(config_.half_precision, device_.type());
-    output = network_->forward(batch.images.to(device_).contiguous(at::MemoryFormat::ChannelsLast));
+    output = network_->forward(images);
   }
-  const SoloLoss parts = solo_loss(output, batch.targets, batch.images);
+  const SoloLoss parts = solo_loss(output, batch.targets, images);
   const torch::Tensor loss = parts.category + config_.schedule.mask_weight * parts.mask;
-  const StepResult result = {loss.item<double>(), parts.category.item<double>(),
-                             parts.mask.item<double>()};
-  if (!std::isfinite(result.loss)) {
-    throw DataError("step " + std::to_string(steps_), "the loss is not finite",
-                    "lower schedule.learning_rate; the last checkpoint is unchanged");
-  }
   loss.backward();
-  torch::nn::utils::clip_grad_norm_(network_->parameters(), config_.schedule.clip_norm);
+  clip_gradients();
   optimizer_->step();
   update_average();
   ++steps_;
-  return result;
+  return torch::stack({loss.detach(), parts.category.detach(), parts.mask.detach()});
+}
+
+/// As torch's clip_grad_norm_, which would wait for the GPU.
+void Trainer::clip_gradients() {
+  const torch::NoGradGuard no_grad;
+  std::vector<torch::Tensor> norms;
+  for (const torch::Tensor& p : network_->parameters()) {
+    if (p.grad().defined()) norms.push_back(p.grad().norm());
+  }
+  constexpr double kEpsilon = 1e-6;  // as in torch
+  const torch::Tensor factor =
+      (config_.schedule.clip_norm / (torch::stack(norms).norm() + kEpsilon)).clamp_max(1.0);
+  for (const torch::Tensor& p : network_->parameters()) {
+    if (p.grad().defined()) p.grad().mul_(factor);
+  }
 }
 
 void Trainer::update_average() {
@@ -152,7 +164,7 @@ void Trainer::load(const std::filesystem::path& path) {
     torch::serialize::InputArchive network;
     torch::serialize::InputArchive average;
     torch::serialize::InputArchive optimizer;
-    archive.load_from(stream, torch::kCPU);
+    archive.load_from(stream, device_);
     archive.read("network", network);
     archive.read("average", average);
     archive.read("optimizer", optimizer);

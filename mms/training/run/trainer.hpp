@@ -11,13 +11,6 @@
 
 namespace mms {
 
-/// Result of one step.
-struct StepResult {
-  double loss = 0.0;  ///< the weighted sum
-  double category_loss = 0.0;
-  double mask_loss = 0.0;
-};
-
 /// A network in training: weights, their moving average, state of the optimizer.
 class Trainer {
  public:
@@ -28,8 +21,9 @@ class Trainer {
   void initialise(const Weights& weights, const std::string& where);
 
   /// One step of the optimizer.
-  /// @throws DataError if the loss is not finite.
-  StepResult step(const Batch& batch);
+  /// @returns (3) the weighted sum of the losses, the category loss and the mask loss, on the
+  /// device: reading it waits for a GPU
+  torch::Tensor step(const Batch& batch);
 
   int steps() const { return steps_; }  ///< done so far
 
@@ -44,6 +38,7 @@ class Trainer {
   void load(const std::filesystem::path& path);
 
  private:
+  void clip_gradients();
   void update_average();
 
   TrainingConfig config_;

@@ -2,6 +2,7 @@
 
 #include <ATen/Parallel.h>
 
+#include <cmath>
 #include <set>
 #include <thread>
 #include <utility>
@@ -43,15 +44,20 @@ int threads_or_cores(int threads) {
                      : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-LossPoint mean_of(const std::vector<StepResult>& steps) {
+LossPoint mean_of(const std::vector<torch::Tensor>& losses) {
+  const torch::Tensor mean = torch::stack(losses).mean(0).to(torch::kCPU, torch::kDouble);
   LossPoint point;
-  const auto count = static_cast<double>(steps.size());
-  for (const StepResult& step : steps) {
-    point.loss += step.loss / count;
-    point.category_loss += step.category_loss / count;
-    point.mask_loss += step.mask_loss / count;
-  }
+  point.loss = mean[0].item<double>();
+  point.category_loss = mean[1].item<double>();
+  point.mask_loss = mean[2].item<double>();
   return point;
+}
+
+/// @param losses  of the steps since the last check
+void check_finite(const std::vector<torch::Tensor>& losses, int step) {
+  if (losses.empty() || std::isfinite(mean_of(losses).loss)) return;
+  throw DataError("step " + std::to_string(step), "the loss is not finite",
+                  "lower schedule.learning_rate; the last checkpoint is unchanged");
 }
 
 }  // namespace
@@ -168,8 +174,8 @@ bool TrainingRun::train() {
   return true;
 }
 
-bool TrainingRun::after_step(const StepResult& result) {
-  recent_.push_back(result);
+bool TrainingRun::after_step(const torch::Tensor& losses) {
+  recent_.push_back(losses);
   bool going = true;
   if (recent_.size() >= kStepsPerPoint) going = log_losses();
   if (every(config_.validation_every)) going = validate() && going;
@@ -178,6 +184,7 @@ bool TrainingRun::after_step(const StepResult& result) {
 }
 
 bool TrainingRun::log_losses() {
+  check_finite(recent_, trainer_.steps());
   LossPoint point = mean_of(recent_);
   point.images = images_seen();
   point.learning_rate = learning_rate_at(config_.schedule, trainer_.steps());
@@ -191,6 +198,7 @@ bool TrainingRun::log_losses() {
 }
 
 bool TrainingRun::validate() {
+  check_finite(recent_, trainer_.steps());
   TrainingEvent event;
   event.kind = TrainingEvent::Kind::kValidation;
   event.done = images_seen();
@@ -211,6 +219,7 @@ bool TrainingRun::validate() {
 }
 
 void TrainingRun::checkpoint() {
+  check_finite(recent_, trainer_.steps());
   const auto now = std::chrono::steady_clock::now();
   log_.seconds += std::chrono::duration<double>(now - clock_).count();
   clock_ = now;

@@ -51,7 +51,7 @@ class TrainingRun {
   void initialise();
   bool tell(const TrainingEvent& event);
   void tell_left_out(const CocoFaults& of_training);
-  bool after_step(const StepResult& result);
+  bool after_step(const torch::Tensor& losses);
   bool log_losses();
   void checkpoint();
   bool validate();
@@ -67,7 +67,7 @@ class TrainingRun {
   TrainingLog log_;
   std::vector<ValidationSet> validation_;
   CocoFaults validation_faults_;
-  std::vector<StepResult> recent_;  ///< not yet logged
+  std::vector<torch::Tensor> recent_;  ///< losses not yet logged
   std::function<bool(const TrainingEvent&)> callback_;
   int first_image_ = 0;  ///< images before this start
   std::chrono::steady_clock::time_point clock_;
