@@ -493,6 +493,13 @@ TRAINING = [
         for part in ("train", "valid", "test")
     ),
     Source(
+        "workers", "Krupakar-Reddy-S+Syook_CV_Assignment",
+        lambda repo, report, _: yolo_txt(
+            repo, report, "datasets/voc_original/images/", [PERSON] + [0] * 9,
+            beside("/voc_original/images/", "/yolo_annotations/"),
+        ),
+    ),
+    Source(
         "factory", "KhiemCE22+Application-PPE",
         person_json("train/_annotations.coco.json", "train/"), keep_empty=True,
     ),
