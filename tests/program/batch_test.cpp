@@ -74,6 +74,21 @@ TEST(Batch, WritesTablesAndGoesOnAfterFailures) {
   EXPECT_EQ(read_file(out / "batch.csv"), table);
 }
 
+TEST(Batch, DamagedResultsOfOneRunDoNotHideTheOthers) {
+  const TempFolder folder;
+  write_list(folder, {1, 2});
+  expect_success(run_batch(folder, "out"));
+  write_file(folder.path() / "out/runs" / kFirst / "metrics.json", "{");
+  const Outcome outcome = run_batch(folder, "out");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(lines_with(outcome, "1 of its runs have results that cannot be read"), 1)
+      << outcome.err;
+  EXPECT_NE(outcome.out.find("metrics.json: is not JSON"), std::string::npos) << outcome.out;
+  const std::string table = read_file(folder.path() / "out/batch.csv");
+  EXPECT_NE(table.find(std::string(kSecond) + ",3,0,"), std::string::npos) << table;
+  EXPECT_EQ(table.find(kFirst), std::string::npos) << table;
+}
+
 TEST(Batch, SharesFolderAndGoesOnAfterKill) {
   const TempFolder folder;
   write_list(folder, {1, 2, 3, 4});

@@ -40,7 +40,8 @@ using Json = nlohmann::json;
 Json metrics_of(const BatchFolder& folder, const std::string& name) {
   const std::filesystem::path file = folder.results(name) / "metrics.json";
   Json metrics = Json::parse(read_file(file), nullptr, false);
-  if (metrics.is_discarded()) throw DataError(file.string(), "is not JSON");
+  if (metrics.is_discarded())
+    throw DataError(file.string(), "is not JSON", "remove the run's folder, and it is done again");
   return metrics;
 }
 
@@ -109,10 +110,15 @@ BatchTables batch_tables(const BatchFolder& folder, const std::vector<BatchRun>&
   std::vector<std::pair<std::string, Json>> finished;
   BatchTables tables;
   tables.failures.title = "Failed runs";
-  tables.failures.columns = {"run", "last line of its output"};
+  tables.failures.columns = {"run", "last line of its output, or why its results are not used"};
   for (const BatchRun& run : runs) {
     if (folder.has_finished(run.name)) {
-      finished.emplace_back(run.name, metrics_of(folder, run.name));
+      try {
+        finished.emplace_back(run.name, metrics_of(folder, run.name));
+      } catch (const Error& error) {
+        tables.failures.rows.push_back({run.name, error.what()});
+        tables.unreadable.push_back(run.name);
+      }
     } else if (folder.has_failed(run.name)) {
       tables.failures.rows.push_back({run.name, folder.last_words(run.name)});
     }

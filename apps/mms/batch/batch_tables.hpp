@@ -13,10 +13,10 @@ namespace mms {
 struct BatchTables {
   PlainTable accuracy;  ///< equal for equal runs, on any number of machines
   PlainTable speed;
-  PlainTable failures;  ///< without rows if there are none
+  PlainTable failures;                  ///< without rows if there are none
+  std::vector<std::string> unreadable;  ///< finished runs whose results cannot be read
 };
 
-/// @throws FileError, DataError for results that cannot be read
 BatchTables batch_tables(const BatchFolder& folder, const std::vector<BatchRun>& runs);
 
 /// Writes the tables of all finished runs: batch.csv, times.csv, and report.html.

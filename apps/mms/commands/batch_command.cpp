@@ -83,6 +83,12 @@ void batch(const BatchOptions& options) {
   if (!tables.failures.rows.empty()) fmt::print("\n{}", text_of(tables.failures));
   fmt::print("\nreport: {}\n", (folder.path() / "report.html").string());
   if (elsewhere > 0) fmt::print(stderr, "{} runs are done by other processes\n", elsewhere);
+  if (failed == 0 && !tables.unreadable.empty()) {
+    throw DataError(
+        options.list.string(),
+        fmt::format("{} of its runs have results that cannot be read", tables.unreadable.size()),
+        "the first is " + folder.results(tables.unreadable.front()).string());
+  }
   if (failed > 0) {
     throw DataError(options.list.string(), fmt::format("{} of its runs failed", failed),
                     "their output is in " + (folder.path() / "logs").string() +
