@@ -83,10 +83,8 @@ fs::path partial_of(const fs::path& path) {
   return path.string() + ".partial";
 }
 
-void remove_partial(const fs::path& path) {
-  std::error_code ignored;
-  fs::remove(path, ignored);
-  fs::remove(path.string() + "-journal", ignored);
+fs::path journal_of(const fs::path& database) {
+  return database.string() + "-journal";
 }
 
 /// Removes what a killed run left. @throws FileError if another run writes it
@@ -96,7 +94,9 @@ void remove_old_partial(const fs::path& path) {
     const SqliteDatabase unused(path, Access::kWrite);
   } catch (const DataError&) {  // killed before it was a database
   }
-  remove_partial(path);
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  fs::remove(journal_of(path), ignored);
 }
 
 /// A place for a new map, that has none or an older one.
@@ -189,10 +189,8 @@ bool is_map_file(const fs::path& path) {
 
 MapFile::MapFile(const fs::path& path, Mode mode) : path_(path) {
   if (mode == Mode::kCreate) {
-    check_target(path);
-    written_ = partial_of(path);
-    remove_old_partial(written_);
-    database_ = std::make_unique<SqliteDatabase>(written_, Access::kCreate);
+    write_partial();
+    database_ = std::make_unique<SqliteDatabase>(written_->path(), Access::kCreate);
     database_->execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};{}",
                                    kMapApplication, kMapVersion, kMapSchema));
     return;
@@ -202,20 +200,24 @@ MapFile::MapFile(const fs::path& path, Mode mode) : path_(path) {
 }
 
 MapFile::MapFile(const fs::path& path, const fs::path& source) : path_(path) {
-  check_target(path);
-  written_ = partial_of(path);
-  remove_old_partial(written_);
+  write_partial();
   const auto from = open_existing(source, Access::kRead);
   from->execute("PRAGMA query_only = 0");  // VACUUM INTO writes, but another file
   SqliteStatement copy = from->prepare("VACUUM INTO ?1");
-  copy.bind_text(1, written_.string()).run();
-  database_ = open_existing(written_, Access::kWrite);
+  copy.bind_text(1, written_->path().string()).run();
+  database_ = open_existing(written_->path(), Access::kWrite);
   read_sessions();
 }
 
-MapFile::~MapFile() {
-  database_.reset();
-  if (!written_.empty()) remove_partial(written_);
+MapFile::~MapFile() = default;
+
+/// Prepares a new file beside the place of the map.
+void MapFile::write_partial() {
+  check_target(path_);
+  const fs::path partial = partial_of(path_);
+  remove_old_partial(partial);
+  written_.emplace(partial);
+  journal_.emplace(journal_of(partial));
 }
 
 void MapFile::read_sessions() {
@@ -430,11 +432,12 @@ void MapFile::set_graph(const std::vector<Eigen::Isometry3d>& poses,
 void MapFile::commit() {
   database_->execute("COMMIT");
   database_.reset();
-  if (written_.empty()) return;
+  if (!written_) return;
   std::error_code error;
-  fs::rename(written_, path_, error);
+  fs::rename(written_->path(), path_, error);
   if (error) throw FileError(path_.string(), "cannot be written: " + error.message());
-  written_.clear();
+  written_->release();
+  written_.reset();
 }
 
 void compact_map_file(const fs::path& path) {

@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mms/global_map/global_map.hpp"
+#include "mms/io/text/temporary_path.hpp"
 #include "mms/map_file/map_session.hpp"
 #include "mms/storage/sqlite_database.hpp"
 
@@ -68,11 +70,13 @@ class MapFile {
   void commit();
 
  private:
+  void write_partial();
   void read_sessions();
 
   std::filesystem::path path_;
-  std::filesystem::path written_;  ///< the file that is renamed to `path_`; empty for none
-  std::unique_ptr<SqliteDatabase> database_;
+  std::optional<TemporaryPath> written_;      ///< the file that is renamed to `path_`, if any
+  std::optional<TemporaryPath> journal_;      ///< SQLite's beside it
+  std::unique_ptr<SqliteDatabase> database_;  ///< closed before its files are removed
   std::vector<MapSession> sessions_;
 };
 

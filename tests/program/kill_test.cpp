@@ -118,13 +118,15 @@ TEST(Kill, TerminationSignalsLetRunWriteResults) {
 TEST(Kill, SecondSignalEndsRunImmediately) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
-  RunningMms run(folder.path(), run_words("out", {"--realtime"}));
+  RunningMms run(folder.path(), run_words("out", {"--realtime", "--save-map", "a.mmsmap"}));
   ASSERT_TRUE(wait_for_size(folder.path() / "out/journal.bin", kFirstFrames));
+  ASSERT_TRUE(fs::exists(folder.path() / "a.mmsmap.partial"));
   run.send(SIGINT);
   run.send(SIGTERM);
   const int code = run.wait().exit_code;  // either may be the second one
   EXPECT_TRUE(code == 128 + SIGTERM || code == 128 + SIGINT) << code;
   EXPECT_TRUE(fs::exists(folder.path() / "out/journal.bin"));
+  EXPECT_FALSE(fs::exists(folder.path() / "a.mmsmap.partial"));
 }
 
 TEST(Kill, UnwritableJournalGivesWarning) {
