@@ -179,7 +179,7 @@ TEST(Info, PrintsJson) {
   EXPECT_EQ(json["checked_frames"][1]["readable"], true);
   EXPECT_TRUE(json["implausible"].is_array());
   const std::string weights = MMS_SOURCE_DIR "/weights/nano.safetensors";
-  expect_error(run_mms(folder.path(), {"info", weights, "--json"}), "is no recording");
+  expect_error(run_mms(folder.path(), {"info", weights, "--json"}), "is a weights file");
 }
 
 TEST(Info, DescribesLidarFolder) {

@@ -51,6 +51,15 @@ TEST(Map, IsSavedLocalizedInExtendedAndExported) {
   const Outcome info = run_mms(folder.path(), {"info", "a.mmsmap"});
   expect_success(info);
   EXPECT_NE(info.out.find("2 sessions"), std::string::npos) << info.out;
+  const Outcome described = run_mms(folder.path(), {"info", "a.mmsmap", "--json"});
+  expect_success(described);
+  const nlohmann::json json = nlohmann::json::parse(described.out);
+  ASSERT_EQ(json["sessions"].size(), 2U);
+  EXPECT_EQ(json["sessions"][1]["frames"], 12);
+  EXPECT_EQ(json["sessions"][1]["joined"], true);
+  EXPECT_GT(json["sessions"][1]["points"], 1000);
+  EXPECT_EQ(json["sessions"][0]["camera"]["width"], 320);
+  EXPECT_GE(json["loops"], 1);
   expect_success(run_mms(folder.path(), {"map", "check", "a.mmsmap"}));
   expect_success(run_mms(folder.path(), {"map", "compact", "a.mmsmap"}));
   expect_success(run_mms(folder.path(), {"map", "export", "a.mmsmap", "-o", "export"}));

@@ -168,13 +168,12 @@ void print_model(const std::string& path) {
 
 void print_info(const InfoOptions& options) {
   if (options.data.ends_with(".safetensors")) {
-    if (options.json) throw DataError(options.data, "is no recording", "--json is for recordings");
+    if (options.json) {
+      throw DataError(options.data, "is a weights file", "--json is for recordings and maps");
+    }
     return print_model(options.data);
   }
-  if (is_map_file(options.data)) {
-    if (options.json) throw DataError(options.data, "is no recording", "--json is for recordings");
-    return print_map_info(options.data);
-  }
+  if (is_map_file(options.data)) return print_map_info(options.data, options.json);
   const RecordingInfo info = info_of(options);
   options.json ? print_json(options.data, info) : print_text(info);
 }

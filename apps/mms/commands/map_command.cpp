@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -132,24 +133,53 @@ void merge(const std::vector<std::string>& maps, const fs::path& output, bool ov
 
 }  // namespace
 
-void print_map_info(const std::string& path) {
+void print_map_info(const std::string& path, bool json) {
   const MapFile file(path, MapFile::Mode::kRead);
   const GlobalMapContent content = file.content(warn);
   const std::vector<std::uint32_t> joined = joined_sessions(content);
-  fmt::print("map file: {} sessions, {} keyframes, {} loops\n", file.sessions().size(),
-             file.keyframes(), file.loops());
+  if (!json) {
+    fmt::print("map file: {} sessions, {} keyframes, {} loops\n", file.sessions().size(),
+               file.keyframes(), file.loops());
+  }
+  nlohmann::ordered_json sessions = nlohmann::ordered_json::array();
   for (std::uint32_t i = 0; i < file.sessions().size(); ++i) {
     const MapSession& session = file.sessions()[i];
     const auto keyframes =
         std::count_if(content.records.begin(), content.records.end(),
                       [&](const KeyframeRecord& record) { return record.session == i; });
     const bool is_joined = std::find(joined.begin(), joined.end(), i) != joined.end();
+    const double seconds = to_seconds(session.end - session.begin);
+    if (json) {
+      sessions.push_back({{"session", i},
+                          {"name", session.name},
+                          {"program", session.program},
+                          {"frames", session.frames},
+                          {"seconds", seconds},
+                          {"keyframes", keyframes},
+                          {"points", file.points(i)},
+                          {"voxel_size_m", session.voxel_size},
+                          {"joined", is_joined},
+                          {"camera",
+                           {{"width", session.camera.width},
+                            {"height", session.camera.height},
+                            {"fx", session.camera.fx},
+                            {"fy", session.camera.fy},
+                            {"cx", session.camera.cx},
+                            {"cy", session.camera.cy}}}});
+      continue;
+    }
     fmt::print("session {}: {}, {} frames, {:.1f} s, {} keyframes, {} points of {:.3f} m{}\n", i,
-               session.name, session.frames, to_seconds(session.end - session.begin), keyframes,
-               file.points(i), session.voxel_size, is_joined ? "" : ", not joined to session 0");
+               session.name, session.frames, seconds, keyframes, file.points(i), session.voxel_size,
+               is_joined ? "" : ", not joined to session 0");
     fmt::print("  camera: {}x{}, fx {:.1f}, made by mms {}\n", session.camera.width,
                session.camera.height, session.camera.fx, session.program);
   }
+  if (!json) return;
+  const nlohmann::ordered_json map = {{"map", path},
+                                      {"keyframes", file.keyframes()},
+                                      {"loops", file.loops()},
+                                      {"sessions", sessions}};
+  fmt::print("{}\n", map.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 void add_merge_command(CLI::App& app) {

@@ -5,6 +5,7 @@
 namespace mms {
 
 /// Prints the sessions of a map file, for `mms info`.
-void print_map_info(const std::string& path);
+/// @param json  as one JSON object
+void print_map_info(const std::string& path, bool json);
 
 }  // namespace mms
