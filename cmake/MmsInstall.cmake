@@ -28,7 +28,7 @@ if(TARGET mms_program)
   install(FILES ${PROJECT_BINARY_DIR}/mms.cdx.json DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mms-slam
           COMPONENT program)
   install(TARGETS mms_program COMPONENT program)
-  install(FILES weights/nano.safetensors weights/small.safetensors
+  install(FILES weights/nano.safetensors weights/everyday.safetensors
           DESTINATION ${CMAKE_INSTALL_DATADIR}/mms/weights COMPONENT program)
   install(DIRECTORY config DESTINATION ${CMAKE_INSTALL_DATADIR}/mms COMPONENT program)
   install(FILES packaging/mms.bash-completion RENAME mms
