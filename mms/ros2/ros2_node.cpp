@@ -367,9 +367,9 @@ class Ros2Node::Graph {
       dds_waitset_wait(waitset_, nullptr, 0, kWake);
       for (Subscription& subscription : subscriptions_) take(subscription);
       const auto now = Clock::now();
-      if (now >= next_adaption_) {
+      if (now >= next_adaptation_) {
         for (Subscription& subscription : subscriptions_) adapt(subscription);
-        next_adaption_ = now + std::chrono::nanoseconds(kWake);
+        next_adaptation_ = now + std::chrono::nanoseconds(kWake);
       }
       for (Tick& tick : ticks_) {
         if (now < tick.next) continue;
@@ -393,7 +393,7 @@ class Ros2Node::Graph {
   std::vector<DdsGuid> writers_;
   std::vector<Subscription> subscriptions_;
   std::vector<Tick> ticks_;
-  Clock::time_point next_adaption_;
+  Clock::time_point next_adaptation_;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };

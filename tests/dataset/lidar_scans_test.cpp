@@ -255,9 +255,20 @@ TEST(LidarScans, SkipsScansWithTimesThatAreNone) {
   const TempFolder folder;
   folder.write("LiDAR/Velodyne/1.bin", helipr_record(22, 18, std::nanf("")));
   folder.write("LiDAR/Velodyne/2.bin", helipr_record(22, 18, 0.05F));
-  const Playback played(open_dataset(folder.path() / "LiDAR/Velodyne"));
-  EXPECT_EQ(played.names(), "2");
-  EXPECT_TRUE(any_has(played.warnings, "the time of point 0 is not within 1 s"));
+  const Playback records(open_dataset(folder.path() / "LiDAR/Velodyne"));
+  EXPECT_EQ(records.names(), "2");
+  EXPECT_TRUE(any_has(records.warnings, "the time of point 0 is not within 1 s"));
+
+  PointCloudFile cloud;
+  std::filesystem::create_directory(folder.path() / "clouds");
+  cloud.points.resize(2, Eigen::Vector3f(1.0F, 2.0F, 3.0F));
+  for (const float last : {0.1F, 2.0F}) {  // [s]
+    cloud.time_offsets = {0.0F, last};
+    write_pcd(folder.path() / "clouds" / (last < 1.0F ? "000000.pcd" : "000001.pcd"), cloud);
+  }
+  const Playback clouds(open_dataset(folder.path() / "clouds"));
+  EXPECT_EQ(clouds.names(), "000000");
+  EXPECT_TRUE(any_has(clouds.warnings, "the time of point 1 is not within 1 s"));
 }
 
 TEST(LidarScans, SortsByNumbersOfDifferentLength) {

@@ -87,6 +87,7 @@ Frame read_scan_frame(const ScanFiles& files, const ScanFormat& format,
   frame.scan = read_scan(files.scan, format);
   if (!files.times.empty()) {
     frame.scan.time_offset = read_point_times(files.times);
+    check_point_times(frame.scan.time_offset, files.times);
     if (frame.scan.time_offset.size() != frame.scan.points.size()) {
       throw DataError(files.times.string(),
                       "has " + std::to_string(frame.scan.time_offset.size()) + " times for " +

@@ -54,11 +54,7 @@ LidarScan read_float_records(const fs::path& path, const ScanFormat& format) {
     scan.points.emplace_back(value_at<float>(record), value_at<float>(record + 4),
                              value_at<float>(record + 8));
     if (format.has_intensity) scan.intensity.push_back(value_at<float>(record + kIntensityAt));
-    if (format.time == PointTime::kNone) continue;
-    scan.time_offset.push_back(time_of(record, format));
-    if (std::abs(scan.time_offset.back()) <= kMaxTime) continue;  // false for NaN
-    throw DataError(path.string(), "the time of point " + std::to_string(scan.points.size() - 1) +
-                                       " is not within 1 s of the scan");
+    if (format.time != PointTime::kNone) scan.time_offset.push_back(time_of(record, format));
   }
   return scan;
 }
@@ -105,7 +101,17 @@ LidarScan read_scan(const fs::path& path, const ScanFormat& format) {
                    : format.kind == ScanFormat::Kind::kCloudFile ? read_cloud_file(path)
                                                                  : read_float_records(path, format);
   if (format.has_columns && scan.time_offset.empty()) add_column_times(scan);
+  check_point_times(scan.time_offset, path);
   return scan;
+}
+
+void check_point_times(const std::vector<float>& times, const fs::path& path) {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (std::abs(times[i]) <= kMaxTime) continue;  // false for NaN
+    throw DataError(path.string(),
+                    "the time of point " + std::to_string(i) + " is not within 1 s of the scan",
+                    "times of points are in seconds, relative to the stamp of their scan");
+  }
 }
 
 }  // namespace mms

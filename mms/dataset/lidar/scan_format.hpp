@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <vector>
 
 #include "mms/core/frame.hpp"
 
@@ -29,7 +30,12 @@ struct ScanFormat {
 };
 
 /// Reads a scan. Keeps NaN and infinite points.
-/// @throws FileError if the file cannot be read; DataError if it is empty or damaged.
+/// @throws FileError if the file cannot be read; DataError if it is empty or damaged, or the time
+/// of a point is more than 1 s from the scan's.
 LidarScan read_scan(const std::filesystem::path& path, const ScanFormat& format);
+
+/// @param path  of the file with the times [s]
+/// @throws DataError if the time of a point is more than 1 s from the scan's
+void check_point_times(const std::vector<float>& times, const std::filesystem::path& path);
 
 }  // namespace mms

@@ -85,9 +85,8 @@ std::optional<std::string> EdgeAlignment::fault(double delay_gain) const {
     best_score = found;
     best = &turn;
   }
-  std::optional<std::string> warped = unregistered(as_is, delay_gain);
-  if (best == nullptr) return warped;
-  return best->name;
+  if (best != nullptr) return best->name;
+  return unregistered(as_is, delay_gain);
 }
 
 }  // namespace mms
