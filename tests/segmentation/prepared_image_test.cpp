@@ -36,6 +36,25 @@ TEST(Resize, AveragesAllPixelsWhenShrinking) {
   for (const Rgb& pixel : small.pixels()) EXPECT_NEAR(pixel.g, 100, 4);
 }
 
+TEST(Resize, PartEqualsThatOfTheWhole) {
+  Image<Rgb> image(31, 17);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    image.pixels()[i] = {static_cast<std::uint8_t>(i * 37), static_cast<std::uint8_t>(i * 101),
+                         static_cast<std::uint8_t>(i * 7)};
+  }
+  for (const auto& [w, h] : {std::pair(62, 40), {31, 17}, {13, 9}}) {
+    const Image<Rgb> whole = resize(image, w, h);
+    for (const Window window : {Window{0, 0, w, h}, {3, 2, 5, 4}, {w - 4, h - 3, 4, 3}}) {
+      const Image<Rgb> part = resize_part(image, w, h, window);
+      for (int y = 0; y < window.height; ++y) {
+        for (int x = 0; x < window.width; ++x) {
+          ASSERT_EQ(part(x, y), whole(window.x + x, window.y + y)) << w << ": " << x << ' ' << y;
+        }
+      }
+    }
+  }
+}
+
 TEST(PreparedImage, FitsCameraImageToNetworkSize) {
   const PreparedImage prepared = prepare_image(Image<Rgb>(640, 480), NetworkConfig());
   EXPECT_EQ(prepared.valid_width, 320);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 #include "tests/training/samples.hpp"
@@ -194,6 +196,37 @@ TEST(ColorChanges, ExposureDarkensOrSaturates) {
   }
   EXPECT_TRUE(darker);
   EXPECT_TRUE(brighter);
+}
+
+TEST(ColorChanges, BlurSpreadsAPointAlongALineThroughIt) {
+  constexpr int kLength = 11;
+  RandomStream random(3);
+  std::size_t longest = 0;
+  for (int i = 0; i < 20; ++i) {
+    Sample sample;
+    sample.image = Image<Rgb>(41, 31);
+    sample.image(20, 15) = {220, 220, 220};
+    change_colors(sample, {.color = 0, .blur = 1, .blur_length = kLength, .noise = 0, .grey = 0},
+                  random);
+    int sum = 0;
+    std::vector<Eigen::Vector2d> lit;
+    for (int y = 0; y < 31; ++y) {
+      for (int x = 0; x < 41; ++x) {
+        if (sample.image(x, y).r == 0) continue;
+        sum += sample.image(x, y).r;
+        lit.emplace_back(x - 20, y - 15);
+      }
+    }
+    EXPECT_NEAR(sum, 220, kLength) << "rounding aside";
+    ASSERT_LE(lit.size(), std::size_t{kLength});
+    longest = std::max(longest, lit.size());
+    const Eigen::Vector2d end = lit.back();  // the lowest
+    for (const Eigen::Vector2d& at : lit) {
+      EXPECT_LE(at.norm(), 0.5 * kLength + 1);
+      EXPECT_LE(std::abs(at.x() * end.y() - at.y() * end.x()), 1.5 * std::max(1.0, end.norm()));
+    }
+  }
+  EXPECT_GT(longest, 8U);
 }
 
 TEST(ColorChanges, GreyHasNoColor) {

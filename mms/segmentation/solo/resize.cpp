@@ -30,19 +30,20 @@ Taps taps_of(int output, double step, int input_size) {
   return taps;
 }
 
-std::vector<Taps> all_taps(int output_size, int input_size) {
+/// Of the output pixels [begin, begin + count).
+std::vector<Taps> taps_of(int begin, int count, int output_size, int input_size) {
   const double step = static_cast<double>(input_size) / output_size;
   std::vector<Taps> taps;
-  for (int i = 0; i < output_size; ++i) taps.push_back(taps_of(i, step, input_size));
+  for (int i = begin; i < begin + count; ++i) taps.push_back(taps_of(i, step, input_size));
   return taps;
 }
 
-/// Weighted sum of input rows: 3 * width samples, and the rest of `row`.
-void mix_rows(const Image<Rgb>& image, const Taps& taps, std::vector<float>& row) {
-  const std::size_t samples = 3 * static_cast<std::size_t>(image.width());
+/// Weighted sum of input rows, from the column `first` on: the samples of `row` but its last one.
+void mix_rows(const Image<Rgb>& image, int first, const Taps& taps, std::vector<float>& row) {
   std::fill(row.begin(), row.end(), 0.0F);
+  const std::size_t samples = row.size() - 1;
   for (std::size_t k = 0; k < taps.weights.size(); ++k) {
-    const Rgb* pixels = image.row(taps.first + static_cast<int>(k));
+    const Rgb* pixels = image.row(taps.first + static_cast<int>(k)) + first;
     const auto* sample = reinterpret_cast<const std::uint8_t*>(pixels);
     const float weight = taps.weights[k];
     for (std::size_t i = 0; i < samples; ++i) row[i] += weight * sample[i];
@@ -50,9 +51,10 @@ void mix_rows(const Image<Rgb>& image, const Taps& taps, std::vector<float>& row
 }
 
 /// Weighted sum of a row's pixels, as a vector of four: it reads one sample beyond the last pixel.
-Rgb mix_pixels(const std::vector<float>& row, const Taps& taps) {
+/// @param first  column of the row's first pixel
+Rgb mix_pixels(const std::vector<float>& row, int first, const Taps& taps) {
   Eigen::Array4f sum = Eigen::Array4f::Constant(0.5F);  // for rounding
-  const float* sample = row.data() + 3 * static_cast<std::size_t>(taps.first);
+  const float* sample = row.data() + 3 * static_cast<std::size_t>(taps.first - first);
   for (const float weight : taps.weights) {
     sum += weight * Eigen::Map<const Eigen::Array4f>(sample);
     sample += 3;
@@ -65,14 +67,21 @@ Rgb mix_pixels(const std::vector<float>& row, const Taps& taps) {
 
 Image<Rgb> resize(const Image<Rgb>& image, int width, int height) {
   if (image.width() == width && image.height() == height) return image;
-  const std::vector<Taps> columns = all_taps(width, image.width());
-  const std::vector<Taps> rows = all_taps(height, image.height());
-  std::vector<float> mixed(3 * static_cast<std::size_t>(image.width()) + 1);  // see mix_pixels
-  Image<Rgb> result(width, height);
-  for (int y = 0; y < height; ++y) {
-    mix_rows(image, rows[static_cast<std::size_t>(y)], mixed);
-    for (int x = 0; x < width; ++x) {
-      result(x, y) = mix_pixels(mixed, columns[static_cast<std::size_t>(x)]);
+  return resize_part(image, width, height, {0, 0, width, height});
+}
+
+Image<Rgb> resize_part(const Image<Rgb>& image, int width, int height, const Window& window) {
+  Image<Rgb> result(window.width, window.height);
+  if (result.empty()) return result;
+  const std::vector<Taps> columns = taps_of(window.x, window.width, width, image.width());
+  const std::vector<Taps> rows = taps_of(window.y, window.height, height, image.height());
+  const int first = columns.front().first;
+  const int end = columns.back().first + static_cast<int>(columns.back().weights.size());
+  std::vector<float> mixed(3 * static_cast<std::size_t>(end - first) + 1);  // see mix_pixels
+  for (int y = 0; y < window.height; ++y) {
+    mix_rows(image, first, rows[static_cast<std::size_t>(y)], mixed);
+    for (int x = 0; x < window.width; ++x) {
+      result(x, y) = mix_pixels(mixed, first, columns[static_cast<std::size_t>(x)]);
     }
   }
   return result;

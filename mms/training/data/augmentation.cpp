@@ -8,14 +8,6 @@
 namespace mms {
 namespace {
 
-Image<Rgb> mirrored(const Image<Rgb>& image) {
-  Image<Rgb> result(image.width(), image.height());
-  for (int y = 0; y < image.height(); ++y) {
-    std::reverse_copy(image.row(y), image.row(y) + image.width(), result.row(y));
-  }
-  return result;
-}
-
 /// Rotation around an image's center.
 struct Rotation {
   double angle;  ///< [rad]
@@ -33,8 +25,8 @@ struct Rotation {
       for (int x = 0; x < width; ++x) {
         const double dx = x - center_x;
         const double dy = y - center_y;
-        const auto from_x = static_cast<int>(std::lround(center_x + c * dx - s * dy));
-        const auto from_y = static_cast<int>(std::lround(center_y + s * dx + c * dy));
+        const auto from_x = static_cast<int>(std::floor(center_x + c * dx - s * dy + 0.5));
+        const auto from_y = static_cast<int>(std::floor(center_y + s * dx + c * dy + 0.5));
         if (from_x >= 0 && from_y >= 0 && from_x < width && from_y < height) {
           visit(x, y, from_x, from_y);
         }
@@ -42,13 +34,6 @@ struct Rotation {
     }
   }
 };
-
-/// Copies the part of `scaled` at (dx, dy) that overlaps the canvas.
-void lay(const Image<Rgb>& scaled, int dx, int dy, Image<Rgb>& canvas) {
-  const int width = std::min(canvas.width(), scaled.width() + dx);
-  const int height = std::min(canvas.height(), scaled.height() + dy);
-  for (int y = 0; y < height; ++y) std::copy_n(scaled.row(y - dy) - dx, width, canvas.row(y));
-}
 
 /// Offset of an image on a canvas: 0 if it fits, else random and negative, which crops it.
 int random_offset(int length, int canvas, RandomStream& random) {
@@ -120,8 +105,14 @@ Sample jittered(const Sample& upright, int width, int height, const Augmentation
   result.image = Image<Rgb>(width, height);
   result.width = std::min(width, scaled_width);
   result.height = std::min(height, scaled_height);
-  const Image<Rgb> scaled = resize(sample.image, scaled_width, scaled_height);
-  lay(flip ? mirrored(scaled) : scaled, dx, dy, result.image);
+  const int left = flip ? scaled_width + dx - result.width : -dx;  // of the part to be seen
+  const Image<Rgb> part = resize_part(sample.image, scaled_width, scaled_height,
+                                      {left, -dy, result.width, result.height});
+  for (int y = 0; y < part.height(); ++y) {
+    Rgb* row = result.image.row(y);
+    flip ? std::reverse_copy(part.row(y), part.row(y) + part.width(), row)
+         : std::copy_n(part.row(y), part.width(), row);
+  }
   for (const ObjectMask& object : sample.objects) {
     ObjectMask moved = placed(object, {.scale = scale,
                                        .flip = flip,

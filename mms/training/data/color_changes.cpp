@@ -63,28 +63,39 @@ ColorChange random_exposure(RandomStream& random) {
   return change;
 }
 
+/// The image with its first and last columns repeated.
+Image<Rgb> widened(const Image<Rgb>& image, int by) {
+  Image<Rgb> result(image.width() + 2 * by, image.height());
+  for (int y = 0; y < image.height(); ++y) {
+    Rgb* row = result.row(y);
+    std::fill_n(row, by, image(0, y));
+    std::copy_n(image.row(y), image.width(), row + by);
+    std::fill_n(row + by + image.width(), by, image(image.width() - 1, y));
+  }
+  return result;
+}
+
 /// Mean along a line through every pixel.
 void blur_along(float angle, int length, Image<Rgb>& image) {
-  const Image<Rgb> source = image;
+  const int reach = length / 2 + 1;
+  const Image<Rgb> source = widened(image, reach);
   std::vector<std::pair<int, int>> steps;
   for (int i = 0; i < length; ++i) {
     const float along = static_cast<float>(i) - 0.5F * static_cast<float>(length - 1);
     steps.emplace_back(std::lround(along * std::cos(angle)), std::lround(along * std::sin(angle)));
   }
+  const std::size_t samples = 3 * static_cast<std::size_t>(image.width());
+  const float share = 1.0F / static_cast<float>(length);
+  std::vector<float> sum(samples);
   for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      int sum[3] = {length / 2, length / 2, length / 2};
-      for (const auto& [dx, dy] : steps) {
-        const Rgb& pixel = source(std::clamp(x + dx, 0, image.width() - 1),
-                                  std::clamp(y + dy, 0, image.height() - 1));
-        sum[0] += pixel.r;
-        sum[1] += pixel.g;
-        sum[2] += pixel.b;
-      }
-      image(x, y) = {static_cast<std::uint8_t>(sum[0] / length),
-                     static_cast<std::uint8_t>(sum[1] / length),
-                     static_cast<std::uint8_t>(sum[2] / length)};
+    std::fill(sum.begin(), sum.end(), 0.5F);  // for rounding
+    for (const auto& [dx, dy] : steps) {      // whole rows, which the compiler vectorizes
+      const Rgb* row = source.row(std::clamp(y + dy, 0, image.height() - 1)) + reach + dx;
+      const auto* sample = reinterpret_cast<const std::uint8_t*>(row);
+      for (std::size_t i = 0; i < samples; ++i) sum[i] += share * static_cast<float>(sample[i]);
     }
+    auto* blurred = reinterpret_cast<std::uint8_t*>(image.row(y));
+    for (std::size_t i = 0; i < samples; ++i) blurred[i] = static_cast<std::uint8_t>(sum[i]);
   }
 }
 
