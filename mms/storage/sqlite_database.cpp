@@ -13,8 +13,31 @@ constexpr int kMaxValue = 128 << 20U;
 /// A reader may have to undo what a killed writer began. Files that cannot be written are opened
 /// for reading by SQLite.
 int flags_of(SqliteDatabase::Access access) {
-  const bool creates = access == SqliteDatabase::Access::kCreate;
-  return SQLITE_OPEN_READWRITE | (creates ? SQLITE_OPEN_CREATE : 0);
+  switch (access) {
+    case SqliteDatabase::Access::kReadOnly:
+      return SQLITE_OPEN_READONLY;
+    case SqliteDatabase::Access::kCreate:
+      return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+    default:
+      return SQLITE_OPEN_READWRITE;
+  }
+}
+
+/// The address of a database that nobody writes, for folders in which no lock can be made.
+std::string unlocked_address(const std::filesystem::path& path) {
+  std::string address = "file:";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    if (c == '?') {
+      address += "%3f";
+    } else if (c == '#') {
+      address += "%23";
+    } else if (c == '%') {
+      address += "%25";
+    } else {
+      address += c;
+    }
+  }
+  return address + "?immutable=1";
 }
 
 }  // namespace
@@ -88,21 +111,36 @@ std::string_view SqliteStatement::blob(int column) const {
   return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
 
-SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, Access access)
-    : name_(path.string()) {
+SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, Access access,
+                               const std::string& name)
+    : name_(name.empty() ? path.string() : name) {
+  const bool reads = access == Access::kRead || access == Access::kReadOnly;
+  if (!open(path.string(), flags_of(access)) &&
+      (access != Access::kReadOnly ||
+       !open(unlocked_address(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI))) {
+    fail();
+  }
+  constexpr int kWait = 60'000;  // for readers of a whole map, or the end of a write [ms]
+  sqlite3_busy_timeout(database_.get(), reads ? kWait : 0);
+  if (access == Access::kRead) execute("PRAGMA query_only = 1; SELECT count(*) FROM sqlite_schema");
+  if (reads) return;
+  execute("BEGIN IMMEDIATE");
+  sqlite3_busy_timeout(database_.get(), kWait);
+}
+
+/// @returns false if the file, or what is needed beside it, cannot be opened
+bool SqliteDatabase::open(const std::string& address, int flags) {
   sqlite3* opened = nullptr;
-  const int result = sqlite3_open_v2(name_.c_str(), &opened, flags_of(access), nullptr);
+  const int result = sqlite3_open_v2(address.c_str(), &opened, flags, nullptr);
   database_.reset(opened);
-  if (result != SQLITE_OK) fail();
+  if (result != SQLITE_OK) return false;
   // The file is untrusted: no functions in its definitions, no values beyond our limit.
   sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kMaxValue);
-  constexpr int kWait = 60'000;  // for readers of a whole map, or the end of a write [ms]
-  sqlite3_busy_timeout(opened, access == Access::kRead ? kWait : 0);
-  execute(access == Access::kRead ? "PRAGMA query_only = 1; SELECT count(*) FROM sqlite_schema"
-                                  : "BEGIN IMMEDIATE");
-  if (access != Access::kRead) sqlite3_busy_timeout(opened, kWait);
+  return (flags & SQLITE_OPEN_READONLY) == 0 ||
+         sqlite3_exec(opened, "SELECT 1 FROM sqlite_schema LIMIT 1", nullptr, nullptr, nullptr) !=
+             SQLITE_CANTOPEN;
 }
 
 SqliteStatement SqliteDatabase::prepare(std::string_view sql) const {
@@ -118,8 +156,12 @@ void SqliteDatabase::execute(const std::string& sql) const {
   if (sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
 }
 
+std::string SqliteDatabase::fault() const {
+  return sqlite3_errmsg(database_.get());
+}
+
 void SqliteDatabase::fail() const {
-  const std::string message = sqlite3_errmsg(database_.get());
+  const std::string message = fault();
   switch (sqlite3_errcode(database_.get()) & 0xFF) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:

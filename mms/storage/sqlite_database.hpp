@@ -54,13 +54,15 @@ class SqliteStatement {
 class SqliteDatabase {
  public:
   enum class Access {
-    kRead,   ///< an existing file, others may read and write
-    kWrite,  ///< an existing file, others may read
-    kCreate  ///< a new file
+    kRead,      ///< an existing file, others may read and write
+    kReadOnly,  ///< the same, but nothing is undone that a killed writer began
+    kWrite,     ///< an existing file, others may read
+    kCreate     ///< a new file
   };
 
+  /// @param name  of the file in messages; empty: the path
   /// @throws FileError if the file cannot be opened, is no database, or another process writes it
-  SqliteDatabase(const std::filesystem::path& path, Access access);
+  SqliteDatabase(const std::filesystem::path& path, Access access, const std::string& name = {});
   SqliteDatabase(const SqliteDatabase&) = delete;
   SqliteDatabase& operator=(const SqliteDatabase&) = delete;
 
@@ -73,9 +75,13 @@ class SqliteDatabase {
   /// damage.
   [[noreturn]] void fail() const;
 
-  const std::string& name() const { return name_; }  ///< path of the file, for messages
+  std::string fault() const;  ///< what SQLite says of its last fault
+
+  const std::string& name() const { return name_; }  ///< of the file, for messages
 
  private:
+  bool open(const std::string& address, int flags);
+
   struct Close {
     void operator()(sqlite3* database) const;
   };

@@ -2,12 +2,10 @@
 
 #include <filesystem>
 #include <map>
-#include <memory>
+#include <optional>
 
 #include "mms/ros/storage/bag_storage.hpp"
-
-struct sqlite3;
-struct sqlite3_stmt;
+#include "mms/storage/sqlite_database.hpp"
 
 namespace mms {
 
@@ -23,26 +21,19 @@ class SqliteBag final : public BagStorage {
   std::string_view read(const StoredMessage& message, const std::string& where) override;
 
  private:
-  struct Close {
-    void operator()(sqlite3* database) const;
-    void operator()(sqlite3_stmt* statement) const;
-  };
-  using Database = std::unique_ptr<sqlite3, Close>;
-  using Statement = std::unique_ptr<sqlite3_stmt, Close>;
   using TopicNumbers = std::map<std::int64_t, std::uint32_t>;  ///< by id in the database
 
-  Database open(const std::filesystem::path& path) const;
-  Statement prepare(const char* sql) const;
+  SqliteStatement prepare(const char* sql) const;
   void check_tables() const;
   TopicNumbers read_topics();
   void read_messages(const TopicNumbers& numbers, std::uint64_t file_size);
   /// @returns whether there is a row; notes damage.
-  bool next_row(const Statement& statement, const std::string& what);
+  bool next_row(SqliteStatement& statement, const std::string& what);
   void note_damage(const std::string& what);
 
   std::string name_;
-  Database database_;
-  Statement data_;  ///< of the message of a row
+  std::optional<SqliteDatabase> database_;
+  std::optional<SqliteStatement> data_;  ///< of the message of a row
   BagContents contents_;
 };
 
