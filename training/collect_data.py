@@ -366,6 +366,12 @@ def scaled_points(points, sx, sy):
     return [value * scale[i % 2] for i, value in enumerate(points)]
 
 
+def plain_of(repo, folder, classes):
+    """Pictures without annotations in folders of these names."""
+    for name in classes:
+        yield from plain(repo, f"{folder}{name}/")
+
+
 # ---------------------------------------------------------------- sources
 
 
@@ -392,6 +398,19 @@ HUMAN_WITHOUT = {
     "DJI_": "drone", r"-\d+-_jpg": "drone", "img_": "altered copy of Penn-Fudan",
     "person_": "collage",
 }
+
+
+# Of Caltech 101: those in whose pictures are hardly any people.
+ANIMALS = (
+    "Leopards ant beaver brontosaurus butterfly cougar_body cougar_face crab crayfish "
+    "crocodile_head dalmatian dolphin dragonfly elephant emu flamingo flamingo_head hedgehog ibis "
+    "kangaroo lobster mayfly octopus okapi panda pigeon platypus rhino rooster scorpion sea_horse "
+    "starfish stegosaurus tick trilobite wild_cat"
+).split()
+THINGS = (
+    "bonsai ceiling_fan chair chandelier ewer joshua_tree lotus menorah nautilus scissors sunflower "
+    "water_lilly windsor_chair wrench"
+).split()
 
 
 @dataclass
@@ -522,6 +541,11 @@ TRAINING = [
             ),
         )
         for part in ("train", "val", "test")
+    ),
+    Source(
+        "objects", "MachineLearning2020+Homework2-Caltech101",
+        lambda repo, *_: plain_of(repo, "101_ObjectCategories/", ANIMALS + THINGS),
+        keep_empty=True,
     ),
     Source(
         "forklift_only", "VarunBal+forklift-detector",

@@ -293,6 +293,16 @@ class NeverTrainedOn(Sources):
         self.assertEqual(first, again)
 
 
+    def test_pictures_of_animals_are_without_people(self):
+        for seed, name in enumerate(["ant/1.jpg", "Faces/1.jpg"]):
+            self.at("MachineLearning2020+Homework2-Caltech101", f"101_ObjectCategories/{name}",
+                    noise(70 + seed))
+        self.collect()
+        image, = self.result()["images"]
+        self.assertEqual(image["origin"], "101_ObjectCategories/ant/1.jpg")
+        self.assertEqual(self.result()["annotations"], [])
+
+
 class BadInput(Sources):
     PATH = "data/forklift_data/images/train"
 
