@@ -68,11 +68,13 @@ bool had_to_wait(const Input& input) {
   return input.due && Clock::now() - *input.due > kMaxQueueWait;
 }
 
-std::optional<Input> read(const AsyncPipeline::Source& source) {
+std::optional<Input> read(const AsyncPipeline::Source& source, const AsyncOptions& options) {
   const Clock::time_point start = Clock::now();
   std::optional<Frame> frame = source();
   if (!frame) return std::nullopt;
-  return Input{std::move(*frame), milliseconds(Clock::now() - start), std::nullopt};
+  const bool live = !options.realtime && options.arrival;
+  return Input{std::move(*frame), milliseconds(Clock::now() - start),
+               live ? options.arrival() : std::nullopt};
 }
 
 Processed finished(Input input, FrameResult result) {
@@ -123,7 +125,7 @@ class StageThreads {
 
   void read_all(const AsyncPipeline::Source& source, std::atomic<std::size_t>& dropped) {
     Pace pace;
-    while (std::optional<Input> input = read(source)) {
+    while (std::optional<Input> input = read(source, options_)) {
       if (options_.realtime) {
         input->due = pace.wait_for(input->frame.stamp);
         if (!inputs_.try_push(std::move(*input))) ++dropped;
@@ -261,7 +263,7 @@ void AsyncPipeline::run(SlamSystem& system, const Source& source, const Sink& si
 }
 
 void AsyncPipeline::run_serial(SlamSystem& system, const Source& source, const Sink& sink) {
-  while (std::optional<Input> input = read(source)) {
+  while (std::optional<Input> input = read(source, options_)) {
     FrameResult result = system.process(input->frame);
     sink(finished(std::move(*input), std::move(result)));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -18,6 +19,9 @@ struct AsyncOptions {
   /// ones are not older than `max_mask_age`: the fusion follows the objects meanwhile.
   bool realtime = false;
   double max_mask_age = 0.1;  ///< [s]; 0: every frame has masks of its own
+  /// When the frame that the source gave last arrived, if it is live; called after the source. Not
+  /// used in real time, where frames have their times by their stamps.
+  std::function<std::optional<std::chrono::steady_clock::time_point>()> arrival{};
 };
 
 /// A frame with its results.
@@ -25,7 +29,7 @@ struct Processed {
   Frame frame;
   FrameResult result;
   double read_ms = 0.0;              ///< time the source took for the frame
-  std::optional<double> latency_ms;  ///< in real time: since the sensor gave the frame
+  std::optional<double> latency_ms;  ///< of live sensors and in real time: since the frame came
 };
 
 /// Runs a SlamSystem over a stream: reading, segmentation, fusion with features, localisation, and

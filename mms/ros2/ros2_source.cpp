@@ -48,9 +48,9 @@ std::vector<Sample> take_samples(std::deque<Sample>& samples, Timestamp end) {
 
 Ros2Source::Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t queue,
                        std::function<bool()> stop)
-    : node_(node),
+    : LiveSource(queue),
+      node_(node),
       inputs_(inputs),
-      queue_(queue),
       stop_(std::move(stop)),
       assembler_(sensor_of(inputs)) {
   if (!inputs_.color.empty()) subscribe_color();
@@ -64,7 +64,7 @@ Ros2Source::Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t que
       (!is_camera() && !inputs_.color.empty()) || !inputs_.imu.empty() || !inputs_.wheels.empty();
   if (needs_transforms) subscribe_transforms();
   node_.every(kPoll, [this] {
-    if (stop_()) queue_.close();
+    if (stop_()) close();
     advance();
   });
 }
@@ -234,7 +234,7 @@ void Ros2Source::release(Frame frame) {
     sensor_frame_ = is_camera() ? color_frame_ : cloud_frame_;
     ++counts_.frames;
   }
-  queue_.push(std::move(frame));
+  push(std::move(frame));
 }
 
 void Ros2Source::complete(Frame& frame) {
@@ -261,32 +261,13 @@ std::shared_ptr<const Calibration> Ros2Source::calibration_of(const Frame& frame
   return completed_;
 }
 
-bool Ros2Source::wait(const std::function<void(const std::string&)>& report) {
-  {
-    const std::scoped_lock lock(mutex_);
-    handler_ = report;
-  }
-  first_ = queue_.pop();
-  if (first_) calibration_ = first_->calibration;
-  return first_.has_value();
-}
-
-std::optional<Frame> Ros2Source::next() {
-  if (first_) return std::exchange(first_, std::nullopt);
-  return queue_.pop();
-}
-
-void Ros2Source::skip(std::size_t count) {
-  while (count > 0 && next()) --count;
-}
-
 std::vector<std::string> Ros2Source::describe() const {
   const std::string topics = is_camera()             ? inputs_.color + ", " + inputs_.depth
                              : inputs_.color.empty() ? inputs_.points
                                                      : inputs_.points + ", " + inputs_.color;
   std::vector<std::string> lines = {"layout: topics of ROS 2"};
   if (is_camera()) {
-    const CameraIntrinsics& camera = *calibration_->camera;
+    const CameraIntrinsics& camera = *calibration()->camera;
     lines.push_back("sensor: depth camera, " + std::to_string(camera.width) + "x" +
                     std::to_string(camera.height));
   } else {
@@ -296,20 +277,12 @@ std::vector<std::string> Ros2Source::describe() const {
   return lines;
 }
 
-void Ros2Source::on_warning(WarningHandler handler) {
-  const std::scoped_lock lock(mutex_);
-  handler_ = std::move(handler);
-}
-
-void Ros2Source::warn(const std::string& message) {
-  const std::scoped_lock lock(mutex_);
-  if (handler_) handler_(message);
-}
-
 void Ros2Source::count_damaged(const std::string& fault) {
-  const std::scoped_lock lock(mutex_);
-  ++counts_.damaged;
-  if (handler_) handler_(fault);
+  {
+    const std::scoped_lock lock(mutex_);
+    ++counts_.damaged;
+  }
+  warn(fault);
 }
 
 std::string Ros2Source::report() {
@@ -323,7 +296,7 @@ Ros2InputCounts Ros2Source::counts() const {
   const std::scoped_lock lock(mutex_);
   Ros2InputCounts counts = counts_;
   counts.unmatched = assembler_.unmatched();
-  counts.dropped = queue_.dropped();
+  counts.dropped = dropped();
   return counts;
 }
 

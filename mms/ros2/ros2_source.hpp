@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "mms/dataset/live/frame_assembler.hpp"
-#include "mms/dataset/live/frame_queue.hpp"
-#include "mms/dataset/source/frame_source.hpp"
+#include "mms/dataset/live/live_source.hpp"
 #include "mms/ros/transform_tree.hpp"
 #include "mms/ros2/ros2_node.hpp"
 
@@ -40,8 +39,8 @@ struct Ros2InputCounts {
 };
 
 /// The sensor of the topics of a node as a source of frames, which are assembled by the rules for
-/// recordings. When the queue is full, the oldest frame is dropped. Its end stops the node.
-class Ros2Source final : public FrameSource {
+/// recordings. Its end stops the node.
+class Ros2Source final : public LiveSource {
  public:
   /// Subscribes to the topics.
   /// @param queue  frames that may wait
@@ -50,25 +49,8 @@ class Ros2Source final : public FrameSource {
              std::function<bool()> stop);
   ~Ros2Source() override { node_.stop(); }
 
-  /// Waits for the first frame, with which the calibration is known.
-  /// @param report  called every few seconds with what is missing
-  /// @returns false if the source ended before
-  bool wait(const std::function<void(const std::string&)>& report);
-
-  /// The next frame, for which it waits; nullopt at the end.
-  std::optional<Frame> next() override;
-  std::size_t size() const override { return kEndless; }
-  std::size_t skipped() const override { return 0; }
-  void skip(std::size_t count) override;
   bool has_masks() const override { return !inputs_.mask.empty(); }
-  std::shared_ptr<const Calibration> calibration() const override { return calibration_; }
-  const Trajectory& ground_truth() const override { return no_truth_; }
-  void add_motion(MotionRecording) override {}
   std::vector<std::string> describe() const override;
-  void on_warning(WarningHandler handler) override;
-
-  /// Passes a line to the warning handler; in any thread.
-  void warn(const std::string& message);
 
   /// Counts a message that could not be read, and warns.
   void count_damaged(const std::string& fault);
@@ -105,9 +87,7 @@ class Ros2Source final : public FrameSource {
 
   Ros2Node& node_;
   Ros2Inputs inputs_;
-  FrameQueue queue_;
   std::function<bool()> stop_;
-  Trajectory no_truth_;
 
   // Of the node's thread:
   FrameAssembler assembler_;
@@ -123,14 +103,9 @@ class Ros2Source final : public FrameSource {
   std::optional<MotionCalibration> mounting_;     ///< as of the first frame
   Clock::time_point reported_ = Clock::now();
 
-  // Of the thread of the run:
-  std::optional<Frame> first_;
-  std::shared_ptr<const Calibration> calibration_;
-
   mutable std::mutex mutex_;  ///< guards all below
   std::string sensor_frame_;
   Ros2InputCounts counts_;
-  WarningHandler handler_;
 };
 
 }  // namespace mms

@@ -64,10 +64,12 @@ std::optional<Frame> read_first(const RunOptions& options, FrameSource& source,
   return first;
 }
 
-AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config) {
+AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config,
+                        const FrameSource& source) {
   const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   AsyncOptions async{.threads = options.threads > 0 ? options.threads : cores,
-                     .realtime = options.realtime};
+                     .realtime = options.realtime,
+                     .arrival = [&source] { return source.arrival(); }};
   // Without a mask, objects are tracked by geometry only.
   if (config.fusion.mode != FusionMode::kMultimodal) async.max_mask_age = 0.0;
   return async;
@@ -123,7 +125,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   for (const std::string& warning : of_settings) warn(warning, observer);
   map_.load(system_, handler);
   if (options_.realtime) warm_up();
-  AsyncPipeline pipeline(threads_of(options_, config_));
+  AsyncPipeline pipeline(threads_of(options_, config_, *source_));
   // The check takes about 0.5 s, which a run in real time does not have.
   if (!options_.realtime) check_.emplace();
   pipeline.run(system_, frames_for(observer),
@@ -133,7 +135,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   observer.on_end();
   interrupted_ = observer.stop_requested();
   if (interrupted_) warn("interrupted, writing the results so far", observer);
-  log_->finish(source_->skipped(), pipeline, system_);
+  log_->finish(source_->skipped(), source_->dropped(), pipeline, system_);
   warn_if_not_localized(observer);
   if (log_->frames().empty()) {
     throw DataError(options_.data,

@@ -31,5 +31,17 @@ TEST(FrameQueue, InterruptEndsOnePop) {
   EXPECT_FALSE(queue.pop());
 }
 
+TEST(FrameQueue, EndGivesWhatWaits) {
+  FrameQueue queue(2);
+  EXPECT_FALSE(queue.arrival());
+  const auto before = FrameQueue::Clock::now();
+  queue.push(frame_of(0));
+  queue.end();
+  EXPECT_EQ(queue.pop()->index, 0);
+  EXPECT_GE(*queue.arrival(), before);
+  EXPECT_FALSE(queue.pop());
+  EXPECT_FALSE(queue.pop());
+}
+
 }  // namespace
 }  // namespace mms

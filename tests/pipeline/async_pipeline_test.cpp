@@ -118,6 +118,18 @@ TEST_P(AsyncPipelineThreads, RethrowsExceptionOfSinkAndEnds) {
   EXPECT_EQ(delivered, 4U);
 }
 
+TEST_P(AsyncPipelineThreads, MeasuresLatencyOfLiveFrames) {
+  const auto arrived = std::chrono::steady_clock::now() - std::chrono::seconds(10);
+  AsyncPipeline pipeline({.threads = GetParam(), .arrival = [arrived] { return arrived; }});
+  SlamSystem system = mask_system();
+  std::size_t processed = 0;
+  pipeline.run(system, first_frames(2), [&](const Processed& p) {
+    EXPECT_GE(p.latency_ms.value_or(0.0), 10'000.0);
+    ++processed;
+  });
+  EXPECT_EQ(processed, 2U);
+}
+
 TEST_P(AsyncPipelineThreads, ProcessesOrDropsEachRealtimeFrame) {
   AsyncPipeline pipeline({.threads = GetParam(), .realtime = true});
   SlamSystem system = mask_system();

@@ -14,7 +14,6 @@
 #include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/viewing.hpp"
-#include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_topics.hpp"
 #include "mms/ros2/ros2_results.hpp"
@@ -134,15 +133,11 @@ void run_node(const Ros2CommandOptions& options) {
   if (!options.console.quiet) {
     fmt::print(stderr, "node {} in domain {} waits for frames\n", node.full_name(), node.domain());
   }
-  if (!source->wait([](const std::string& message) { print_warnings({message}); })) {
-    throw Interrupted("no frame was received, so there are no results");
-  }
-  SlamRun run(options.run, std::move(owned));
-  run.on_result([&](const Processed& processed, const SlamSystem& system) {
-    results.publish(processed, system, source->sensor_frame(), source->is_camera());
-    saver.add(processed, system);
-  });
-  play_and_write(run, options.console);
+  run_live(options.run, options.console, std::move(owned),
+           [&](const Processed& processed, const SlamSystem& system) {
+             results.publish(processed, system, source->sensor_frame(), source->is_camera());
+             saver.add(processed, system);
+           });
 }
 
 #else

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <utility>
 
 #include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/interrupt.hpp"
@@ -120,6 +121,18 @@ void play_and_write(SlamRun& run, const ConsoleOptions& console) {
                     "check its calibration and depth with mms info, and see the warnings above");
   }
   if (run.view() != nullptr) keep_showing(run, folder.path());
+}
+
+void run_live(const RunOptions& options, const ConsoleOptions& console,
+              std::unique_ptr<LiveSource> source, SlamRun::ResultSink sink) {
+  const InterruptGuard interrupt;
+  if (!source->wait([](const std::string& message) { print_warnings({message}); })) {
+    if (!InterruptGuard::requested()) throw DataError(options.data, "ended before its first frame");
+    throw Interrupted("no frame was received, so there are no results");
+  }
+  SlamRun run(options, std::move(source));
+  run.on_result(std::move(sink));
+  play_and_write(run, console);
 }
 
 }  // namespace mms

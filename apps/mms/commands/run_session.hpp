@@ -4,11 +4,12 @@
 #include <memory>
 #include <string>
 
+#include "mms/dataset/live/live_source.hpp"
 #include "mms/run/slam_run.hpp"
 
 namespace mms {
 
-// What mms run and mms ros2 have in common.
+// What mms run, with recordings or cameras, and mms ros2 have in common.
 
 /// What a run prints.
 struct ConsoleOptions {
@@ -36,5 +37,11 @@ void add_console_options(CLI::App& command, ConsoleOptions& console, ViewChoice&
 
 /// Plays the run, writes its results and prints their summary.
 void play_and_write(SlamRun& run, const ConsoleOptions& console);
+
+/// The same on a live sensor, whose first frame it waits for.
+/// @param sink  receives every result; may be empty
+/// @throws Interrupted, DataError if no frame arrives.
+void run_live(const RunOptions& options, const ConsoleOptions& console,
+              std::unique_ptr<LiveSource> source, SlamRun::ResultSink sink = {});
 
 }  // namespace mms

@@ -56,7 +56,9 @@ std::string Progress::line(const RunLog& log) const {
   const std::size_t done = log.frames().size();
   const double rate = static_cast<double>(done) / elapsed.count();
   if (total_ == FrameSource::kEndless) {
-    return fmt::format("frame {}  {:.1f} Hz  {}{}", done, rate,
+    const auto& latency = log.frames().back().latency_ms;
+    return fmt::format("frame {}  {:.1f} Hz  {}{}  {}", done, rate,
+                       latency ? fmt::format("latency {:.0f} ms  ", *latency) : "",
                        to_string(log.frames().back().status), objects_text(log.objects_now()));
   }
   return fmt::format("frame {}/{}  {:.1f} Hz  {} left  {}{}", done, total_, rate,

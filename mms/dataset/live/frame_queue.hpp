@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -14,11 +15,13 @@ namespace mms {
 /// dropped: a robot needs its present pose.
 class FrameQueue {
  public:
+  using Clock = std::chrono::steady_clock;
+
   explicit FrameQueue(std::size_t capacity) : capacity_(capacity) {}
 
   void push(Frame frame) {
     const std::scoped_lock lock(mutex_);
-    frames_.push_back(std::move(frame));
+    frames_.push_back({std::move(frame), Clock::now()});
     if (frames_.size() > capacity_) {
       frames_.pop_front();
       ++dropped_;
@@ -26,17 +29,19 @@ class FrameQueue {
     filled_.notify_one();
   }
 
-  /// Waits for a frame; nullopt once after `interrupt`, and always after `close`.
+  /// Waits for a frame; nullopt once after `interrupt`, always after `close`, and after `end` when
+  /// the queue is empty.
   std::optional<Frame> pop() {
     std::unique_lock lock(mutex_);
-    filled_.wait(lock, [this] { return closed_ || interrupted_ || !frames_.empty(); });
-    if (closed_ || interrupted_) {
+    filled_.wait(lock, [this] { return closed_ || ended_ || interrupted_ || !frames_.empty(); });
+    if (closed_ || interrupted_ || frames_.empty()) {
       interrupted_ = false;
       return std::nullopt;
     }
-    Frame frame = std::move(frames_.front());
+    Arrived next = std::move(frames_.front());
     frames_.pop_front();
-    return frame;
+    arrival_ = next.at;
+    return std::move(next.frame);
   }
 
   /// Clears the queue and makes one `pop` return nullopt.
@@ -44,6 +49,13 @@ class FrameQueue {
     const std::scoped_lock lock(mutex_);
     frames_.clear();
     interrupted_ = true;
+    filled_.notify_all();
+  }
+
+  /// No frame follows those that wait.
+  void end() {
+    const std::scoped_lock lock(mutex_);
+    ended_ = true;
     filled_.notify_all();
   }
 
@@ -58,13 +70,26 @@ class FrameQueue {
     return dropped_;
   }
 
+  /// When the last popped frame was pushed; nullopt before the first one.
+  std::optional<Clock::time_point> arrival() const {
+    const std::scoped_lock lock(mutex_);
+    return arrival_;
+  }
+
  private:
+  struct Arrived {
+    Frame frame;
+    Clock::time_point at;
+  };
+
   std::size_t capacity_;
   mutable std::mutex mutex_;
   std::condition_variable filled_;
-  std::deque<Frame> frames_;
+  std::deque<Arrived> frames_;
+  std::optional<Clock::time_point> arrival_;
   std::size_t dropped_ = 0;
   bool interrupted_ = false;
+  bool ended_ = false;
   bool closed_ = false;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -36,6 +37,14 @@ class FrameSource {
 
   /// Frames skipped so far because they could not be read.
   virtual std::size_t skipped() const = 0;
+
+  /// Frames of a live source that were lost so far because they were not taken in time.
+  virtual std::size_t dropped() const { return 0; }
+
+  /// When the last frame of `next` arrived; nullopt if it is of a recording.
+  virtual std::optional<std::chrono::steady_clock::time_point> arrival() const {
+    return std::nullopt;
+  }
 
   /// Skips the next `count` frames without reading them.
   virtual void skip(std::size_t count) = 0;

@@ -70,12 +70,14 @@ void RunLog::keep_picture(const Processed& processed) {
   picture_stride_ *= 2;
 }
 
-void RunLog::finish(std::size_t skipped, const AsyncPipeline& pipeline, const SlamSystem& system) {
+void RunLog::finish(std::size_t skipped, std::size_t dropped, const AsyncPipeline& pipeline,
+                    const SlamSystem& system) {
+  dropped += pipeline.dropped();
   sum_up_times();
-  sum_up_latency(pipeline);
+  sum_up_latency(dropped, pipeline);
   sum_up_accuracy();
   sum_up_loops(system.global_map());
-  metrics_.frames_skipped = static_cast<std::int64_t>(skipped + pipeline.dropped());
+  metrics_.frames_skipped = static_cast<std::int64_t>(skipped + dropped);
   metrics_.peak_memory_mb = peak_memory_mb();
   for (const LoggedFrame& frame : frames_) {
     ++metrics_.status[static_cast<std::size_t>(frame.status)];
@@ -107,14 +109,14 @@ void RunLog::sum_up_times() {
   }
 }
 
-void RunLog::sum_up_latency(const AsyncPipeline& pipeline) {
+void RunLog::sum_up_latency(std::size_t dropped, const AsyncPipeline& pipeline) {
   std::vector<double> latencies;
   for (const LoggedFrame& frame : frames_) {
     if (frame.latency_ms) latencies.push_back(*frame.latency_ms);
   }
   if (latencies.empty()) return;
   metrics_.realtime = {time_statistics(latencies), maximum(latencies),
-                       static_cast<std::int64_t>(pipeline.dropped()),
+                       static_cast<std::int64_t>(dropped),
                        static_cast<std::int64_t>(pipeline.without_masks())};
 }
 

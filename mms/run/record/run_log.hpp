@@ -32,7 +32,7 @@ struct LoggedFrame {
   double read_ms = 0.0;
   double interval_ms = 0.0;  ///< wall time since the end of the previous frame
   StageTimes stage_ms{};
-  std::optional<double> latency_ms;  ///< in real-time mode
+  std::optional<double> latency_ms;  ///< of live sensors and in real-time mode
 
   double stages_ms() const;  ///< sum of reading and all stages
 };
@@ -48,7 +48,9 @@ class RunLog {
 
   /// Computes the summary after the last frame.
   /// @param skipped  number of unreadable frames
-  void finish(std::size_t skipped, const AsyncPipeline& pipeline, const SlamSystem& system);
+  /// @param dropped  number of frames of a live sensor that were not taken in time
+  void finish(std::size_t skipped, std::size_t dropped, const AsyncPipeline& pipeline,
+              const SlamSystem& system);
 
   /// Compares the tracked objects with the ground truth, in the frame of the ground-truth poses.
   void compare_objects(const ObjectHistory& truth);
@@ -83,7 +85,7 @@ class RunLog {
  private:
   void keep_picture(const Processed& processed);
   void sum_up_times();
-  void sum_up_latency(const AsyncPipeline& pipeline);
+  void sum_up_latency(std::size_t dropped, const AsyncPipeline& pipeline);
   void sum_up_accuracy();
   void sum_up_loops(const GlobalMap& map);
 

@@ -1,0 +1,40 @@
+#include "mms/dataset/live/live_source.hpp"
+
+#include <utility>
+
+namespace mms {
+
+bool LiveSource::wait(WarningHandler report) {
+  on_warning(std::move(report));
+  first_ = queue_.pop();
+  if (first_) calibration_ = first_->calibration;
+  return first_.has_value();
+}
+
+std::optional<Frame> LiveSource::next() {
+  if (first_) return std::exchange(first_, std::nullopt);
+  return queue_.pop();
+}
+
+void LiveSource::skip(std::size_t count) {
+  while (count > 0 && next()) --count;
+}
+
+void LiveSource::on_warning(WarningHandler handler) {
+  const std::scoped_lock lock(handler_mutex_);
+  handler_ = std::move(handler);
+}
+
+void LiveSource::warn(const std::string& message) {
+  const std::scoped_lock lock(handler_mutex_);
+  if (handler_) handler_(message);
+}
+
+void LiveSource::push(Frame frame) {
+  queue_.push(std::move(frame));
+  if (said_dropped_ || queue_.dropped() == 0) return;
+  said_dropped_ = true;
+  warn("frames are dropped: the run is slower than the sensor");
+}
+
+}  // namespace mms
