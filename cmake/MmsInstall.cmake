@@ -19,7 +19,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/mms-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/mms-config.cmake ${PROJECT_BINARY_DIR}/mms-config-version.cmake
               cmake/FindOpenCVModules.cmake cmake/FindRecordingLibraries.cmake
-              cmake/FindLibav.cmake cmake/FindLibpcap.cmake cmake/FindCyclonedds.cmake
+              cmake/FindLibav.cmake cmake/FindLibpcap.cmake cmake/FindCyclonedds.cmake cmake/FindOpenNI2.cmake
         DESTINATION ${package_dir} COMPONENT development)
 
 if(TARGET mms_program)

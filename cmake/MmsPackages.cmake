@@ -53,6 +53,9 @@ endif()
 if(Cyclonedds_FOUND)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", cyclonedds-dev")
 endif()
+if(OpenNI2_FOUND)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libopenni2-dev")
+endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "visual and LiDAR SLAM among moving people and vehicles (development files)
 MMS-SLAM localizes a depth camera or LiDAR among walking people and moving

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   mms::add_run_command(app);
   mms::add_ros2_command(app);
+  mms::add_cameras_command(app);
   mms::add_batch_command(app);
   mms::add_eval_command(app);
   mms::add_reproduce_command(app);

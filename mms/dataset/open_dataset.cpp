@@ -4,6 +4,8 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_source.hpp"
+#include "mms/dataset/camera/camera_device.hpp"
+#include "mms/dataset/camera/oni_source.hpp"
 #include "mms/dataset/capture/capture_source.hpp"
 #include "mms/dataset/folder/folder_rgbd.hpp"
 #include "mms/dataset/lidar/lidar_scans.hpp"
@@ -69,7 +71,8 @@ std::string found_text(const Names& names) {
 /// Bags and captures in a folder are separate recordings.
 std::string find_bag(const fs::path& folder, const Names& names) {
   for (const std::string& name : names) {
-    if (is_bag_name(name) || is_capture_name(name)) return (folder / name).string();
+    if (is_bag_name(name) || is_capture_name(name) || is_oni_name(name))
+      return (folder / name).string();
   }
   return "";
 }
@@ -98,7 +101,6 @@ constexpr OtherFile kOtherFiles[] = {
      "export color/, depth/ and intrinsic.json with Open3D's azure_kinect_mkv_reader"},
     {".svo", "is a recording of a ZED camera", "export color and depth images with its SDK"},
     {".svo2", "is a recording of a ZED camera", "export color and depth images with its SDK"},
-    {".oni", "is a recording of OpenNI", "export color and depth images with its tools"},
     {".klg", "is a recording of Kintinuous", "export color and depth images"},
     {".zip", "is an archive", "unpack it"},
     {".tgz", "is an archive", "unpack it"},
@@ -118,8 +120,8 @@ constexpr const char* kVideoHint =
     if (name.ends_with(other.ending)) throw DataError(file.string(), other.what, other.hint);
   }
   throw DataError(file.string(),
-                  "is a file; a recording is a folder, a ROS bag (.bag, .mcap, .db3) or a capture "
-                  "of LiDAR packets (.pcap)");
+                  "is a file; a recording is a folder, a ROS bag (.bag, .mcap, .db3), a capture of "
+                  "LiDAR packets (.pcap) or a recording of OpenNI (.oni)");
 }
 
 [[noreturn]] void fail_unknown(const fs::path& folder, const Names& names) {
@@ -156,11 +158,19 @@ std::unique_ptr<FrameSource> open_frames(const fs::path& path, const SourceOptio
     reject_topics(path, options);
     return open_simulated(path.string(), options);
   }
+  if (is_camera_address(path.string())) {
+    throw DataError(path.string(), "is a camera, not a recording",
+                    "mms run " + path.string() + " --record DIR keeps what comes in");
+  }
   std::error_code error;
   if (!fs::exists(path, error)) throw DataError(path.string(), "no such recording");
   const bool folder = fs::is_directory(path, error);
   if (!folder && is_bag_name(path)) return open_bag(path, options);
   if (!folder && is_capture_name(path)) return open_capture(path, options);
+  if (!folder && is_oni_name(path)) {
+    reject_topics(path, options);
+    return open_oni_recording(path, options);
+  }
   if (!folder) fail_file(path);
   const Names names = list_folder(path);
   const FolderLayout* layout = layout_of(names);

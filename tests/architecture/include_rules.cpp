@@ -215,7 +215,7 @@ IncludeRules make_rules() {
        {"models", "people", "vehicles", "sensors", "config", "building", "world", "truth", ""}},
       {"dataset",
        {"source", "live", "recorder", "bag", "folder", "lidar", "numbered", "simulated", "tum",
-        "video", "capture", "plausibility", ""}},
+        "video", "capture", "camera", "plausibility", ""}},
       {"evaluation", {"scores", "trajectory", "map", "segmentation", "tracking", ""}},
       {"training", {"data", "run"}},
       {"server", {"scene", "viewer", "http"}},

@@ -20,11 +20,12 @@ using Words = std::vector<std::string>;
 /// Commands and the words that their help must contain.
 const std::map<Words, Words> kCommands = {
     {{},
-     {"run", "eval", "reproduce", "simulate", "convert", "info", "config", "doctor", "--version"}},
+     {"run", "eval", "reproduce", "simulate", "convert", "info", "config", "doctor", "cameras",
+      "--version"}},
     {{"run"},
      {"DATA", "-c,--config", "-o,--output", "--segmenter", "network", "masks", "none", "--masks",
       "--fusion", "multimodal", "vision", "--frames", "--start", "--realtime", "--threads",
-      "--keep-journal"}},
+      "--keep-journal", "--record"}},
     {{"eval"}, {"trajectory", "drift", "map", "ghost-points", "segmentation", "objects"}},
     {{"segment"},
      {"DATA", "-o,--output", "-c,--config", "--weights", "--annotations", "--split", "--limit",
@@ -47,6 +48,7 @@ const std::map<Words, Words> kCommands = {
      {"IN", "-o,--output", "--stamps", ".tum", "_kitti.txt", ".ply", ".pcd", "journal",
       "--overwrite", "--calibration"}},
     {{"info"}, {"DATA", "--masks", "--json"}},
+    {{"cameras"}, {"--json"}},
     {{"config"}, {"dump", "check"}},
     {{"config", "dump"}, {"FILE"}},
     {{"config", "check"}, {"FILE"}},
@@ -112,10 +114,11 @@ TEST(CommandLine, InvalidArgumentsAreUsageErrors) {
   const auto run = [&](const Words& words) { return run_mms(folder.path(), words); };
   expect_usage_error(
       run({}),
-      "no command given, expected run, ros2, batch, eval, reproduce, simulate, segment, "
+      "no command given, expected run, ros2, cameras, batch, eval, reproduce, simulate, segment, "
       "quantize, import, ");
   expect_usage_error(run({"rum"}), "unknown command 'rum', did you mean 'run'?");
-  expect_usage_error(run({"zzzzzz"}), "unknown command 'zzzzzz', expected run, ros2, batch, eval");
+  expect_usage_error(run({"zzzzzz"}),
+                     "unknown command 'zzzzzz', expected run, ros2, cameras, batch, eval");
   expect_usage_error(run({"help", "evl"}), "no command 'evl'; did you mean 'eval'?");
   expect_usage_error(
       run({"eval"}),

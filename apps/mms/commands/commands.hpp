@@ -14,6 +14,9 @@ void add_batch_command(CLI::App& app);
 /// Adds `mms calibration convert`.
 void add_calibration_command(CLI::App& app);
 
+/// Adds `mms cameras`: lists the cameras that are plugged in.
+void add_cameras_command(CLI::App& app);
+
 /// Adds `mms config dump` and `mms config check FILE`.
 void add_config_command(CLI::App& app);
 

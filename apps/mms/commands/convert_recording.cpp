@@ -6,6 +6,7 @@
 #include "apps/mms/console/overwrite_option.hpp"
 #include "apps/mms/console/rate_progress.hpp"
 #include "mms/core/error.hpp"
+#include "mms/dataset/camera/oni_source.hpp"
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/dataset/recorder/frame_recorder.hpp"
 #include "mms/dataset/simulated/simulated_source.hpp"
@@ -73,7 +74,7 @@ std::unique_ptr<FrameRecorder> open_recorder(const fs::path& output, bool compre
 
 bool is_recording_conversion(const std::string& input, const fs::path& output) {
   if (is_bag_name(input) || is_bag_name(output)) return true;
-  if (is_capture_name(input) || is_simulated(input)) return true;
+  if (is_capture_name(input) || is_oni_name(input) || is_simulated(input)) return true;
   if (!fs::is_directory(input) || fs::exists(fs::path(input) / kJournalName)) return false;
   return is_bag_folder(list_folder(input));
 }

@@ -7,7 +7,9 @@
 #include "apps/mms/commands/run_session.hpp"
 #include "apps/mms/commands/topic_options.hpp"
 #include "apps/mms/console/common_options.hpp"
+#include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/viewing.hpp"
+#include "mms/dataset/camera/camera_source.hpp"
 #include "mms/io/text/numbers.hpp"
 
 namespace mms {
@@ -27,6 +29,26 @@ ViewOptions view_of(const CLI::App& command, const ViewChoice& view, RunOptions&
   return place;
 }
 
+void reject_for_camera(bool given, const char* option) {
+  if (given) throw CLI::ValidationError(option, "is for recordings, not for cameras");
+}
+
+void run_camera(const RunOptions& options, const ConsoleOptions& console,
+                const std::filesystem::path& record) {
+  reject_for_camera(!options.masks.empty() || options.segmenter == "masks", "--masks");
+  reject_for_camera(!options.topics.empty(), "--topic-*");
+  reject_for_camera(!options.motion.wheels.empty() || !options.motion.imu.empty(),
+                    "--wheels, --imu");
+  const InterruptGuard interrupt;
+  run_live(
+      options, console,
+      std::make_unique<CameraSource>(
+          options.data, LiveCameraOptions{.calibration = options.camera,
+                                          .record = record,
+                                          .frames = options.frames,
+                                          .stop = [] { return InterruptGuard::requested(); }}));
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app) {
@@ -34,8 +56,8 @@ void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Localize a recording and map its surroundings");
   command
       ->add_option("DATA", options->data,
-                   "recording (folder, .bag, .mcap or .db3), or a simulation: "
-                   "sim:warehouse_loop[?seed=N&frames=N]")
+                   "recording (folder, .bag, .mcap, .db3, .pcap or .oni), a camera: "
+                   "camera:openni2[:URI], or a simulation: sim:warehouse_loop[?seed=N&frames=N]")
       ->capture_default_str();
   const auto sequence = std::make_shared<std::string>();
   add_sequence_option(*command, *sequence);
@@ -56,6 +78,11 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::Range(std::size_t{0}, kMaxFrames))
       ->capture_default_str();
   command->add_flag("--realtime", options->realtime, "play in real time and drop late frames");
+  const auto record = std::make_shared<std::filesystem::path>();
+  command
+      ->add_option("--record", *record,
+                   "keep what a camera gives in this folder, as a recording that mms run reads")
+      ->type_name("DIR");
   add_recording_options(*command, *options);
   add_calibration_options(*command, options->camera);
   add_topic_options(*command, options->topics);
@@ -71,6 +98,11 @@ void add_run_command(CLI::App& app) {
     if (!options->weights.empty() && options->segmenter != "network") {
       throw CLI::ValidationError(
           "--weights", "is for masks of the network, but they come from " + options->segmenter);
+    }
+    if (is_camera_address(options->data)) return run_camera(*options, *console, *record);
+    if (!record->empty()) {
+      throw CLI::ValidationError("--record", "is for cameras, " + options->data +
+                                                 " is none; mms convert copies recordings");
     }
     SlamRun run(*options);
     play_and_write(run, *console);

@@ -113,8 +113,8 @@ std::optional<FrameRecord> frame_of(const TextLine& line) {
 
 RunRecord record_of(const RunOptions& options, const std::optional<CameraIntrinsics>& camera,
                     bool depth_camera, double voxel_size) {
-  const bool simulated = options.data.starts_with("sim:");
-  return {simulated ? options.data : absolute_path(options.data),
+  const bool address = options.data.starts_with("sim:") || options.data.starts_with("camera:");
+  return {address ? options.data : absolute_path(options.data),
           options.segmenter,
           options.masks.empty() ? "" : absolute_path(options.masks),
           with_absolute_path(options.camera),

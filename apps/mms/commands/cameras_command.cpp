@@ -1,0 +1,57 @@
+#include "apps/mms/commands/commands.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mms/dataset/camera/camera_device.hpp"
+
+namespace mms {
+namespace {
+
+void print_cameras_json(const std::vector<CameraInfo>& cameras) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const CameraInfo& camera = cameras[i];
+    list.push_back({{"address", fmt::format("camera:openni2:{}", i)},
+                    {"name", camera.name},
+                    {"vendor", camera.vendor},
+                    {"uri", camera.uri},
+                    {"modes", camera.modes},
+                    {"fault", camera.fault}});
+  }
+  fmt::print("{}\n", list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void print_cameras(const std::vector<CameraInfo>& cameras) {
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const CameraInfo& camera = cameras[i];
+    fmt::print("camera:openni2:{}  {} {}\n  uri    {}\n", i, camera.vendor, camera.name,
+               camera.uri);
+    for (const std::string& mode : camera.modes) fmt::print("  mode   {}\n", mode);
+    if (!camera.fault.empty()) fmt::print("  fault  cannot be opened: {}\n", camera.fault);
+  }
+  if (!cameras.empty()) return;
+  fmt::print(
+      "no camera was found (is it plugged in? Drivers of other makers belong into "
+      "OpenNI2/Drivers: docs/cameras.md)\n");
+}
+
+}  // namespace
+
+void add_cameras_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("cameras", "List the depth cameras that are plugged in (OpenNI2)");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "print one JSON list");
+  command->callback([json] {
+    const std::vector<CameraInfo> cameras = list_cameras();
+    *json ? print_cameras_json(cameras) : print_cameras(cameras);
+  });
+}
+
+}  // namespace mms
