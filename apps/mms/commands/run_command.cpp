@@ -53,7 +53,8 @@ void run_camera(const RunOptions& options, const ConsoleOptions& console,
 
 void add_run_command(CLI::App& app) {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand("run", "Localize a recording and map its surroundings");
+  CLI::App* command =
+      app.add_subcommand("run", "Localize a recording or a live camera, and map its surroundings");
   command
       ->add_option("DATA", options->data,
                    "recording (folder, .bag, .mcap, .db3, .pcap or .oni), a camera: "
