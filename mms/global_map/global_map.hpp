@@ -8,9 +8,10 @@
 #include "mms/core/config_visitor.hpp"
 #include "mms/core/trajectory.hpp"
 #include "mms/geometry/sensor_noise.hpp"
-#include "mms/global_map/graph/pose_graph.hpp"
-#include "mms/global_map/graph/session_groups.hpp"
+#include "mms/global_map/graph/loop_confirmation.hpp"
+#include "mms/global_map/graph/loop_graph.hpp"
 #include "mms/global_map/keyframes/keyframe_record.hpp"
+#include "mms/global_map/loops/loop.hpp"
 #include "mms/global_map/loops/loop_verification.hpp"
 #include "mms/global_map/places/place_recognizer.hpp"
 #include "mms/global_map/pose_correction.hpp"
@@ -89,7 +90,7 @@ class GlobalMap {
   std::vector<Loop> add(KeyframeRecord record);
 
   /// Brings the poses up to date with all loops. After the last keyframe.
-  void finish();
+  void finish() { graph_.finish(); }
 
   /// Recognizes the place of a frame whose pose is lost. Two frames in a row must agree.
   /// @param frame  its pose is not used
@@ -97,35 +98,27 @@ class GlobalMap {
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
 
   /// Correction of the present session by all loops so far; empty without any.
-  PoseCorrection correction() const { return correction(session_); }
+  PoseCorrection correction() const { return correction(session()); }
   PoseCorrection correction(std::uint32_t session) const;
 
   /// Whether loops join a session to the first one, whose world is the frame of the map.
-  bool is_joined(std::uint32_t session) const;
+  bool is_joined(std::uint32_t session) const { return graph_.is_joined(session); }
 
   /// Number of the session of the keyframes that are added.
-  std::uint32_t session() const { return session_; }
+  std::uint32_t session() const { return graph_.session(); }
 
   /// All candidates that were checked, in order.
-  const std::vector<Loop>& loops() const { return loops_; }
+  const std::vector<Loop>& loops() const { return graph_.loops(); }
   const std::deque<KeyframeRecord>& records() const { return records_; }
   /// Corrected poses, by keyframe; the identity before the first one.
   const std::vector<Eigen::Isometry3d>& poses() const { return graph_.poses(); }
 
  private:
   KeyframeRecord record_of(const GlobalKeyframe& keyframe) const;
-  void add_node(const KeyframeRecord& record);
-  void join(const Loop& loop);
   std::vector<Eigen::Isometry3d> poses_in_world() const;
-  std::optional<Matrix6d> relative_covariance(std::size_t earlier, std::size_t later) const;
   bool may_match(std::size_t candidate) const;
-  std::size_t first_recent() const;
   std::vector<std::size_t> nearby(std::size_t end) const;
   std::vector<Loop> find_loop(const KeyframeRecord& record);
-  bool is_likely(const Loop& loop) const;
-  std::vector<Loop> confirm();
-  void solve_if_needed(const std::vector<Loop>& accepted);
-  void solve();
 
   GlobalMapConfig config_;
   FeatureExtractor extractor_;
@@ -133,14 +126,8 @@ class GlobalMap {
   LoopVerifier verifier_;
   PlaceRecognizer recognizer_;
   std::deque<KeyframeRecord> records_;
-  std::vector<double> path_;  ///< length of the path up to each keyframe [m]
-  PoseGraph graph_;
-  std::uint32_t session_ = 0;
-  SessionGroups sessions_;    // up to that of the last record
-  std::size_t fixed_ = 0;     // first keyframes that are not corrected
-  std::size_t unsolved_ = 0;  // loops since the pose graph was solved
-  std::vector<Loop> loops_;
-  std::vector<std::size_t> pending_;       ///< indices of recent loops that wait for confirmation
+  LoopGraph graph_;
+  LoopConfirmation confirmation_;
   std::optional<StampedPose> recognized_;  ///< of the last lost frame, not yet confirmed
 };
 

@@ -92,12 +92,6 @@ std::pair<std::size_t, std::size_t> neighbors(const std::deque<KeyframeRecord>& 
   return {first, end};
 }
 
-double Loop::sigma() const {
-  const Eigen::Matrix3d translation = information.topLeftCorner<3, 3>();
-  const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(translation).eigenvalues()(0);
-  return least > 0.0 ? 1.0 / std::sqrt(least) : 0.0;
-}
-
 LoopVerifier::LoopVerifier(const LoopConfig& config, const RegistrationConfig& registration,
                            const DepthNoise& noise)
     : config_(config), registration_(registration), noise_(noise) {}
