@@ -8,6 +8,8 @@
 
 #include "mms/geometry/se3.hpp"
 #include "mms/global_map/keyframes/keypoint_extraction.hpp"
+#include "mms/global_map/keyframes/scan_keypoints.hpp"
+#include "mms/mapping/ground/floor.hpp"
 
 namespace mms {
 namespace {
@@ -49,6 +51,10 @@ constexpr double kNearbyTurn = std::numbers::pi / 6.0;
 /// Source: registration converges from three of them; structures that repeat are farther apart.
 constexpr double kMaxNearbySigma = 0.15;
 
+/// [m]: path since the candidates of a scan by place recognition. Source: their local maps, of 10 m
+/// each, then share no scans.
+constexpr double kScanPath = 20.0;
+
 /// What is kept of a keyframe at a place that the map has.
 KeyframeRecord pose_of(const KeyframeRecord& record) {
   KeyframeRecord pose;
@@ -76,8 +82,7 @@ GlobalMap::GlobalMap(const GlobalMapConfig& config, const FeatureConfig& feature
       extractor_(features),
       noise_(features.noise.depth),
       verifier_(config.loops, registration, noise_),
-      graph_(config.min_path),
-      confirmation_(config.loops.min_inliers) {}
+      graph_(std::max(config.min_path, kScanPath)) {}
 
 KeyframeRecord GlobalMap::record_of(const GlobalKeyframe& keyframe) const {
   KeyframeRecord record;
@@ -85,11 +90,24 @@ KeyframeRecord GlobalMap::record_of(const GlobalKeyframe& keyframe) const {
   record.session = session();
   record.T_world_sensor = keyframe.T_world_sensor;
   record.after_lost = keyframe.after_lost;
-  record.keypoints = extract_keypoints(keyframe.color, keyframe.cloud, noise_);
   record.features = extractor_.extract(keyframe.cloud);
   record.features.intensity = {};
+  if (!keyframe.cloud.organised()) return record;
+  record.keypoints = extract_keypoints(keyframe.color, keyframe.cloud, noise_);
   record.view = make_keyframe_view(keyframe.cloud);
   return record;
+}
+
+/// A scan is recognized by those around it, since it is sparse.
+void GlobalMap::describe_scan(const GlobalKeyframe& keyframe, KeyframeRecord& record) {
+  if (keyframe.after_lost) scans_.clear();
+  scans_.add(keyframe.cloud, keyframe.T_world_sensor);
+  std::vector<Eigen::Vector3f> points = scans_.points();
+  record.scan = make_scan_view(keyframe.cloud);
+  const Eigen::Vector3d up =
+      keyframe.T_world_sensor.isometry().linear().transpose() * SensorAxes::lidar().up;
+  record.scan.T_sensor_floor = floor_frame(points, up);
+  record.keypoints = extract_scan_keypoints(std::move(points), record.scan.T_sensor_floor);
 }
 
 void GlobalMap::restore(GlobalMapContent content, MapUse use) {
@@ -104,7 +122,9 @@ void GlobalMap::restore(GlobalMapContent content, MapUse use) {
 }
 
 std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
-  return add(record_of(keyframe));
+  KeyframeRecord record = record_of(keyframe);
+  if (!keyframe.cloud.organised()) describe_scan(keyframe, record);
+  return add(std::move(record));
 }
 
 std::vector<Loop> GlobalMap::add(KeyframeRecord record) {
@@ -158,24 +178,27 @@ std::vector<std::size_t> GlobalMap::nearby(std::size_t end) const {
 /// then those that place recognition finds.
 std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record) {
   const std::vector<Eigen::Isometry3d>& poses = graph_.poses();
-  const std::size_t end = graph_.first_recent();
+  const std::size_t end = graph_.first_recent(config_.min_path);
+  const int min_inliers = min_inliers_of(config_.loops, record);
   const auto passes = [&](Loop loop) {
     const bool verified = loop.outcome == LoopOutcome::kAccepted;
-    if (verified && !confirmation_.is_likely(graph_, loop)) loop.outcome = LoopOutcome::kUnlikely;
+    if (verified && !confirmation_.is_likely(graph_, loop, min_inliers))
+      loop.outcome = LoopOutcome::kUnlikely;
     return graph_.add_check(std::move(loop));
   };
   for (const std::size_t candidate : nearby(end)) {
     const Eigen::Isometry3d expected = poses[candidate].inverse() * poses.back();
     if (passes(verifier_.verify_nearby(records_, poses, candidate, record, expected))) {
-      return confirmation_.confirm(graph_);
+      return confirmation_.confirm(graph_, min_inliers);
     }
   }
   const std::vector<PlaceCandidate> recognized =
-      recognizer_.find(record.keypoints.descriptors, end, kMaxRecognized);
+      recognizer_.find(record.keypoints.descriptors,
+                       record.is_scan() ? graph_.first_recent(kScanPath) : end, kMaxRecognized);
   for (const PlaceCandidate& candidate : recognized) {
     if (!may_match(candidate.keyframe)) continue;
     if (passes(verifier_.verify(records_, poses, candidate.keyframe, record))) {
-      return confirmation_.confirm(graph_);
+      return confirmation_.confirm(graph_, min_inliers);
     }
   }
   return {};
@@ -197,6 +220,7 @@ std::vector<Eigen::Isometry3d> GlobalMap::poses_in_world() const {
 std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame) {
   const std::optional<StampedPose> before = std::exchange(recognized_, std::nullopt);
   if (records_.empty() || records_.back().session != session()) return std::nullopt;
+  assert(frame.cloud.organised());
   const KeyframeRecord record = record_of(frame);
   const std::vector<Eigen::Isometry3d> poses = poses_in_world();
   const std::vector<PlaceCandidate> candidates =

@@ -11,6 +11,7 @@
 #include "mms/global_map/graph/loop_confirmation.hpp"
 #include "mms/global_map/graph/loop_graph.hpp"
 #include "mms/global_map/keyframes/keyframe_record.hpp"
+#include "mms/global_map/keyframes/local_scans.hpp"
 #include "mms/global_map/loops/loop.hpp"
 #include "mms/global_map/loops/loop_verification.hpp"
 #include "mms/global_map/places/place_recognizer.hpp"
@@ -25,12 +26,14 @@ namespace mms {
 struct GlobalMapConfig {
   bool enabled = true;
   KeyframeConfig keyframes{.translation = 0.25, .rotation = 15.0, .max_interval = 3600.0};
+  KeyframeConfig scan_keyframes{.translation = 0.5, .rotation = 15.0, .max_interval = 3600.0};
   double min_path = 5.0;  ///< [m]
   LoopConfig loops{};
 
   void visit(ConfigVisitor& v) {
     v.boolean({"enabled", "", "find loops and correct the trajectory by a pose graph"}, enabled);
     v.group({"keyframes", "", "choice of the nodes of the pose graph"}, keyframes);
+    v.group({"scan_keyframes", "", "the same of LiDAR scans"}, scan_keyframes);
     v.number({"min_path", "m", "least length of the path between the ends of a loop"}, min_path,
              {0.0, 1e5});
     v.group({"loops", "", "checks of a loop"}, loops);
@@ -39,8 +42,8 @@ struct GlobalMapConfig {
 
 /// A keyframe for the global map.
 struct GlobalKeyframe {
-  Image<Rgb> color;  ///< image of the frame; may be empty
-  LabeledCloud cloud;
+  Image<Rgb> color;    ///< image of the frame; may be empty
+  LabeledCloud cloud;  ///< a scan is as if all its points were measured at its stamp
   Transform<World, Sensor> T_world_sensor;  ///< by odometry
   bool after_lost = false;  ///< whether the sensor was lost since the keyframe before
 };
@@ -115,6 +118,7 @@ class GlobalMap {
 
  private:
   KeyframeRecord record_of(const GlobalKeyframe& keyframe) const;
+  void describe_scan(const GlobalKeyframe& keyframe, KeyframeRecord& record);
   std::vector<Eigen::Isometry3d> poses_in_world() const;
   bool may_match(std::size_t candidate) const;
   std::vector<std::size_t> nearby(std::size_t end) const;
@@ -124,6 +128,7 @@ class GlobalMap {
   FeatureExtractor extractor_;
   DepthNoise noise_;
   LoopVerifier verifier_;
+  LocalScans scans_;
   PlaceRecognizer recognizer_;
   std::deque<KeyframeRecord> records_;
   LoopGraph graph_;

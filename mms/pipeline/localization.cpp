@@ -62,6 +62,7 @@ Localization::Localization(const SystemConfig& config)
                   with_noise(config.features, config.noise), config.fusion.sizes),
       keyframes_(config.keyframes),
       global_keyframes_(config.global_map.keyframes),
+      scan_keyframes_(config.global_map.scan_keyframes),
       closes_loops_(config.global_map.enabled) {}
 
 FrameResult Localization::localize(PerceivedFrame frame) {
@@ -108,9 +109,10 @@ FrameResult Localization::relocate(FrameResult lost, const Relocalization& place
 /// Similar places can mislead the odometry after a loss: until the place is recognized, or for some
 /// frames, the sensor counts as lost.
 bool Localization::wants_relocalization(const FrameResult& result) {
-  if (!closes_loops_ || !result.cloud.organised()) return false;
+  if (!closes_loops_) return false;
+  if (result.odometry.status == Status::kLost) lost_since_global_keyframe_ = true;
+  if (!result.cloud.organised()) return false;
   if (result.odometry.status == Status::kLost) {
-    lost_since_global_keyframe_ = true;
     ++lost_frames_;
     frames_to_check_ = lost_frames_ >= kMinLostFrames ? kCheckedFrames : 0;
     return frames_to_check_ > 0;
@@ -127,9 +129,10 @@ void Localization::choose_keyframes(FrameResult& result) {
     motion_segmentation_.remember(result.cloud, odometry.T_world_sensor);
     hypotheses_.remember(result.cloud, odometry.T_world_sensor);
   }
-  if (!closes_loops_ || !result.cloud.organised()) return;
+  if (!closes_loops_) return;
+  KeyframeSelector& global = result.cloud.organised() ? global_keyframes_ : scan_keyframes_;
   result.global_keyframe =
-      global_keyframes_.is_keyframe(result.odometry) || is_search_keyframe(result.odometry);
+      global.is_keyframe(result.odometry) || is_search_keyframe(result.odometry);
   if (result.global_keyframe) {
     result.after_lost = std::exchange(lost_since_global_keyframe_, false);
   }

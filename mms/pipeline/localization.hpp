@@ -47,6 +47,7 @@ class Localization {
   PoseHypotheses hypotheses_;
   KeyframeSelector keyframes_;
   KeyframeSelector global_keyframes_;
+  KeyframeSelector scan_keyframes_;  // of the global map, too
   bool closes_loops_;
   bool lost_since_global_keyframe_ = false;
   bool searches_place_ = false;

@@ -20,7 +20,7 @@ void SystemConfig::visit(ConfigVisitor& v) {
   v.group({"static_map", "", "dense coloured map of static surfaces (III-D)"}, static_map);
   v.group({"occupancy", "", "free and occupied space, for robots"}, occupancy);
   v.group({"dynamic_map", "", "tracked objects (III-D)"}, dynamic_map);
-  v.group({"global_map", "", "loop closure of depth cameras"}, global_map);
+  v.group({"global_map", "", "loop closure"}, global_map);
 }
 
 }  // namespace mms

@@ -30,9 +30,9 @@ constexpr double kMaxTurn = std::numbers::pi / 180.0;
 
 }  // namespace
 
-bool LoopConfirmation::is_likely(const LoopGraph& graph, const Loop& loop) const {
+bool LoopConfirmation::is_likely(const LoopGraph& graph, const Loop& loop, int min_inliers) const {
   const std::optional<Matrix6d> covariance = graph.relative_covariance(loop.candidate, loop.query);
-  if (!covariance) return loop.inliers >= kLeastFactor * min_inliers_;
+  if (!covariance) return loop.inliers >= kLeastFactor * min_inliers;
   const Eigen::Isometry3d expected =
       graph.poses()[loop.candidate].inverse() * graph.poses()[loop.query];
   PoseEdge edge{loop.candidate, loop.query, loop.T_candidate_query, {}};
@@ -40,7 +40,7 @@ bool LoopConfirmation::is_likely(const LoopGraph& graph, const Loop& loop) const
   return squared_deviation(edge, expected) < kMaxSquaredDeviation;
 }
 
-std::vector<Loop> LoopConfirmation::confirm(LoopGraph& graph) {
+std::vector<Loop> LoopConfirmation::confirm(LoopGraph& graph, int min_inliers) {
   std::vector<Loop>& loops = graph.loops();
   Loop& loop = loops.back();
   const auto pose_by = [&](const Loop& l) -> Eigen::Isometry3d {
@@ -60,7 +60,7 @@ std::vector<Loop> LoopConfirmation::confirm(LoopGraph& graph) {
   const bool is_related = graph.relative_covariance(loop.candidate, loop.query).has_value();
   int inliers = loop.inliers;
   for (const std::size_t i : others) inliers += loops[i].inliers;
-  const bool is_confirmed = !others.empty() && (is_related || inliers >= kSumFactor * min_inliers_);
+  const bool is_confirmed = !others.empty() && (is_related || inliers >= kSumFactor * min_inliers);
   if (is_related && others.size() > 1) others.erase(others.begin() + 1, others.end());
   if (!is_confirmed) {
     loop.outcome = LoopOutcome::kUnconfirmed;

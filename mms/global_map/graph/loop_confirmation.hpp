@@ -10,20 +10,18 @@ namespace mms {
 /// Accepts a loop only where the odometry allows it and a loop of a keyframe before agrees.
 class LoopConfirmation {
  public:
-  /// @param min_inliers  pairs of keypoints of a loop
-  explicit LoopConfirmation(int min_inliers) : min_inliers_(min_inliers) {}
-
   /// Whether the odometry since the candidate allows the relative pose. Where nothing relates the
   /// two, more keypoints must agree.
-  bool is_likely(const LoopGraph& graph, const Loop& loop) const;
+  /// @param min_inliers  pairs of keypoints of a loop
+  bool is_likely(const LoopGraph& graph, const Loop& loop, int min_inliers) const;
 
   /// Accepts the last loop if one of the keyframes before has a loop that agrees, and that one too.
   /// Where nothing relates the sessions, all that agree need many keypoints together.
+  /// @param min_inliers  pairs of keypoints of a loop
   /// @returns the loops that are accepted now, as edges of the graph
-  std::vector<Loop> confirm(LoopGraph& graph);
+  std::vector<Loop> confirm(LoopGraph& graph, int min_inliers);
 
  private:
-  int min_inliers_;
   std::vector<std::size_t> pending_;  ///< indices of recent loops that wait for confirmation
 };
 

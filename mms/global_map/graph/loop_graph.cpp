@@ -156,8 +156,8 @@ std::optional<Matrix6d> LoopGraph::relative_covariance(std::size_t earlier,
   return carry(covariance, since) + graph_.chain_covariance(link->query, later);
 }
 
-std::size_t LoopGraph::first_recent() const {
-  const auto recent = std::upper_bound(path_.begin(), path_.end(), path_.back() - min_path_);
+std::size_t LoopGraph::first_recent(double path) const {
+  const auto recent = std::upper_bound(path_.begin(), path_.end(), path_.back() - path);
   return std::min(static_cast<std::size_t>(recent - path_.begin()), size() - 1);
 }
 

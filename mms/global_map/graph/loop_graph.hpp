@@ -46,8 +46,9 @@ class LoopGraph {
   /// later one; nothing without a loop between their sessions.
   std::optional<Matrix6d> relative_covariance(std::size_t earlier, std::size_t later) const;
 
-  /// The first node that the path since is too short for a loop to; the last one at the latest.
-  std::size_t first_recent() const;
+  /// The first node that the path since is too short for; the last one at the latest.
+  /// @param path  its length [m]
+  std::size_t first_recent(double path) const;
 
   /// Whether loops join a session to the first one, whose world is the frame of the map.
   bool is_joined(std::uint32_t session) const;

@@ -81,14 +81,21 @@ LabeledCloud KeyframeView::cloud() const {
   return cloud;
 }
 
+ViewAgreement agreement_of(std::size_t all, std::size_t on_surface, std::size_t in_free_space) {
+  const auto share = [](std::size_t part, std::size_t whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+  };
+  return {share(on_surface, all), share(in_free_space, on_surface + in_free_space)};
+}
+
 ViewAgreement compare_views(const KeyframeView& a, const KeyframeView& b,
                             const Eigen::Isometry3d& T_a_b, const DepthNoise& noise) {
   const FreeSpace space(a.cloud(), kMargin, noise);
   const Eigen::Isometry3f T = T_a_b.cast<float>();
   const LabeledCloud points = b.cloud();
-  int all = 0;
-  int on_surface = 0;
-  int in_free_space = 0;
+  std::size_t all = 0;
+  std::size_t on_surface = 0;
+  std::size_t in_free_space = 0;
   for (int y = 0; y < points.height; ++y) {
     for (int x = 0; x < points.width; ++x) {
       if (b.is_static(x, y) == 0 || !is_smooth(b.depth_mm, x, y)) continue;
@@ -100,11 +107,7 @@ ViewAgreement compare_views(const KeyframeView& a, const KeyframeView& b,
       in_free_space += state == SpaceState::kFree;
     }
   }
-  ViewAgreement agreement;
-  if (all > 0) agreement.overlap = static_cast<double>(on_surface) / all;
-  const int seen = on_surface + in_free_space;
-  if (seen > 0) agreement.contradiction = static_cast<double>(in_free_space) / seen;
-  return agreement;
+  return agreement_of(all, on_surface, in_free_space);
 }
 
 }  // namespace mms

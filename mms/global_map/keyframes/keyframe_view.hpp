@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 
 #include "mms/core/calibration.hpp"
@@ -28,6 +29,11 @@ struct ViewAgreement {
   double overlap = 0.0;  ///< share of all points that are on surfaces that the other one measured
   double contradiction = 0.0;  ///< share in free space, of the points that the other one can see
 };
+
+/// @param all            static points of a view
+/// @param on_surface     of these, on surfaces that the other view measured
+/// @param in_free_space  of these, where the other view measured free space
+ViewAgreement agreement_of(std::size_t all, std::size_t on_surface, std::size_t in_free_space);
 
 /// @param T_a_b  from the sensor frame of `b` to that of `a`
 /// @returns the agreement of the points of `b` with the depth of `a`

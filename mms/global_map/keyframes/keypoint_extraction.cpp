@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "mms/geometry/camera.hpp"
+#include "mms/global_map/keyframes/opencv_descriptor.hpp"
 
 namespace mms {
 namespace {
@@ -102,12 +102,6 @@ class CloudGrid {
   DepthNoise noise_;
   Eigen::Array2d scale_;
 };
-
-BinaryDescriptor descriptor_of(const cv::Mat& descriptors, int row) {
-  BinaryDescriptor descriptor;
-  std::memcpy(descriptor.words.data(), descriptors.ptr(row), sizeof(descriptor.words));
-  return descriptor;
-}
 
 }  // namespace
 

@@ -15,7 +15,7 @@ enum class LoopOutcome : std::uint8_t {
   kAccepted,
   kFewMatches,     ///< too few pairs of similar keypoints
   kFewInliers,     ///< too few pairs agree with a relative pose
-  kNotSpread,      ///< these are in too small a part of the image
+  kNotSpread,      ///< these are in too small a part of the image, or of the floor
   kNotRegistered,  ///< the static features do not fit
   kLittleOverlap,  ///< the views share too few surfaces
   kContradiction,  ///< points of one view are in free space of the other

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <set>
 
+#include "mms/geometry/principal_axes.hpp"
+#include "mms/global_map/loops/floor_alignment.hpp"
 #include "mms/global_map/loops/keypoint_matching.hpp"
 #include "mms/global_map/loops/point_alignment.hpp"
 
@@ -43,6 +45,19 @@ constexpr double kMaxShift = 0.2;
 /// [rad]: the same of the rotation. Source: as `kMaxShift`; 5 degrees.
 constexpr double kMaxTurn = 5.0 * std::numbers::pi / 180.0;
 
+/// [m]: the same of scans. Source: density images are good to some pixels of 0.1 m.
+constexpr double kMaxScanShift = 0.5;
+
+/// [m]: distance of the places of a pair of keypoints on the floor. Source: three pixels.
+constexpr double kMaxPlaceError = 0.3;
+
+/// [m]: least standard deviation of the places of inliers along their longer side. Source: initial
+/// choice; a rack of pallets is shorter.
+constexpr double kMinLength = 2.0;
+
+/// [m]: the same along the shorter side. Source: initial choice; one row of posts is thinner.
+constexpr double kMinWidth = 0.5;
+
 /// [-]: correlated residuals of a view that count as one measurement. Source: initial choice.
 constexpr double kResidualsPerMeasurement = 30.0;
 
@@ -52,6 +67,14 @@ constexpr double kTranslationFloor = 0.01;
 
 /// [rad]: the same of the rotation. Source: median 0.03 degrees, 95 % below 0.1 degrees.
 constexpr double kRotationFloor = 0.1 * std::numbers::pi / 180.0;
+
+bool is_spread(const std::vector<Eigen::Vector2d>& places, const std::vector<std::size_t>& chosen) {
+  PointSums<double, 2> sums;
+  for (const std::size_t i : chosen) sums.add(places[i]);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(sums.covariance());
+  return axes.eigenvalues()(0) > kMinWidth * kMinWidth &&
+         axes.eigenvalues()(1) > kMinLength * kMinLength;
+}
 
 bool is_spread(const std::vector<Eigen::Vector2f>& pixels) {
   std::set<int> cells;
@@ -92,6 +115,10 @@ std::pair<std::size_t, std::size_t> neighbors(const std::deque<KeyframeRecord>& 
   return {first, end};
 }
 
+int min_inliers_of(const LoopConfig& config, const KeyframeRecord& keyframe) {
+  return keyframe.is_scan() ? config.min_scan_inliers : config.min_inliers;
+}
+
 LoopVerifier::LoopVerifier(const LoopConfig& config, const RegistrationConfig& registration,
                            const DepthNoise& noise)
     : config_(config), registration_(registration), noise_(noise) {}
@@ -102,8 +129,7 @@ Loop LoopVerifier::verify(const std::deque<KeyframeRecord>& records,
   Loop loop;
   loop.candidate = candidate;
   loop.query = records.size();
-  if (align_keypoints(records[candidate].keypoints, query.keypoints, loop) &&
-      is_same_place(records, poses, query, loop)) {
+  if (align(records[candidate], query, loop) && is_same_place(records, poses, query, loop)) {
     loop.outcome = LoopOutcome::kAccepted;
   }
   return loop;
@@ -125,7 +151,37 @@ bool LoopVerifier::is_same_place(const std::deque<KeyframeRecord>& records,
                                  const std::vector<Eigen::Isometry3d>& poses,
                                  const KeyframeRecord& query, Loop& loop) const {
   return register_features(records, poses, query, loop) &&
-         compare(records[loop.candidate].view, query.view, loop);
+         compare(records[loop.candidate], query, loop);
+}
+
+bool LoopVerifier::align(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const {
+  if (a.is_scan() != b.is_scan()) return false;
+  return b.is_scan() ? align_scans(a, b, loop) : align_keypoints(a.keypoints, b.keypoints, loop);
+}
+
+/// Relative pose by pairs of keypoints on the floor.
+bool LoopVerifier::align_scans(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const {
+  const std::vector<KeypointMatch> matches =
+      match_keypoints(a.keypoints.descriptors, b.keypoints.descriptors);
+  loop.outcome = LoopOutcome::kFewMatches;
+  if (matches.size() < static_cast<std::size_t>(config_.min_scan_inliers)) return false;
+  std::vector<Eigen::Vector2d> places_a;
+  std::vector<Eigen::Vector2d> places_b;
+  for (const KeypointMatch& match : matches) {
+    places_a.push_back(a.keypoints.pixels[match.a].cast<double>());
+    places_b.push_back(b.keypoints.pixels[match.b].cast<double>());
+  }
+  loop.outcome = LoopOutcome::kFewInliers;
+  const auto alignment = align_on_floor(places_a, places_b, kMaxPlaceError, loop.query);
+  if (!alignment) return false;
+  loop.inliers = static_cast<int>(alignment->inliers.size());
+  Eigen::Isometry3d T_floors = Eigen::Isometry3d::Identity();
+  T_floors.linear().topLeftCorner<2, 2>() = alignment->T_a_b.linear();
+  T_floors.translation().head<2>() = alignment->T_a_b.translation();
+  loop.T_candidate_query = a.scan.T_sensor_floor * T_floors * b.scan.T_sensor_floor.inverse();
+  if (loop.inliers < config_.min_scan_inliers) return false;
+  loop.outcome = LoopOutcome::kNotSpread;
+  return is_spread(places_a, alignment->inliers);
 }
 
 /// Relative pose by pairs of keypoints.
@@ -179,17 +235,23 @@ bool LoopVerifier::register_features(const std::deque<KeyframeRecord>& records,
   if (!result.T_world_sensor.matrix().allFinite()) return false;
   if (result.geometric.inliers() < kMinFit * offered) return false;
   const Eigen::Isometry3d change = loop.T_candidate_query.inverse() * result.T_world_sensor;
-  if (change.translation().norm() > kMaxShift || se3::angle(change) > kMaxTurn) return false;
+  if (change.translation().norm() > (query.is_scan() ? kMaxScanShift : kMaxShift) ||
+      se3::angle(change) > kMaxTurn)
+    return false;
   loop.T_candidate_query = result.T_world_sensor;
   loop.information = with_floor(result.information / kResidualsPerMeasurement);
   return true;
 }
 
 /// Overlap and free space of both views.
-bool LoopVerifier::compare(const KeyframeView& a, const KeyframeView& b, Loop& loop) const {
-  const Eigen::Isometry3d& T_a_b = loop.T_candidate_query;
-  const ViewAgreement of_b = compare_views(a, b, T_a_b, noise_);
-  const ViewAgreement of_a = compare_views(b, a, T_a_b.inverse(), noise_);
+bool LoopVerifier::compare(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const {
+  const auto agreement = [&](const KeyframeRecord& seen, const KeyframeRecord& other,
+                             const Eigen::Isometry3d& T) {
+    return seen.is_scan() ? compare_scans(seen.scan, other.scan, T)
+                          : compare_views(seen.view, other.view, T, noise_);
+  };
+  const ViewAgreement of_b = agreement(a, b, loop.T_candidate_query);
+  const ViewAgreement of_a = agreement(b, a, loop.T_candidate_query.inverse());
   loop.overlap = std::min(of_a.overlap, of_b.overlap);
   loop.contradiction = std::max(of_a.contradiction, of_b.contradiction);
   loop.outcome = LoopOutcome::kLittleOverlap;

@@ -15,12 +15,15 @@ namespace mms {
 
 struct LoopConfig {
   int min_inliers = 20;
+  int min_scan_inliers = 10;
   double min_overlap = 0.2;
   double max_contradiction = 0.02;
 
   void visit(ConfigVisitor& v) {
     v.integer({"min_inliers", "", "pairs of keypoints that must agree with the relative pose"},
               min_inliers, {6, 10000});
+    v.integer({"min_scan_inliers", "", "the same of LiDAR scans, whose keypoints are on the floor"},
+              min_scan_inliers, {4, 10000});
     v.number({"min_overlap", "",
               "share of the static points of each view that must lie on surfaces of the other"},
              min_overlap, {0.0, 1.0});
@@ -34,6 +37,9 @@ struct LoopConfig {
 /// its place.
 std::pair<std::size_t, std::size_t> neighbors(const std::deque<KeyframeRecord>& records,
                                               std::size_t keyframe);
+
+/// Pairs of keypoints that a loop of a keyframe needs.
+int min_inliers_of(const LoopConfig& config, const KeyframeRecord& keyframe);
 
 /// Checks whether two keyframes show the same place, by their static points alone.
 class LoopVerifier {
@@ -55,6 +61,8 @@ class LoopVerifier {
                      const KeyframeRecord& query, const Eigen::Isometry3d& T_candidate_query) const;
 
  private:
+  bool align(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const;
+  bool align_scans(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const;
   bool align_keypoints(const ImageKeypoints& a, const ImageKeypoints& b, Loop& loop) const;
   bool register_features(const std::deque<KeyframeRecord>& records,
                          const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
@@ -62,7 +70,7 @@ class LoopVerifier {
   bool is_same_place(const std::deque<KeyframeRecord>& records,
                      const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
                      Loop& loop) const;
-  bool compare(const KeyframeView& a, const KeyframeView& b, Loop& loop) const;
+  bool compare(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const;
 
   LoopConfig config_;
   RegistrationConfig registration_;
