@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mms/core/error.hpp"
+#include "mms/geometry/se3.hpp"
 #include "mms/io/journal/byte_reader.hpp"
 #include "mms/storage/compression.hpp"
 
@@ -104,6 +105,26 @@ Image<T> take_image(ByteReader& reader, const CameraIntrinsics& camera) {
   return image;
 }
 
+void append(std::string& bytes, const ScanView& scan) {
+  append_planes(bytes, scan.points);
+  append_planes(bytes, scan.is_static);
+  const Eigen::Matrix<double, 3, 4> T = scan.T_sensor_floor.affine();
+  for (Eigen::Index i = 0; i < T.size(); ++i) append_bytes(bytes, T(i));
+}
+
+ScanView take_scan(ByteReader& reader) {
+  ScanView scan;
+  scan.points = take_planes<Eigen::Vector3f>(reader);
+  scan.is_static = take_planes<std::uint8_t>(reader);
+  check_equal(scan.is_static.size(), scan.points.size(), reader);
+  Eigen::Matrix<double, 3, 4> T;
+  for (Eigen::Index i = 0; i < T.size(); ++i) T(i) = reader.take<double>();
+  if (!T.allFinite()) throw DataError(reader.where(), "is damaged: its floor is none");
+  scan.T_sensor_floor.affine() = T;
+  scan.T_sensor_floor = se3::normalized(scan.T_sensor_floor);
+  return scan;
+}
+
 /// [-]: steps of a point's coordinates along the side of a voxel.
 constexpr double kQuantaPerVoxel = 32.0;
 
@@ -193,6 +214,7 @@ std::string encode_keyframe(const KeyframeRecord& keyframe) {
   append(bytes, keyframe.view.camera);
   append(bytes, keyframe.view.depth_mm);
   append(bytes, keyframe.view.is_static);
+  if (keyframe.is_scan()) append(bytes, keyframe.scan);
   return compress_zstd(bytes);
 }
 
@@ -212,10 +234,13 @@ void decode_keyframe(std::string_view compressed, const std::string& where,
   keyframe.view.camera = take_camera(reader);
   keyframe.view.depth_mm = take_image<std::uint16_t>(reader, keyframe.view.camera);
   keyframe.view.is_static = take_image<std::uint8_t>(reader, keyframe.view.camera);
+  if (reader.left() > 0) keyframe.scan = take_scan(reader);
   check_end(reader);
   const auto position = [](const auto& feature) { return feature.point; };
-  check_finite(
-      keypoints.points, [](const Eigen::Vector3f& point) { return point; }, reader);
+  for (const auto* points : {&keypoints.points, &keyframe.scan.points}) {
+    check_finite(
+        *points, [](const Eigen::Vector3f& point) { return point; }, reader);
+  }
   check_finite(keyframe.features.edges, position, reader);
   check_finite(keyframe.features.planes, position, reader);
 }

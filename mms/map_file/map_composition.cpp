@@ -6,6 +6,16 @@
 #include "mms/global_map/graph/session_groups.hpp"
 
 namespace mms {
+
+std::optional<bool> has_scans(const GlobalMapContent& content, std::uint32_t session) {
+  const auto readable = std::find_if(content.records.begin(), content.records.end(),
+                                     [&](const KeyframeRecord& record) {
+                                       return record.session == session && !record.is_pose_only();
+                                     });
+  if (readable == content.records.end()) return std::nullopt;
+  return readable->is_scan();
+}
+
 void append(MapCloud& map, const MapCloud& other) {
   map.points.insert(map.points.end(), other.points.begin(), other.points.end());
   map.colors.insert(map.colors.end(), other.colors.begin(), other.colors.end());

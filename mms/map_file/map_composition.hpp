@@ -1,12 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mms/core/trajectory.hpp"
 #include "mms/map_file/map_file.hpp"
 
 namespace mms {
+
+/// Whether the keyframes of a session are LiDAR scans; nothing where all are damaged.
+std::optional<bool> has_scans(const GlobalMapContent& content, std::uint32_t session);
 
 /// Numbers of the sessions that loops join to the first one.
 std::vector<std::uint32_t> joined_sessions(const GlobalMapContent& content);

@@ -296,6 +296,7 @@ GlobalMapContent MapFile::content(const WarningHandler& warn) const {
       record.keypoints = {};
       record.features = {};
       record.view = {};
+      record.scan = {};
     }
     content.records.push_back(std::move(record));
   }

@@ -1,5 +1,7 @@
 #include "mms/map_file/map_merge.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -8,6 +10,9 @@
 
 namespace mms {
 namespace {
+
+constexpr const char* kScans = "LiDAR scans";
+constexpr const char* kImages = "depth images";
 
 /// FNV-1a over stamps and descriptors, which differ from map to map.
 std::uint64_t digest_of(const GlobalMapContent& content) {
@@ -35,6 +40,17 @@ MapMerge::MapMerge(const std::vector<std::filesystem::path>& maps,
     const auto same = std::find_if(parts_.begin(), parts_.end(),
                                    [&](const Part& p) { return p.digest == part.digest; });
     if (same != parts_.end()) throw DataError(path.string(), "is given twice, or is a copy");
+    const bool is_mixed = !parts_.empty() && has_scans(part.content, 0) &&
+                          has_scans(parts_.front().content, 0) &&
+                          has_scans(part.content, 0) != has_scans(parts_.front().content, 0);
+    if (is_mixed) {
+      throw DataError(
+          path.string(),
+          fmt::format("is a map of {}, but {} is one of {}",
+                      *has_scans(part.content, 0) ? kScans : kImages, maps.front().string(),
+                      *has_scans(part.content, 0) ? kImages : kScans),
+          "merge maps of the same sensor");
+    }
     sessions_ += part.file->sessions().size();
     parts_.push_back(std::move(part));
   }

@@ -20,7 +20,7 @@ struct MapSession {
   Timestamp begin;          ///< stamp of the first frame
   Timestamp end;            ///< stamp of the last one
   double voxel_size = 0.0;  ///< of its static map [m]
-  CameraIntrinsics camera;  ///< of its depth images
+  CameraIntrinsics camera;  ///< of its depth images; of LiDAR scans none
 };
 
 /// Static map of a session in its world frame, as `StaticMap::cloud`. Vectors are parallel.

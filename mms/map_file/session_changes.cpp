@@ -8,6 +8,7 @@
 #include "mms/geometry/voxels/voxel_key.hpp"
 #include "mms/map_file/map_composition.hpp"
 #include "mms/mapping/free_space/free_space.hpp"
+#include "mms/mapping/free_space/scan_free_space.hpp"
 
 namespace mms {
 namespace {
@@ -15,6 +16,13 @@ namespace {
 /// [m]: distance before a surface, above noise, that counts as seen through. The views have few
 /// pixels, as those that check loops.
 constexpr double kMargin = 0.1;
+
+/// [m]: the same of scans, noise included: as where these check loops.
+constexpr double kScanMargin = 0.2;
+
+/// [m]: distance from a LiDAR up to which its keyframes are compared. Source: initial choice; its
+/// directions are a degree wide, 35 cm there.
+constexpr float kScanRange = 20.0F;
 
 /// [-]: keyframes that must see through a point.
 constexpr int kMinViews = 2;
@@ -33,6 +41,14 @@ struct Evidence {
   bool is_through() const { return through >= kMinViews && surface == 0; }
 };
 
+bool may_see_into(const FreeSpace& space, const Eigen::Vector3f& center, float radius) {
+  return space.may_see_into(center, radius);
+}
+
+bool may_see_into(const ScanFreeSpace& /*space*/, const Eigen::Vector3f& center, float radius) {
+  return center.norm() < kScanRange + radius;
+}
+
 /// Points in cubes, so that most are not compared with a view that cannot see them.
 class PointCubes {
  public:
@@ -46,7 +62,8 @@ class PointCubes {
     }
   }
 
-  void compare(const FreeSpace& space, const Eigen::Isometry3f& T_view_map,
+  template <class Space>
+  void compare(const Space& space, const Eigen::Isometry3f& T_view_map,
                std::vector<Evidence>& evidence) const {
     constexpr auto kSide = static_cast<float>(kCubeSide);
     for (const Cube& cube : cubes_) {
@@ -55,7 +72,7 @@ class PointCubes {
       const Eigen::Vector3f center = (corner.array() + 0.5F).matrix() * kSide;
       // Surfaces have to be seen, too: they lie up to the margin behind what is seen through.
       const float radius = kHalfDiagonal * kSide + 3.0F * static_cast<float>(kMargin);
-      if (!space.may_see_into(T_view_map * center, radius)) continue;
+      if (!may_see_into(space, T_view_map * center, radius)) continue;
       for (const std::uint32_t i : cube.points) {
         const SpaceState state = space.state_at(T_view_map * points_[i]);
         evidence[i].through += state == SpaceState::kFree;
@@ -105,9 +122,13 @@ MapChangeCloud find_changes(const MapFile& file, const GlobalMapContent& content
     for (std::size_t i = 0; i < content.records.size(); ++i) {
       const KeyframeRecord& record = content.records[i];
       if (record.session == session || record.is_pose_only()) continue;
-      const FreeSpace space(record.view.cloud(), kMargin, noise);
-      cubes.compare(space, content.poses[i].inverse().cast<float>(),
-                    record.session < session ? earlier : later);
+      const Eigen::Isometry3f T_view_map = content.poses[i].inverse().cast<float>();
+      std::vector<Evidence>& evidence = record.session < session ? earlier : later;
+      if (record.is_scan()) {
+        cubes.compare(ScanFreeSpace(record.scan.cloud(), kScanMargin), T_view_map, evidence);
+      } else {
+        cubes.compare(FreeSpace(record.view.cloud(), kMargin, noise), T_view_map, evidence);
+      }
     }
     for (std::size_t i = 0; i < earlier.size(); ++i) {
       result.changes.push_back(change_of(earlier[i], later[i]));

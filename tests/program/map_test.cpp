@@ -86,6 +86,27 @@ TEST(Map, MergeTakesTheMapsInAnyOrder) {
             read_file(folder.path() / "b_out/static_map.ply"));
 }
 
+TEST(Map, LidarScansHaveMapsThatMixWithNoImages) {
+  const TempFolder folder;
+  const std::string scans = "sim:warehouse_loop?sensor=lidar16&hz=5&frames=10";
+  expect_success(run_day(folder, scans, "first", {"--save-map", "a.mmsmap"}));
+  const Outcome info = run_mms(folder.path(), {"info", "a.mmsmap"});
+  EXPECT_NE(info.out.find("LiDAR"), std::string::npos) << info.out;
+  expect_success(run_mms(folder.path(), {"map", "check", "a.mmsmap"}));
+  expect_success(run_mms(folder.path(), {"map", "export", "a.mmsmap", "-o", "export"}));
+  EXPECT_GT(read_ply(folder.path() / "export/static_map.ply").points.size(), 5000U);
+  expect_success(run_day(folder, scans, "second", {"--map", "a.mmsmap", "--localise"}));
+  EXPECT_GT(loops_of(folder, "second")["earlier_map"]["keyframes"], 0);
+
+  const Outcome other = run_day(folder, kFirstDay, "refused", {"--map", "a.mmsmap"});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("is a map of LiDAR scans"), std::string::npos) << other.err;
+  expect_success(run_day(folder, kFirstDay, "images", {"--save-map", "d.mmsmap"}));
+  const Outcome mixed = run_mms(folder.path(), {"merge", "a.mmsmap", "d.mmsmap", "-o", "e.mmsmap"});
+  EXPECT_EQ(mixed.exit_code, 1);
+  EXPECT_NE(mixed.err.find("is a map of depth images"), std::string::npos) << mixed.err;
+}
+
 TEST(Map, WrongOptionsAndFilesAreRefused) {
   const TempFolder folder;
   expect_success(run_day(folder, kFirstDay, "first", {"--save-map", "a.mmsmap"}));
@@ -102,7 +123,7 @@ TEST(Map, WrongOptionsAndFilesAreRefused) {
   refused({"--map", "a.mmsmap", "--loops", "off"}, "needs loop closure");
   refused({"--map", "a.mmsmap", "--localize", "--save-map", "b.mmsmap"}, "does not go with");
   refused({"--save-map", "missing/b.mmsmap"}, "folder does not exist");
-  refused({"--save-map", "b.mmsmap", "--segmenter", "none"}, "needs depth images",
+  refused({"--map", "a.mmsmap"}, "is a map of depth images, but the recording has LiDAR scans",
           "sim:static?sensor=lidar16&frames=3");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.mmsmap.partial"));
 }

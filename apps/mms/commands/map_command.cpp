@@ -70,6 +70,8 @@ void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
     write_trajectory_tum(check(fmt::format("session_{}.tum", session)),
                          session_trajectory(content, session));
   }
+  const MapFrame frame =
+      has_scans(content, 0).value_or(false) ? MapFrame::kLidar : MapFrame::kCamera;
   MapCloud map;
   if (joined.size() == 1) {
     map = composed_map(file, content, warn);
@@ -77,13 +79,12 @@ void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
     const fs::path picture = check("changes.ply");
     const MapChangeCloud changes = find_changes(file, content, DepthNoise{}, warn);
     map = points_of(changes, {Change::kUnchanged, Change::kNew, Change::kUnknown});
-    write_ply(picture, file_of(picture_of(changes), MapFrame::kCamera),
-              ply_comments(MapFrame::kCamera));
+    write_ply(picture, file_of(picture_of(changes), frame), ply_comments(frame));
     fmt::print("{}: {} new, {} gone\n", picture.string(), points_of(changes, {Change::kNew}).size(),
                points_of(changes, {Change::kGone}).size());
   }
-  write_ply(ply, file_of(map, MapFrame::kCamera), ply_comments(MapFrame::kCamera));
-  write_pcd(pcd, file_of(map, MapFrame::kCamera));
+  write_ply(ply, file_of(map, frame), ply_comments(frame));
+  write_pcd(pcd, file_of(map, frame));
   fmt::print("{}: {} points of {} sessions\n", ply.string(), map.size(), joined.size());
   if (joined.size() == file.sessions().size()) return;
   warn(fmt::format("{} sessions are left out, since no loop joins them to the first one",
@@ -149,6 +150,7 @@ void print_map_info(const std::string& path, bool json) {
                       [&](const KeyframeRecord& record) { return record.session == i; });
     const bool is_joined = std::find(joined.begin(), joined.end(), i) != joined.end();
     const double seconds = to_seconds(session.end - session.begin);
+    const bool is_lidar = has_scans(content, i).value_or(false);
     if (json) {
       sessions.push_back({{"session", i},
                           {"name", session.name},
@@ -159,18 +161,21 @@ void print_map_info(const std::string& path, bool json) {
                           {"points", file.points(i)},
                           {"voxel_size_m", session.voxel_size},
                           {"joined", is_joined},
-                          {"camera",
-                           {{"width", session.camera.width},
-                            {"height", session.camera.height},
-                            {"fx", session.camera.fx},
-                            {"fy", session.camera.fy},
-                            {"cx", session.camera.cx},
-                            {"cy", session.camera.cy}}}});
+                          {"sensor", is_lidar ? "lidar" : "camera"}});
+      if (is_lidar) continue;
+      sessions.back()["camera"] = {
+          {"width", session.camera.width}, {"height", session.camera.height},
+          {"fx", session.camera.fx},       {"fy", session.camera.fy},
+          {"cx", session.camera.cx},       {"cy", session.camera.cy}};
       continue;
     }
     fmt::print("session {}: {}, {} frames, {:.1f} s, {} keyframes, {} points of {:.3f} m{}\n", i,
                session.name, session.frames, seconds, keyframes, file.points(i), session.voxel_size,
                is_joined ? "" : ", not joined to session 0");
+    if (is_lidar) {
+      fmt::print("  LiDAR, made by mms {}\n", session.program);
+      continue;
+    }
     fmt::print("  camera: {}x{}, fx {:.1f}, made by mms {}\n", session.camera.width,
                session.camera.height, session.camera.fx, session.program);
   }

@@ -7,6 +7,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/io/config/config_yaml.hpp"
+#include "mms/map_file/map_composition.hpp"
 
 namespace mms {
 namespace {
@@ -62,24 +63,28 @@ RunMap::RunMap(const RunOptions& options, const Calibration* calibration,
   }
 }
 
-void RunMap::load(SlamSystem& system, const MapFile::WarningHandler& warn) const {
+void RunMap::load(SlamSystem& system, const MapFile::WarningHandler& warn) {
   const MapFile* file = earlier_ ? earlier_.get() : written_.get();
   if (file == nullptr || file->sessions().empty()) return;
   const MapSession& first = file->sessions().front();
-  if (!is_like(first.camera, camera_)) {
+  GlobalMapContent content = file->content(warn);
+  has_scans_ = has_scans(content, 0);
+  if (!has_scans_.value_or(false) && !is_like(first.camera, camera_)) {
     warn(
         fmt::format("the map is of another camera ({}) than the recording ({}): places may not be "
                     "recognized",
                     size_of(first.camera), size_of(camera_)));
   }
-  system.restore(file->content(warn), use_);
+  system.restore(std::move(content), use_);
 }
 
 void RunMap::check(const FrameResult& frame) const {
-  const bool is_scan = !frame.cloud.organised() && !frame.cloud.points.empty();
-  if (!is_scan || (!earlier_ && !written_)) return;
-  throw DataError(path_.string(), "needs depth images, but the recording has LiDAR scans",
-                  "leave out --map and --save-map");
+  const bool is_scan = !frame.cloud.organised();
+  if (!has_scans_ || frame.cloud.points.empty() || is_scan == *has_scans_) return;
+  throw DataError(path_.string(),
+                  is_scan ? "is a map of depth images, but the recording has LiDAR scans"
+                          : "is a map of LiDAR scans, but the recording has depth images",
+                  "make a map with this sensor: leave out --map, and --save-map FILE");
 }
 
 bool RunMap::save(const SlamSystem& system, const RunLog& log,
@@ -99,7 +104,7 @@ bool RunMap::save(const SlamSystem& system, const RunLog& log,
   session.begin = log.frames().front().stamp;
   session.end = log.frames().back().stamp;
   session.voxel_size = system.static_map().voxel_size();
-  session.camera = camera_;
+  if (!map.records().back().is_scan()) session.camera = camera_;
   written_->add_session(session, {system.static_map().cloud(), system.static_map().stamps()},
                         map.records());
   written_->set_graph(map.poses(), map.loops());

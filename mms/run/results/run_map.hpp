@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "mms/core/calibration.hpp"
@@ -23,9 +24,9 @@ class RunMap {
   RunMap(const RunOptions& options, const Calibration* calibration, const SystemConfig& config);
 
   /// Gives the earlier map to the system, if there is one.
-  void load(SlamSystem& system, const MapFile::WarningHandler& warn) const;
+  void load(SlamSystem& system, const MapFile::WarningHandler& warn);
 
-  /// @throws DataError for a frame of a sensor that no map can be made of
+  /// @throws DataError for a frame of another sensor than the earlier map's
   void check(const FrameResult& frame) const;
 
   /// Writes the map with the run as its next session, if that was asked for.
@@ -40,6 +41,7 @@ class RunMap {
   CameraIntrinsics camera_;
   std::unique_ptr<MapFile> earlier_;
   std::unique_ptr<MapFile> written_;  // null where nothing is
+  std::optional<bool> has_scans_;     // of the earlier map
   MapUse use_ = MapUse::kExtend;
 };
 
