@@ -74,6 +74,15 @@ bool agree(const StampedPose& before, const StampedPose& now) {
          se3::angle(motion) < kMaxStepTurn + kMaxTurnRate * seconds;
 }
 
+/// Whether a session has loops, within it or to others.
+bool has_loops(const std::deque<KeyframeRecord>& records, const std::vector<Loop>& loops,
+               std::uint32_t session) {
+  return std::any_of(loops.begin(), loops.end(), [&](const Loop& loop) {
+    return loop.outcome == LoopOutcome::kAccepted &&
+           (records[loop.candidate].session == session || records[loop.query].session == session);
+  });
+}
+
 }  // namespace
 
 GlobalMap::GlobalMap(const GlobalMapConfig& config, const FeatureConfig& features,
@@ -245,6 +254,15 @@ std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame)
   return std::nullopt;
 }
 
+std::optional<Transform<Global, World>> GlobalMap::last_correction() const {
+  const Transform<Global, World> none;
+  if (records_.empty()) return none;
+  if (!is_joined(session())) return std::nullopt;
+  if (!has_loops(records_, graph_.loops(), session())) return none;
+  return Transform<Global, World>(graph_.poses().back() *
+                                  records_.back().T_world_sensor.isometry().inverse());
+}
+
 PoseCorrection GlobalMap::correction(std::uint32_t session) const {
   return session_correction(records_, graph_.poses(), graph_.loops(), session);
 }
@@ -253,11 +271,7 @@ PoseCorrection session_correction(const std::deque<KeyframeRecord>& records,
                                   const std::vector<Eigen::Isometry3d>& poses,
                                   const std::vector<Loop>& loops, std::uint32_t session) {
   PoseCorrection correction;
-  const bool has_loops = std::any_of(loops.begin(), loops.end(), [&](const Loop& loop) {
-    return loop.outcome == LoopOutcome::kAccepted &&
-           (records[loop.candidate].session == session || records[loop.query].session == session);
-  });
-  if (!has_loops) return correction;
+  if (!has_loops(records, loops, session)) return correction;
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (records[i].session != session) continue;
     const Eigen::Isometry3d& odometry = records[i].T_world_sensor.isometry();

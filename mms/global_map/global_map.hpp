@@ -104,6 +104,10 @@ class GlobalMap {
   PoseCorrection correction() const { return correction(session()); }
   PoseCorrection correction(std::uint32_t session) const;
 
+  /// Correction of the present session at its last keyframe; nothing until loops join it to an
+  /// earlier map.
+  std::optional<Transform<Global, World>> last_correction() const;
+
   /// Whether loops join a session to the first one, whose world is the frame of the map.
   bool is_joined(std::uint32_t session) const { return graph_.is_joined(session); }
 

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include "mms/core/bounded_queue.hpp"
 #include "mms/pipeline/mask_policy.hpp"
@@ -59,9 +60,20 @@ struct Localized {
 
 /// A keyframe for the global map, or a lost frame whose place is asked for.
 struct LoopTask {
-  GlobalKeyframe keyframe;
-  std::optional<std::promise<std::optional<Relocalization>>> answer;  // of a lost frame
+  GlobalKeyframe frame;
+  std::variant<std::promise<MapCorrection>, std::promise<std::optional<Relocalization>>> answer;
 };
+
+/// Gives the result of a task or its error to the thread that waits for it.
+template <class Result, class Compute>
+void fulfil(std::promise<Result>& answer, const Compute& compute) {
+  try {
+    answer.set_value(compute());
+  } catch (...) {
+    answer.set_exception(std::current_exception());
+    throw;
+  }
+}
 
 /// Whether the segmentation of the frame before delayed this one.
 bool had_to_wait(const Input& input) {
@@ -170,12 +182,14 @@ class StageThreads {
   }
 
   void close_all_loops() {
-    while (std::optional<LoopTask> task = keyframes_.pop()) {
-      if (task->answer) {
-        answer(*task);
-      } else {
-        system_.close_loops(task->keyframe);
+    try {
+      while (std::optional<LoopTask> task = keyframes_.pop()) close_loops(*task);
+    } catch (...) {
+      keyframes_.close();
+      while (keyframes_.pop()) {
+        // Nobody must wait for its answer.
       }
+      throw;
     }
   }
 
@@ -204,22 +218,20 @@ class StageThreads {
   void rethrow() const { error_.rethrow(); }
 
  private:
-  /// The waiting thread gets an error, too.
-  void answer(LoopTask& task) {
-    try {
-      task.answer->set_value(system_.relocalize(task.keyframe));
-    } catch (...) {
-      task.answer->set_exception(std::current_exception());
-      throw;
+  void close_loops(LoopTask& task) {
+    if (auto* correction = std::get_if<std::promise<MapCorrection>>(&task.answer)) {
+      fulfil(*correction, [&] { return system_.close_loops(task.frame); });
+    } else {
+      fulfil(std::get<1>(task.answer), [&] { return system_.relocalize(task.frame); });
     }
   }
 
   /// Waits until the keyframes before are in the global map, so that the answer depends on the
   /// frames alone.
   FrameResult relocate(const Frame& frame, FrameResult lost) {
-    LoopTask task{SlamSystem::global_keyframe(frame, lost), {}};
-    auto answer = task.answer.emplace().get_future();
-    keyframes_.push(std::move(task));
+    std::promise<std::optional<Relocalization>> promise;
+    auto answer = promise.get_future();
+    keyframes_.push({SlamSystem::global_keyframe(frame, lost), std::move(promise)});
     const std::optional<Relocalization> place = answer.get();
     return place ? system_.relocate(std::move(lost), *place) : std::move(lost);
   }
@@ -229,9 +241,16 @@ class StageThreads {
     GlobalKeyframe keyframe = SlamSystem::global_keyframe(frame, result);
     keyframe.after_lost |= std::exchange(dropped_after_lost_, false);
     const bool after_lost = keyframe.after_lost;
-    const bool taken = options_.realtime ? keyframes_.try_push({std::move(keyframe), {}})
-                                         : keyframes_.push({std::move(keyframe), {}});
-    if (!taken) dropped_after_lost_ = after_lost;
+    std::promise<MapCorrection> promise;
+    auto correction = promise.get_future();
+    LoopTask task{std::move(keyframe), std::move(promise)};
+    const bool taken =
+        options_.realtime ? keyframes_.try_push(std::move(task)) : keyframes_.push(std::move(task));
+    if (taken) {
+      system_.corrections().add(frame.stamp, std::move(correction));
+    } else {
+      dropped_after_lost_ = after_lost;
+    }
   }
 
   static std::size_t capacity(const AsyncOptions& options) {
@@ -255,6 +274,7 @@ void AsyncPipeline::run(SlamSystem& system, const Source& source, const Sink& si
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(options_.threads));
   const ThreadRelease release(system);
+  system.corrections().set_waiting(!options_.realtime && !options_.live);
   if (options_.threads == 1 && !options_.realtime) {
     run_serial(system, source, sink);
   } else {

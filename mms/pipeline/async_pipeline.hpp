@@ -18,6 +18,7 @@ struct AsyncOptions {
   /// while the network is at work on another go without masks of their own, as long as the last
   /// ones are not older than `max_mask_age`: the fusion follows the objects meanwhile.
   bool realtime = false;
+  bool live = false;          ///< a sensor: no pose waits for loop closure
   double max_mask_age = 0.1;  ///< [s]; 0: every frame has masks of its own
   /// When the frame that the source gave last arrived, if it is live; called after the source. Not
   /// used in real time, where frames have their times by their stamps.

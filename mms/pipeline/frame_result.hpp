@@ -9,6 +9,7 @@
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/core/odometry_estimate.hpp"
 #include "mms/mapping/tracking/dynamic_map.hpp"
+#include "mms/pipeline/correction_feed.hpp"
 
 namespace mms {
 
@@ -35,6 +36,7 @@ struct FrameResult {
   bool global_keyframe = false;        ///< of the global map
   bool after_lost = false;             ///< frames since the last global keyframe were lost
   bool wants_relocalization = false;   ///< lost before, and its place is not recognized yet
+  MapCorrection T_global_world;        ///< known to loop closure so far
   bool relocalized = false;            ///< the pose is that of a recognized place
   double dynamic_share = 0.0;          ///< of the valid points, in [0, 1]
   double overruled_share = 0.0;        ///< of the valid points: masked, but static for the pose

@@ -78,6 +78,7 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     return odometry_.accept(hypotheses_.align(
         odometry_, result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
   });
+  result.T_global_world = corrections_.at(result.odometry.stamp);
   result.warnings = odometry_.take_warnings();
   const bool is_checked = frames_to_check_ > 0;
   result.wants_relocalization = wants_relocalization(result);

@@ -8,6 +8,7 @@
 #include "mms/localization/odometry.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
+#include "mms/pipeline/correction_feed.hpp"
 #include "mms/pipeline/frame_result.hpp"
 #include "mms/pipeline/perception.hpp"
 #include "mms/pipeline/pose_hypotheses.hpp"
@@ -32,7 +33,13 @@ class Localization {
 
   /// Takes more keyframes for the global map in the first seconds, since an earlier map was given
   /// in which the place is to be recognized.
-  void search_place() { searches_place_ = true; }
+  void search_place() {
+    searches_place_ = true;
+    corrections_ = CorrectionFeed(std::nullopt);
+  }
+
+  /// Corrections by loop closure for the frames that follow.
+  CorrectionFeed& corrections() { return corrections_; }
 
   void release_thread() { thread_.release(); }  ///< lets another thread call
 
@@ -48,6 +55,7 @@ class Localization {
   KeyframeSelector keyframes_;
   KeyframeSelector global_keyframes_;
   KeyframeSelector scan_keyframes_;  // of the global map, too
+  CorrectionFeed corrections_{Transform<Global, World>()};
   bool closes_loops_;
   bool lost_since_global_keyframe_ = false;
   bool searches_place_ = false;

@@ -8,9 +8,10 @@ LoopClosing::LoopClosing(const SystemConfig& config)
     : global_map_(config.global_map, with_noise(config.features, config.noise),
                   config.odometry.registration) {}
 
-void LoopClosing::close_loops(const GlobalKeyframe& keyframe) {
+MapCorrection LoopClosing::close_loops(const GlobalKeyframe& keyframe) {
   assert(thread_.is_owner());
   global_map_.add(keyframe);
+  return global_map_.last_correction();
 }
 
 std::optional<Relocalization> LoopClosing::relocalize(const GlobalKeyframe& frame) {

@@ -5,6 +5,7 @@
 
 #include "mms/core/thread_confinement.hpp"
 #include "mms/global_map/global_map.hpp"
+#include "mms/pipeline/correction_feed.hpp"
 #include "mms/pipeline/system_config.hpp"
 
 namespace mms {
@@ -17,7 +18,8 @@ class LoopClosing {
 
   /// Adds a keyframe to the global map. One thread at a time, keyframes in order; the global map
   /// may be read in that thread.
-  void close_loops(const GlobalKeyframe& keyframe);
+  /// @returns the correction since
+  MapCorrection close_loops(const GlobalKeyframe& keyframe);
 
   /// Recognizes the place of a lost frame, see `GlobalMap`. In the same thread.
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);

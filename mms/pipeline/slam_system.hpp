@@ -1,5 +1,6 @@
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -41,7 +42,11 @@ class SlamSystem {
       const auto place = relocalize(global_keyframe(frame, result));
       if (place) result = relocate(std::move(result), *place);
     }
-    if (result.global_keyframe) close_loops(global_keyframe(frame, result));
+    if (result.global_keyframe) {
+      std::promise<MapCorrection> correction;
+      corrections().add(frame.stamp, correction.get_future());
+      correction.set_value(close_loops(global_keyframe(frame, result)));
+    }
     return map(std::move(result));
   }
 
@@ -56,7 +61,11 @@ class SlamSystem {
   FrameResult relocate(FrameResult lost, const Relocalization& place) {
     return localization_.relocate(std::move(lost), place);
   }
-  void close_loops(const GlobalKeyframe& keyframe) { loop_closing_.close_loops(keyframe); }
+  MapCorrection close_loops(const GlobalKeyframe& keyframe) {
+    return loop_closing_.close_loops(keyframe);
+  }
+  /// Takes the results of `close_loops`, in the thread of `localize`.
+  CorrectionFeed& corrections() { return localization_.corrections(); }
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame) {
     return loop_closing_.relocalize(frame);
   }

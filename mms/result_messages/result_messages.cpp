@@ -90,11 +90,25 @@ msg::Marker text_marker(const msg::Header& header, const ObjectBox& box) {
 
 }  // namespace
 
-msg::Transforms level_map_message(const msg::Header& map, const std::string& world_frame,
-                                  bool is_camera) {
-  Eigen::Isometry3d T_map_world = Eigen::Isometry3d::Identity();
-  if (is_camera) T_map_world.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // x right, y down, z ahead
-  return {{{map, world_frame, pose_message(T_map_world)}}};
+Eigen::Isometry3d level_map_pose(bool is_camera) {
+  Eigen::Isometry3d T_map_global = Eigen::Isometry3d::Identity();
+  if (is_camera) T_map_global.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // x right, y down, z ahead
+  return T_map_global;
+}
+
+msg::Transforms transforms_message(const msg::Header& header, const FrameNames& frames,
+                                   const FrameResult& result, bool is_camera) {
+  msg::Header world = header;
+  world.frame_id = frames.world;
+  msg::Transforms message{
+      {{world, frames.sensor, pose_message(result.odometry.T_world_sensor.isometry())}}};
+  if (!result.T_global_world) return message;
+  msg::Header map = header;
+  map.frame_id = frames.map;
+  const Eigen::Isometry3d T_map_world =
+      level_map_pose(is_camera) * result.T_global_world->isometry();
+  message.transforms.push_back({map, frames.world, pose_message(T_map_world)});
+  return message;
 }
 
 msg::Odometry odometry_message(const msg::Header& header, const std::string& child_frame,

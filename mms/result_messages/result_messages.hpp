@@ -10,11 +10,23 @@
 
 namespace mms {
 
-/// Pose of the world frame in the map frame, which is level (x forward, y left, z up) as far as the
-/// first frame of the sensor is.
-/// @param map  its frame is the map's
-msg::Transforms level_map_message(const msg::Header& map, const std::string& world_frame,
-                                  bool is_camera);
+/// Names of the frames in messages: map -> world -> sensor.
+struct FrameNames {
+  std::string map;
+  std::string world;
+  std::string sensor;
+};
+
+/// Pose of the frame of the global map in the map frame of messages: x forward, y left, z up, level
+/// as far as the first sensor frame of the map is.
+/// @param is_camera  whether the global map has the axes of a camera
+Eigen::Isometry3d level_map_pose(bool is_camera);
+
+/// Poses of the sensor in the world frame and, once the place in the map is known, of the world
+/// frame in the map frame.
+/// @param header  its frame is replaced
+msg::Transforms transforms_message(const msg::Header& header, const FrameNames& frames,
+                                   const FrameResult& result, bool is_camera);
 
 /// Pose with its covariance from the odometry's information; without velocities.
 msg::Odometry odometry_message(const msg::Header& header, const std::string& child_frame,

@@ -36,10 +36,7 @@ Ros2Results::Ros2Results(Ros2Node& node, const Ros2ResultOptions& options)
   const TopicQos large{Reliability::kReliable, false, 0};
   const TopicQos latest{Reliability::kReliable, true, 1};
   odometry_ = node.advertise<msg::Odometry>("~/odometry", small);
-  if (options.transforms) {
-    transforms_ = node.advertise<msg::Transforms>("/tf", small);
-    fixed_transforms_ = node.advertise<msg::Transforms>("/tf_static", latest);
-  }
+  if (options.transforms) transforms_ = node.advertise<msg::Transforms>("/tf", small);
   path_topic_ = node.advertise<msg::Path>("~/path", latest);
   static_cloud_ = node.advertise<msg::PointCloud2>("~/static_cloud", large);
   dynamic_cloud_ = node.advertise<msg::PointCloud2>("~/dynamic_cloud", large);
@@ -57,7 +54,10 @@ void Ros2Results::publish(const Processed& processed, const SlamSystem& system,
   const msg::Header world{index, processed.frame.stamp, options_.world_frame};
   const msg::Header sensor{index, processed.frame.stamp, sensor_frame};
   odometry_.publish(odometry_message(world, sensor_frame, result.odometry));
-  if (options_.transforms) publish_transforms(world, sensor_frame, result.odometry, is_camera);
+  if (options_.transforms) {
+    const FrameNames frames{options_.map_frame, options_.world_frame, sensor_frame};
+    transforms_.publish(transforms_message(world, frames, result, is_camera));
+  }
   publish_path(world, result.odometry);
   publish_clouds(sensor, result.cloud);
   if (map_.is_wanted() && is_due(last_map_, options_.map_period)) {
@@ -68,18 +68,6 @@ void Ros2Results::publish(const Processed& processed, const SlamSystem& system,
   const std::scoped_lock lock(mutex_);
   last_ = diagnostics_message(world, result, processed.read_ms);
   ++frames_;
-}
-
-void Ros2Results::publish_transforms(const msg::Header& world, const std::string& sensor_frame,
-                                     const OdometryEstimate& odometry, bool is_camera) {
-  if (!fixed_sent_) {
-    msg::Header map = world;
-    map.frame_id = options_.map_frame;
-    fixed_transforms_.publish(level_map_message(map, options_.world_frame, is_camera));
-    fixed_sent_ = true;
-  }
-  transforms_.publish(
-      msg::Transforms{{{world, sensor_frame, pose_message(odometry.T_world_sensor.isometry())}}});
 }
 
 void Ros2Results::publish_path(const msg::Header& world, const OdometryEstimate& odometry) {

@@ -14,13 +14,13 @@ namespace mms {
 
 /// How results are published.
 struct Ros2ResultOptions {
-  bool transforms = true;                 ///< on /tf and /tf_static
-  std::string map_frame = "map";          ///< z up, x forward
-  std::string world_frame = "mms_world";  ///< the first sensor frame
+  bool transforms = true;                 ///< on /tf
+  std::string map_frame = "map";          ///< of the global map: z up, x forward
+  std::string world_frame = "mms_world";  ///< of the odometry: the first sensor frame
   double map_period = 2.0;                ///< between two maps [s]
 };
 
-/// Publishes the results of a run below "~/", and on /tf, /tf_static and /diagnostics. Messages
+/// Publishes the results of a run below "~/", and on /tf and /diagnostics. Messages
 /// without subscribers are not created.
 class Ros2Results {
  public:
@@ -39,18 +39,15 @@ class Ros2Results {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void publish_transforms(const msg::Header& world, const std::string& sensor_frame,
-                          const OdometryEstimate& odometry, bool is_camera);
   void publish_path(const msg::Header& world, const OdometryEstimate& odometry);
   void publish_clouds(const msg::Header& sensor, const LabeledCloud& cloud);
 
   Ros2ResultOptions options_;
   std::string node_name_;
-  Ros2Writer odometry_, transforms_, fixed_transforms_, path_topic_, static_cloud_, dynamic_cloud_,
-      map_, markers_, objects_, mask_, diagnostics_;
+  Ros2Writer odometry_, transforms_, path_topic_, static_cloud_, dynamic_cloud_, map_, markers_,
+      objects_, mask_, diagnostics_;
   msg::Path path_;
   Clock::time_point last_map_, last_path_;
-  bool fixed_sent_ = false;
 
   std::mutex mutex_;                          ///< guards all below
   std::optional<msg::DiagnosticArray> last_;  ///< of the last frame

@@ -69,6 +69,7 @@ AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config,
   const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   AsyncOptions async{.threads = options.threads > 0 ? options.threads : cores,
                      .realtime = options.realtime,
+                     .live = source.size() == FrameSource::kEndless,
                      .arrival = [&source] { return source.arrival(); }};
   // Without a mask, objects are tracked by geometry only.
   if (config.fusion.mode != FusionMode::kMultimodal) async.max_mask_age = 0.0;

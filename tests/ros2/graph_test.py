@@ -26,7 +26,6 @@ WAIT = 100  # longest of all steps on a machine under load [s]
 TOPICS = {
     "/mms_slam/odometry": "nav_msgs/Odometry",
     "/tf": "tf2_msgs/TFMessage",
-    "/tf_static": "tf2_msgs/TFMessage",
     "/mms_slam/path": "nav_msgs/Path",
     "/mms_slam/static_cloud": "sensor_msgs/PointCloud2",
     "/mms_slam/dynamic_cloud": "sensor_msgs/PointCloud2",
@@ -150,6 +149,12 @@ def check_decoded():
     position = odometry["pose"]["pose"]["position"]
     check(all(abs(position[axis] - pose[1 + i]) < 1e-6 for i, axis in enumerate("xyz")),
           f"the last odometry is {position}, the last pose {pose}")
+    sensor, world = last["/tf"]["transforms"]
+    check(sensor["header"]["frame_id"] == world["child_frame_id"] == "mms_world", f"/tf: {sensor}")
+    check(sensor["child_frame_id"] == "camera_color_optical_frame", f"/tf: {sensor}")
+    check(world["header"]["frame_id"] == "map", f"/tf: {world}")
+    rotation = [world["transform"]["rotation"][axis] for axis in "xyzw"]
+    check(all(abs(abs(value) - 0.5) < 1e-6 for value in rotation), f"map is not level: {rotation}")
     check(last["/mms_slam/map"]["width"] > 1000, "points of the map")
     check(last["/mms_slam/objects"]["objects"], "objects of the last frame")
     names = [status["name"] for status in last["/diagnostics"]["status"]]

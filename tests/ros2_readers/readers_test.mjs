@@ -158,7 +158,6 @@ try {
   assert.deepEqual(Object.fromEntries(
     Object.entries(results).map(([topic, { schema }]) => [topic, schema.name])), {
     '/tf': 'tf2_msgs/msg/TFMessage',
-    '/tf_static': 'tf2_msgs/msg/TFMessage',
     '/odometry': 'nav_msgs/msg/Odometry',
     '/path': 'nav_msgs/msg/Path',
     '/overlay/compressed': 'sensor_msgs/msg/CompressedImage',
@@ -173,6 +172,10 @@ try {
   const lines = readFileSync(join(folder, 'run/trajectory.tum'), 'utf8').trim().split('\n')
     .filter((line) => !line.startsWith('#')).map((line) => line.split(/\s+/).map(Number));
   assert.equal(results['/odometry'].messages.length, lines.length);
+  for (const { value } of results['/tf'].messages) {
+    assert.deepEqual(value.transforms.map((t) => [t.header.frame_id, t.child_frame_id]),
+                     [['world', 'camera'], ['map', 'world']]);
+  }
   const path = results['/path'].messages.at(-1).value.poses;
   lines.forEach((line, i) => {
     const { position, orientation } = results['/odometry'].messages[i].value.pose.pose;

@@ -197,6 +197,13 @@ void bind_results(py::module_& module) {
       .def_readonly("keyframe", &FrameResult::keyframe, "Whether it carves the static map.")
       .def_readonly("relocalized", &FrameResult::relocalized,
                     "Whether the pose is that of a recognized place.")
+      .def_property_readonly(
+          "world_in_map",
+          [](const FrameResult& r) {
+            return r.T_global_world ? std::optional(matrix_of(*r.T_global_world)) : std::nullopt;
+          },
+          "4 x 4 float64: pose of the world frame in that of the map, by the loops so far. None "
+          "until the place in an earlier map is recognized.")
       .def_readonly("dynamic_share", &FrameResult::dynamic_share,
                     "Share of the valid points that are dynamic, 0 to 1.")
       .def_readonly("objects", &FrameResult::objects, "List of TrackedObject, by id.")

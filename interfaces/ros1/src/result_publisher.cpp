@@ -28,10 +28,7 @@ ResultPublisher::ResultPublisher(ros::NodeHandle& node, const NodeSettings& sett
   constexpr std::uint32_t kLarge = 3;  // queue size of clouds and images
   ros::NodeHandle everywhere;
   odometry_ = node.advertise<msg::Odometry>("odometry", kQueue);
-  if (settings.publish_tf) {
-    transforms_ = everywhere.advertise<msg::Transforms>("/tf", kQueue);
-    fixed_transforms_ = everywhere.advertise<msg::Transforms>("/tf_static", 1, true);
-  }
+  if (settings.publish_tf) transforms_ = everywhere.advertise<msg::Transforms>("/tf", kQueue);
   path_topic_ = node.advertise<msg::Path>("path", 1, true);
   static_cloud_ = node.advertise<msg::PointCloud2>("static_cloud", kLarge);
   dynamic_cloud_ = node.advertise<msg::PointCloud2>("dynamic_cloud", kLarge);
@@ -58,15 +55,9 @@ void ResultPublisher::publish(const Processed& processed, const SlamSystem& syst
 
 void ResultPublisher::publish_transforms(const msg::Header& world, const std::string& sensor_frame,
                                          const FrameResult& result) {
-  if (!fixed_sent_) {
-    const bool is_camera = settings_.sensor == FrameAssembler::Sensor::kDepth;
-    msg::Header map = world;
-    map.frame_id = settings_.map_frame;
-    fixed_transforms_.publish(level_map_message(map, settings_.world_frame, is_camera));
-    fixed_sent_ = true;
-  }
-  transforms_.publish(msg::Transforms{
-      {{world, sensor_frame, pose_message(result.odometry.T_world_sensor.isometry())}}});
+  const FrameNames frames{settings_.map_frame, settings_.world_frame, sensor_frame};
+  const bool is_camera = settings_.sensor == FrameAssembler::Sensor::kDepth;
+  transforms_.publish(transforms_message(world, frames, result, is_camera));
 }
 
 void ResultPublisher::publish_path(const msg::Header& world, const FrameResult& result) {

@@ -30,12 +30,11 @@ class ResultPublisher {
   void publish_clouds(const msg::Header& sensor, const LabeledCloud& cloud);
 
   NodeSettings settings_;
-  ros::Publisher odometry_, transforms_, fixed_transforms_, path_topic_, static_cloud_,
-      dynamic_cloud_, map_, markers_, objects_, mask_;
+  ros::Publisher odometry_, transforms_, path_topic_, static_cloud_, dynamic_cloud_, map_, markers_,
+      objects_, mask_;
   msg::Path path_;
   ros::WallTime last_map_;
   ros::WallTime last_path_;
-  bool fixed_sent_ = false;
 };
 
 }  // namespace mms

@@ -26,7 +26,7 @@ MaskExchange::Clock::duration seconds(double value) {
 AsyncOptions threads_of(const NodeSettings& settings) {
   const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   // With one thread the stages would run sequentially.
-  return {.threads = std::max(2, settings.threads > 0 ? settings.threads : cores)};
+  return {.threads = std::max(2, settings.threads > 0 ? settings.threads : cores), .live = true};
 }
 
 msg::KeyValue value(const char* key, const auto& number) {

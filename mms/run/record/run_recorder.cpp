@@ -18,8 +18,6 @@ namespace {
 
 constexpr std::size_t kRecorderQueue = 16;  // frames, half a second
 constexpr int kOverlayQuality = 85;         // of JPEG
-constexpr const char* kRecordedMap = "map";
-constexpr const char* kRecordedWorld = "world";
 
 /// Whether something that is recorded as a whole grew by a tenth, so that all records together are
 /// at most eleven times the last.
@@ -80,26 +78,41 @@ void RunRecorder::write_entries() {
 }
 
 void RunRecorder::write(const Entry& entry) {
-  if (entry.result) write_frame(entry, *entry.result);
-  if (entry.map) {
-    file_->write("/map", entry.stamp, cloud_message(header_of(entry, kRecordedWorld), *entry.map));
+  if (!entry.result) return write_end(entry);
+  write_frame(entry, *entry.result);
+  if (!entry.map) return;
+  file_->write("/map", entry.stamp, cloud_message(header_of(entry, frames_.world), *entry.map));
+}
+
+void RunRecorder::write_end(const Entry& entry) {
+  const msg::Header world = header_of(entry, frames_.world);
+  write_path("/path", world, path_);
+  if (entry.corrected.empty()) {
+    file_->write("/map", entry.stamp, cloud_message(world, *entry.map));
+    return;
   }
-  if (entry.result) return;
-  write_path("/path", entry, path_);
-  if (!entry.corrected.empty()) write_path("/path_corrected", entry, entry.corrected);
+  const Eigen::Isometry3d T_map_global = level_map_pose(is_camera_);
+  const MapCloud map = moved(*entry.map, std::vector<Timestamp>(entry.map->size()),
+                             [&](Timestamp) { return T_map_global; });
+  Trajectory corrected = entry.corrected;
+  for (StampedPose& pose : corrected) {
+    pose.T_world_sensor = Transform<World, Sensor>(T_map_global * pose.T_world_sensor.isometry());
+  }
+  const msg::Header level = header_of(entry, frames_.map);
+  write_path("/path_corrected", level, corrected);
+  file_->write("/map", entry.stamp, cloud_message(level, map));
 }
 
 void RunRecorder::write_frame(const Entry& entry, const FrameResult& result) {
-  if (path_.empty()) write_frames_of_reference(entry, result);
-  const msg::Header world = header_of(entry, kRecordedWorld);
-  const msg::Header sensor = header_of(entry, sensor_frame_);
-  const Transform<World, Sensor>& pose = result.odometry.T_world_sensor;
-  file_->write("/tf", entry.stamp,
-               msg::Transforms{{{world, sensor_frame_, pose_message(pose.isometry())}}});
-  file_->write("/odometry", entry.stamp, odometry_message(world, sensor_frame_, result.odometry));
-  path_.push_back({entry.stamp, pose});
+  is_camera_ = result.cloud.organised();
+  frames_.sensor = is_camera_ ? "camera" : "lidar";
+  const msg::Header world = header_of(entry, frames_.world);
+  const msg::Header sensor = header_of(entry, frames_.sensor);
+  file_->write("/tf", entry.stamp, transforms_message(world, frames_, result, is_camera_));
+  file_->write("/odometry", entry.stamp, odometry_message(world, frames_.sensor, result.odometry));
+  path_.push_back({entry.stamp, result.odometry.T_world_sensor});
   if (has_grown(path_.size(), recorded_poses_)) {
-    write_path("/path", entry, path_);
+    write_path("/path", world, path_);
     recorded_poses_ = path_.size();
   }
   if (result.cloud.organised() && !result.cloud.colors.empty()) {
@@ -119,22 +132,15 @@ void RunRecorder::write_frame(const Entry& entry, const FrameResult& result) {
   file_->write("/diagnostics", entry.stamp, diagnostics_message(world, result, entry.read_ms));
 }
 
-void RunRecorder::write_frames_of_reference(const Entry& entry, const FrameResult& result) {
-  sensor_frame_ = result.cloud.organised() ? "camera" : "lidar";
-  file_->write(
-      "/tf_static", entry.stamp,
-      level_map_message(header_of(entry, kRecordedMap), kRecordedWorld, result.cloud.organised()));
-}
-
-void RunRecorder::write_path(const std::string& topic, const Entry& entry,
+void RunRecorder::write_path(const std::string& topic, const msg::Header& header,
                              const Trajectory& poses) {
   msg::Path path;
-  path.header = header_of(entry, kRecordedWorld);
+  path.header = header;
   for (const StampedPose& pose : poses) {
     path.poses.push_back(
-        {{entry.index, pose.stamp, kRecordedWorld}, pose_message(pose.T_world_sensor.isometry())});
+        {{header.seq, pose.stamp, header.frame_id}, pose_message(pose.T_world_sensor.isometry())});
   }
-  file_->write(topic, entry.stamp, path);
+  file_->write(topic, header.stamp, path);
 }
 
 msg::Header RunRecorder::header_of(const Entry& entry, const std::string& frame_id) const {

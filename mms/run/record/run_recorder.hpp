@@ -13,6 +13,7 @@
 #include "mms/core/trajectory.hpp"
 #include "mms/mapping/static_map/static_map.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
+#include "mms/result_messages/result_messages.hpp"
 #include "mms/ros/storage/bag_writer.hpp"
 
 namespace mms {
@@ -51,14 +52,14 @@ class RunRecorder {
     std::optional<FrameResult> result;
     std::optional<MapCloud> map;
     double read_ms = 0.0;
-    Trajectory corrected;
+    Trajectory corrected;  ///< in the frame of the map, and with it the map
   };
 
   void write_entries();
   void write(const Entry& entry);
   void write_frame(const Entry& entry, const FrameResult& result);
-  void write_frames_of_reference(const Entry& entry, const FrameResult& result);
-  void write_path(const std::string& topic, const Entry& entry, const Trajectory& poses);
+  void write_end(const Entry& entry);
+  void write_path(const std::string& topic, const msg::Header& header, const Trajectory& poses);
   msg::Header header_of(const Entry& entry, const std::string& frame_id) const;
 
   WarningHandler warn_;
@@ -67,7 +68,8 @@ class RunRecorder {
   Timestamp last_;                   ///< stamp of the last frame
   std::size_t recorded_points_ = 0;  ///< of the last map in the file
   // Of the thread:
-  std::string sensor_frame_;
+  FrameNames frames_{"map", "world", ""};
+  bool is_camera_ = false;
   Trajectory path_;
   std::size_t recorded_poses_ = 0;  ///< of the last path in the file
   std::thread thread_;

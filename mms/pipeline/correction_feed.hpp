@@ -1,0 +1,46 @@
+#pragma once
+
+#include <deque>
+#include <future>
+#include <optional>
+
+#include "mms/core/time.hpp"
+#include "mms/global_map/pose_correction.hpp"
+
+namespace mms {
+
+/// Pose of the odometry's world frame in that of the map, by the loops so far; nothing until the
+/// place in an earlier map is recognized.
+using MapCorrection = std::optional<Transform<Global, World>>;
+
+/// Takes the results of loop closure, which runs beside the odometry, to the frames that follow.
+class CorrectionFeed {
+ public:
+  /// @param first  for frames before any result
+  explicit CorrectionFeed(const MapCorrection& first) : current_(first) {}
+
+  /// Whether to wait for results that are late, so that they do not depend on the computer.
+  void set_waiting(bool waits) { waits_ = waits; }
+
+  /// Adds the result of a keyframe, later than those before.
+  void add(Timestamp keyframe, std::future<MapCorrection> result) {
+    coming_.push_back({keyframe, std::move(result)});
+  }
+
+  /// The correction for a frame: of the last keyframe that is old enough, or, without waiting, of
+  /// the last one that is ready.
+  /// @throws what the loop closure threw
+  const MapCorrection& at(Timestamp frame);
+
+ private:
+  struct Coming {
+    Timestamp keyframe;
+    std::future<MapCorrection> result;
+  };
+
+  MapCorrection current_;
+  std::deque<Coming> coming_;
+  bool waits_ = true;
+};
+
+}  // namespace mms
