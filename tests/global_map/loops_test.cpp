@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
 #include <vector>
 
 #include "mms/core/random_stream.hpp"
 #include "mms/geometry/camera.hpp"
 #include "mms/geometry/se3.hpp"
+#include "mms/global_map/corrected_occupancy.hpp"
 #include "mms/global_map/keyframes/keyframe_view.hpp"
 #include "mms/global_map/loops/keypoint_matching.hpp"
 #include "mms/global_map/loops/point_alignment.hpp"
@@ -139,6 +141,24 @@ TEST(KeyframeView, DynamicPointsAreNotCompared) {
   const KeyframeView with = make_keyframe_view(cloud);
   const KeyframeView without = make_keyframe_view(room(moved(0.0, 0.0), false));
   EXPECT_LT(compare_views(without, with, moved(0.0, 0.0), DepthNoise{}).contradiction, 0.01);
+}
+
+TEST(CorrectedOccupancy, HasTheViewsOfJoinedSessionsAtTheirCorrectedPoses) {
+  std::deque<KeyframeRecord> records(3);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    records[i].session = i < 2 ? 0 : 1;
+    records[i].features.planes.resize(1);
+    records[i].view = make_keyframe_view(room(moved(0.3, 0.2), true));
+    records[i].T_world_sensor = Transform<World, Sensor>(moved(9.0, 9.0));  // drifted
+  }
+  const std::vector<Eigen::Isometry3d> poses = {moved(0.3, 0.2), moved(0.3, 0.2), moved(50.0, 0.0)};
+  const OccupancyMap map = corrected_occupancy(
+      records, poses, [](std::uint32_t session) { return session == 0; }, {}, {});
+  EXPECT_EQ(map.at(Eigen::Vector3d(0.0, 0.0, 2.02)), Occupancy::kOccupied);  // box
+  EXPECT_EQ(map.at(Eigen::Vector3d(1.0, 0.0, 4.02)), Occupancy::kOccupied);  // wall
+  EXPECT_EQ(map.at(Eigen::Vector3d(0.2, 0.1, 1.0)), Occupancy::kFree);
+  EXPECT_EQ(map.at(Eigen::Vector3d(0.0, 0.0, 3.0)), Occupancy::kUnknown);  // behind the box
+  EXPECT_EQ(map.at(Eigen::Vector3d(50.0, 0.0, 1.0)), Occupancy::kUnknown);
 }
 
 }  // namespace

@@ -65,6 +65,9 @@ TEST(Map, IsSavedLocalizedInExtendedAndExported) {
   expect_success(run_mms(folder.path(), {"map", "export", "a.mmsmap", "-o", "export"}));
   EXPECT_GT(read_ply(folder.path() / "export/static_map.ply").points.size(), 5000U);
   EXPECT_GT(read_ply(folder.path() / "export/changes.ply").points.size(), 5000U);
+  for (const char* name : {"map.yaml", "map.pgm", "map.bt"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "export" / name)) << name;
+  }
   EXPECT_GT(read_trajectory_tum(folder.path() / "export/session_1.tum").size(), 3U);
 }
 

@@ -15,6 +15,7 @@
 #include "apps/mms/console/rate_progress.hpp"
 #include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
+#include "mms/global_map/corrected_occupancy.hpp"
 #include "mms/io/cloud/pcd_io.hpp"
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
@@ -23,6 +24,7 @@
 #include "mms/map_file/session_changes.hpp"
 #include "mms/pipeline/system_config.hpp"
 #include "mms/run/results/result_files.hpp"
+#include "mms/run/results/robot_maps.hpp"
 
 namespace mms {
 namespace {
@@ -65,6 +67,7 @@ void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
   };
   const fs::path ply = check("static_map.ply");
   const fs::path pcd = check("static_map.pcd");
+  for (const char* name : {"map.yaml", "map.pgm", "map.bt"}) check(name);
   const std::vector<std::uint32_t> joined = joined_sessions(content);
   for (const std::uint32_t session : joined) {
     write_trajectory_tum(check(fmt::format("session_{}.tum", session)),
@@ -85,6 +88,12 @@ void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
   }
   write_ply(ply, file_of(map, frame), ply_comments(frame));
   write_pcd(pcd, file_of(map, frame));
+  const auto is_joined = [&](std::uint32_t session) {
+    return std::find(joined.begin(), joined.end(), session) != joined.end();
+  };
+  const OccupancyMap occupancy =
+      corrected_occupancy(content.records, content.poses, is_joined, {}, {});
+  write_robot_maps(folder, occupancy, map, frame == MapFrame::kCamera, MapMarking::kObstacles);
   fmt::print("{}: {} points of {} sessions\n", ply.string(), map.size(), joined.size());
   if (joined.size() == file.sessions().size()) return;
   warn(fmt::format("{} sessions are left out, since no loop joins them to the first one",
@@ -210,8 +219,9 @@ void add_map_command(CLI::App& app) {
     added->add_option("FILE", *path, "map of mms run --save-map")->required();
     return added;
   };
-  CLI::App* exported =
-      add("export", "Write the static map of all sessions and the poses of their keyframes");
+  CLI::App* exported = add(
+      "export",
+      "Write the static map, the occupancy maps and the poses of the keyframes of all sessions");
   const auto folder = std::make_shared<std::string>();
   const auto overwrite = std::make_shared<bool>(false);
   exported->add_option("-o,--output", *folder, "folder for the files")->required();

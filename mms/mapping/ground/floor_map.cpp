@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace mms {
@@ -132,6 +134,22 @@ OccupancyVoxels voxels_in_map_frame(const OccupancyMap& map,
   std::sort(voxels.occupied.begin(), voxels.occupied.end());
   std::sort(voxels.free.begin(), voxels.free.end());
   return voxels;
+}
+
+void add_occupied(const std::vector<Eigen::Vector3f>& points,
+                  const Transform<World, Map>& T_world_map, OccupancyVoxels& voxels) {
+  const Eigen::Isometry3f T_map_world = T_world_map.isometry().inverse().cast<float>();
+  const auto inverse_size = static_cast<float>(1.0 / voxels.voxel_size);
+  std::vector<VoxelKey>& occupied = voxels.occupied;
+  for (const Eigen::Vector3f& point : points) {
+    occupied.push_back(voxel_key(T_map_world * point, inverse_size));
+  }
+  std::sort(occupied.begin(), occupied.end());
+  occupied.erase(std::unique(occupied.begin(), occupied.end()), occupied.end());
+  std::vector<VoxelKey> free;
+  std::set_difference(voxels.free.begin(), voxels.free.end(), occupied.begin(), occupied.end(),
+                      std::back_inserter(free));
+  voxels.free = std::move(free);
 }
 
 OccupancyGrid floor_grid(const OccupancyVoxels& voxels, const Transform<World, Map>& T_world_map,

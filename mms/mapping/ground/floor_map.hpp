@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "mms/core/transform.hpp"
 #include "mms/geometry/voxels/occupancy.hpp"
 #include "mms/mapping/occupancy/occupancy_map.hpp"
@@ -10,6 +13,11 @@ namespace mms {
 /// voxel that its centre lies in, so that closed surfaces stay closed. Sorted by key.
 OccupancyVoxels voxels_in_map_frame(const OccupancyMap& map,
                                     const Transform<World, Map>& T_world_map);
+
+/// Marks the voxels of points as occupied.
+/// @param points  world frame [m]
+void add_occupied(const std::vector<Eigen::Vector3f>& points,
+                  const Transform<World, Map>& T_world_map, OccupancyVoxels& voxels);
 
 /// The 2D grid of the floor. A cell is occupied if any voxel between `min_height` and `max_height`
 /// above it is, isolated voxels excepted; else free if the floor, or empty space below

@@ -12,7 +12,7 @@
 namespace mms {
 
 void write_robot_maps(const std::filesystem::path& folder, const OccupancyMap& occupancy,
-                      const MapCloud& map, bool is_depth) {
+                      const MapCloud& map, bool is_depth, MapMarking marking) {
   const OccupancyConfig& config = occupancy.config();
   if (!config.enabled) return;
   const SensorAxes axes = is_depth ? SensorAxes::camera() : SensorAxes::lidar();
@@ -25,7 +25,8 @@ void write_robot_maps(const std::filesystem::path& folder, const OccupancyMap& o
                config.floor.min_area, config.floor.max_tilt);
   }
   const Transform<World, Map> T_world_map = map_frame(floor, axes.forward);
-  const OccupancyVoxels voxels = voxels_in_map_frame(occupancy, T_world_map);
+  OccupancyVoxels voxels = voxels_in_map_frame(occupancy, T_world_map);
+  if (marking == MapMarking::kObstacles) add_occupied(map.points, T_world_map, voxels);
   write_occupancy_grid(folder / "map.yaml", floor_grid(voxels, T_world_map, config.grid));
   const std::size_t left_out = write_octomap(folder / "map.bt", voxels);
   if (left_out > 0) {

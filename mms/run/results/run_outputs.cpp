@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "mms/core/error.hpp"
+#include "mms/global_map/corrected_occupancy.hpp"
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/io/image/image_io.hpp"
@@ -101,6 +102,24 @@ void write_pictures(const std::filesystem::path& folder, const RunReport& report
   }
 }
 
+/// The occupancy map of the run where no loop corrects it, else that of all keyframes of the map.
+void write_corrected_robot_maps(const std::filesystem::path& folder, const SystemConfig& config,
+                                const SlamSystem& system, const MapCloud& map, const RunLog& log) {
+  if (!log.correction()) {
+    write_robot_maps(folder, system.occupancy_map(), system.static_map().cloud(), log.has_image());
+    return;
+  }
+  const GlobalMap& global = system.global_map();
+  const auto shares_frame = [&](std::uint32_t session) {
+    return session == global.session() ||
+           (global.is_joined(session) && global.is_joined(global.session()));
+  };
+  const OccupancyMap occupancy =
+      corrected_occupancy(global.records(), global.poses(), shares_frame, config.occupancy,
+                          with_noise(config.static_map.surface, config.noise));
+  write_robot_maps(folder, occupancy, map, log.has_image(), MapMarking::kObstacles);
+}
+
 }  // namespace
 
 void write_outputs(const std::filesystem::path& folder, const std::string& data,
@@ -109,7 +128,7 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
   const MapFrame frame = log.has_image() ? MapFrame::kCamera : MapFrame::kLidar;
   const MapCloud map = result_map(system.static_map(), frame, log.correction());
   write_result_files(folder, log.trajectory(), log.keyframes(), map, frame);
-  write_robot_maps(folder, system.occupancy_map(), system.static_map().cloud(), log.has_image());
+  write_corrected_robot_maps(folder, config, system, map, log);
   write_file(folder / "objects.json", objects_json(log.objects()));
   const MapCloud with_objects = semantic_map(map, log.objects());
   write_ply(folder / "semantic_map.ply", file_of(with_objects, frame), ply_comments(frame));
