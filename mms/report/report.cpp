@@ -37,6 +37,18 @@ std::string summary_table(const std::vector<MetricSection>& summary) {
   return "<table><tbody>" + rows + "</tbody></table>";
 }
 
+/// Closed loops, and why others were rejected.
+std::string loops_note(const ReportLoops& loops) {
+  if (loops.closed.empty() && loops.rejected.empty()) return "";
+  std::string reasons;
+  for (const auto& [reason, count] : loops.rejected) {
+    reasons += (reasons.empty() ? " Rejected: " : ", ") + std::to_string(count) + " " + reason;
+  }
+  if (!reasons.empty()) reasons += ".";
+  return "<p class=\"note\">" + std::to_string(loops.closed.size()) +
+         (loops.closed.size() == 1 ? " loop." : " loops.") + escape_html(reasons) + "</p>";
+}
+
 std::string list_of(const std::string& title, const std::vector<std::string>& lines) {
   if (lines.empty()) return "";
   std::string items;
@@ -90,7 +102,8 @@ std::string report_html(const RunReport& report) {
   page += "</style></head><body>\n<h1>" + name + "</h1><p class=\"sub\">" +
           escape_html(subtitle(report)) + "</p>\n";
   page += section("Summary", summary_table(report.summary));
-  page += "<div class=\"pair\">" + section("Trajectory, top view", trajectory_plot(report)) +
+  page += "<div class=\"pair\">" +
+          section("Trajectory, top view", trajectory_plot(report) + loops_note(report.loops)) +
           map_section("Static map, top view", report.map_view) + "</div>\n";
   if (!report.objects_view.empty()) {
     page += map_section("Object trajectories and last positions", report.objects_view);

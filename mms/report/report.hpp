@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mms/core/image.hpp"
@@ -26,6 +29,13 @@ struct ReportFrame {
   std::vector<double> stage_ms;  ///< parallel to RunReport::stages [ms]
 };
 
+/// What loops of a run changed. Empty without any.
+struct ReportLoops {
+  std::vector<Eigen::Vector3d> odometry;  ///< positions before the correction, by frame [m]
+  std::vector<std::pair<std::size_t, std::size_t>> closed;     ///< frames of the accepted ones
+  std::vector<std::pair<std::string, std::int64_t>> rejected;  ///< their number by reason
+};
+
 struct ReportPicture {
   std::string title;
   Image<Rgb> image;
@@ -37,6 +47,7 @@ struct RunReport {
   UpAxis up = UpAxis::kNegativeY;
   std::vector<std::string> stages;  ///< names in pipeline order
   std::vector<ReportFrame> frames;  ///< in order of time
+  ReportLoops loops;
   std::vector<MetricSection> summary;
   std::string version;                ///< of the program
   std::vector<std::string> settings;  ///< those that differ from the defaults

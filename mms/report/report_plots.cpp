@@ -16,6 +16,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kEstimateColor = 0;
 constexpr int kTruthColor = 1;
 constexpr int kStartColor = 2;
+constexpr int kOdometryColor = 4;
+constexpr int kLoopColor = 3;
 /// Largest number of values per stage.
 constexpr std::size_t kMaxRuns = 400;
 
@@ -74,6 +76,17 @@ void add_path(SvgPlot& plot, const std::string& name, int color, const Positions
     y.push_back(axes.up.dot(point));
   }
   plot.add_line(name, color, x, y);
+}
+
+/// Both ends of each loop, with gaps between them.
+Positions loop_lines(const RunReport& report) {
+  Positions lines;
+  for (const auto& [earlier, later] : report.loops.closed) {
+    lines.push_back(position(report.frames[earlier]));
+    lines.push_back(position(report.frames[later]));
+    lines.emplace_back(Eigen::Vector3d::Constant(kNaN));
+  }
+  return lines;
 }
 
 /// First finite position, else NaN.
@@ -141,6 +154,10 @@ std::string trajectory_plot(const RunReport& report) {
   const ViewAxes axes = view_axes(Viewpoint::kTop, report.up);
   const Positions truth = aligned_truth(report);
   if (!truth.empty()) add_path(plot, "ground truth, aligned", kTruthColor, truth, axes);
+  if (!report.loops.odometry.empty()) {
+    add_path(plot, "odometry", kOdometryColor, report.loops.odometry, axes);
+    add_path(plot, "loops", kLoopColor, loop_lines(report), axes);
+  }
   add_path(plot, "estimate", kEstimateColor, estimated(report), axes);
   const Eigen::Vector3d start = first_position(report);
   plot.add_marker("start", kStartColor, axes.right.dot(start), axes.up.dot(start));

@@ -52,6 +52,19 @@ TEST(Report, HasEverySection) {
   }
 }
 
+TEST(Report, ShowsWhatLoopsChanged) {
+  RunReport report = sample(20);
+  EXPECT_FALSE(contains(report_html(report), "odometry</span>"));
+  report.loops.odometry.assign(20, Eigen::Vector3d::Zero());
+  report.loops.closed = {{0, 19}, {1, 18}};
+  report.loops.rejected = {{"few inliers", 7}, {"unlikely", 1}};
+  const std::string html = report_html(report);
+  for (const char* part :
+       {"2 loops. Rejected: 7 few inliers, 1 unlikely.", "odometry</span>", "loops</span>"}) {
+    EXPECT_TRUE(contains(html, part)) << part;
+  }
+}
+
 TEST(Report, NamesVersionSettingsAndWarnings) {
   RunReport report = sample(5);
   EXPECT_FALSE(contains(report_html(report), "<h2>Run</h2>"));

@@ -244,6 +244,33 @@ TEST(Viewer, ReportsEndOfLiveRun) {
   EXPECT_EQ(only(viewer.drain(), "frame").json["frame"], 0) << "it plays again";
 }
 
+TEST(Viewer, ShowsCorrectedResultsAndLoopsAtEndOfLiveRun) {
+  const auto scene = live_scene();
+  scene->add(frame_at(0), nullptr, floor_map(20));
+  scene->add(frame_at(1), nullptr, nullptr);
+  TestViewer viewer(scene);
+  viewer.advance(33ms);
+  viewer.drain();
+  SceneFrames corrected;
+  for (const std::size_t index : {3U, 4U}) {
+    corrected.push_back(std::make_shared<const SceneFrame>(frame_at(index)));
+  }
+  const ColoredPoints map = floor_points(10);
+  scene->replace(corrected, changes_of(map.points, map.colors, 0.1));
+  scene->set_loops({{0, 1, true, "accepted"}, {0, 1, false, "few inliers"}});
+  scene->end("/nowhere");
+  viewer.advance(1s);
+  const auto messages = viewer.drain();
+  EXPECT_EQ(only(messages, "trajectory").values<float>("pose")[0], 3.0F);
+  EXPECT_EQ(only(messages, "frame").values<float>("pose")[0], 4.0F);
+  EXPECT_EQ(only(messages, "map").values<float>("points").size(), 3 * 100U);
+  const auto loops = only(messages, "loops");
+  EXPECT_EQ(loops.json["outcomes"], (nlohmann::json{"accepted", "few inliers"}));
+  EXPECT_EQ(loops.values<std::uint32_t>("frames"), (std::vector<std::uint32_t>{0, 1, 0, 1}));
+  EXPECT_EQ(loops.values<std::uint8_t>("accepted"), (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_EQ(loops.values<std::uint8_t>("outcome"), (std::vector<std::uint8_t>{0, 1}));
+}
+
 TEST(Viewer, SendsNoChunksWhenMapIsDisabled) {
   TestViewer viewer(finished_scene(3));
   viewer.receive(R"({"type":"want","map":false})");

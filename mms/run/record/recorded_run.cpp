@@ -42,6 +42,28 @@ std::map<Timestamp, std::vector<float>> read_times(const fs::path& file) {
   return times;
 }
 
+/// Rows of loops.csv; an outcome has one word or two.
+std::vector<LoopRecord> read_loops(const fs::path& file) {
+  constexpr std::size_t kColumnsAfter = 11;  // the outcome
+  const TextTable table(file);
+  std::vector<LoopRecord> loops;
+  for (const TextLine& line : table.lines()) {
+    const auto& fields = line.fields;
+    if (fields[0] == "stamp") continue;
+    const auto later = parse_stamp(fields[0]);
+    const auto earlier = fields.size() > 1 ? parse_stamp(fields[1]) : std::nullopt;
+    if (!later || !earlier || fields.size() < 3 + kColumnsAfter) {
+      throw DataError(table.where(line), "is not a row of loops.csv");
+    }
+    LoopRecord loop{*earlier, *later, std::string(fields[2])};
+    for (std::size_t i = 3; i + kColumnsAfter < fields.size(); ++i) {
+      loop.outcome.append(" ").append(fields[i]);
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
 MapCloud read_map(const fs::path& file) {
   PointCloudFile cloud = read_ply(file);
   remove_invalid_points(cloud);
@@ -78,6 +100,7 @@ RunFiles read_finished(const fs::path& folder) {
       files.frames[frame.stamp] = frame;
     }
   }
+  if (there("loops.csv")) files.loops = read_loops(folder / "loops.csv");
   if (there("run.json")) files.record = read_run_record(folder / "run.json");
   files.config = read_settings(folder / "config.yaml");
   if (files.record) files.data = files.record->data;

@@ -15,6 +15,13 @@
 
 namespace mms {
 
+/// A row of loops.csv.
+struct LoopRecord {
+  Timestamp earlier;
+  Timestamp later;
+  std::string outcome;
+};
+
 /// Content of a result folder, as far as available.
 struct RunFiles {
   Trajectory trajectory;
@@ -23,6 +30,7 @@ struct RunFiles {
   Trajectory truth;
   std::map<Timestamp, std::vector<float>> times;  ///< read, stages, interval [ms]
   std::map<Timestamp, FrameRecord> frames;
+  std::vector<LoopRecord> loops;
   std::optional<RunRecord> record;
   SystemConfig config;
   std::string data;  ///< input of the run, if known

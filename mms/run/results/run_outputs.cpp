@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <iterator>
+#include <map>
 
 #include "mms/core/error.hpp"
 #include "mms/global_map/corrected_occupancy.hpp"
@@ -75,6 +77,32 @@ std::vector<ReportFrame> report_frames(const RunLog& log) {
   return frames;
 }
 
+/// The loops within the run.
+ReportLoops report_loops(const RunLog& log) {
+  ReportLoops result;
+  std::map<Timestamp, std::size_t> frames;
+  for (const LoggedFrame& frame : log.frames()) frames.emplace(frame.stamp, frames.size());
+  std::array<std::int64_t, kLoopOutcomes> counts{};
+  for (const Loop& loop : log.loops()) {
+    ++counts[static_cast<std::size_t>(loop.outcome)];
+    const auto earlier = frames.find(log.stamp_of_keyframe(loop.candidate));
+    const auto later = frames.find(log.stamp_of_keyframe(loop.query));
+    const bool is_within = earlier != frames.end() && later != frames.end();
+    if (loop.outcome != LoopOutcome::kAccepted || !is_within) continue;
+    result.closed.emplace_back(earlier->second, later->second);
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto outcome = static_cast<LoopOutcome>(i);
+    if (outcome == LoopOutcome::kAccepted || counts[i] == 0) continue;
+    result.rejected.emplace_back(to_string(outcome), counts[i]);
+  }
+  if (!log.correction()) return result;
+  for (const LoggedFrame& frame : log.frames()) {
+    result.odometry.push_back(frame.T_world_sensor.translation());
+  }
+  return result;
+}
+
 RunReport make_report(const std::string& data, const MapCloud& map, const MapCloud& with_objects,
                       double voxel_size, const RunLog& log) {
   RunReport report;
@@ -82,6 +110,7 @@ RunReport make_report(const std::string& data, const MapCloud& map, const MapClo
   report.up = log.has_image() ? UpAxis::kNegativeY : UpAxis::kPositiveZ;
   for (const auto& [name, unused] : log.metrics().stages) report.stages.push_back(name);
   report.frames = report_frames(log);
+  report.loops = report_loops(log);
   report.summary = metric_sections(log.metrics());
   const MapPictureOptions view{.up = report.up, .point_size = voxel_size, .max_height = kCeiling};
   report.map_view = draw_map(map.points, map.colors, view);

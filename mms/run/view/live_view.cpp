@@ -8,6 +8,7 @@
 
 #include "mms/mapping/ground/floor.hpp"
 #include "mms/run/record/run_record.hpp"
+#include "mms/run/view/recorded_scene.hpp"
 #include "mms/run/view/run_series.hpp"
 
 namespace mms {
@@ -89,6 +90,15 @@ void LiveView::show(Processed processed, double interval_ms,
 }
 
 void LiveView::end(const std::filesystem::path& folder, const RunLog& log) {
+  if (log.correction()) {
+    show_final_results(folder, *scene_);
+  } else {
+    show_aligned_truth(log);
+  }
+  scene_->end(folder);
+}
+
+void LiveView::show_aligned_truth(const RunLog& log) {
   const Trajectory truth = aligned_truth(log.truth(), log.trajectory());
   std::vector<std::optional<Eigen::Vector3d>> positions(log.frames().size());
   auto next = truth.begin();
@@ -96,7 +106,6 @@ void LiveView::end(const std::filesystem::path& folder, const RunLog& log) {
     if (next->stamp == log.frames()[i].stamp) positions[i] = (next++)->T_world_sensor.translation();
   }
   if (!truth.empty()) scene_->replace_truth(positions);
-  scene_->end(folder);
 }
 
 }  // namespace mms

@@ -27,12 +27,14 @@ class LiveView {
   /// Displays changes of the map after the last frame.
   void show_map(const MapChanges& map) { scene_->add_map(std::make_shared<const MapChanges>(map)); }
 
-  /// Ends the live run; the run's files are in `folder`.
+  /// Ends the live run; the run's files are in `folder`. With loops, their poses and map are shown.
   void end(const std::filesystem::path& folder, const RunLog& log);
 
   const ViewerServer& server() const { return *server_; }
 
  private:
+  void show_aligned_truth(const RunLog& log);
+
   LiveTruth truth_;
   std::shared_ptr<Scene> scene_;
   std::size_t frames_ = 0;  // displayed so far

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mms/core/error.hpp"
+#include "mms/global_map/loops/loop.hpp"
 #include "mms/mapping/ground/floor.hpp"
 #include "mms/run/record/recorded_run.hpp"
 #include "mms/run/view/run_series.hpp"
@@ -87,7 +88,8 @@ std::vector<float> series_of(const RunFiles& files, const SceneFrame& frame) {
   return values;
 }
 
-void add_frames(const RunFiles& files, Scene& scene) {
+std::vector<SceneFrame> frames_of(const RunFiles& files) {
+  std::vector<SceneFrame> frames;
   std::map<Timestamp, const ObjectFrame*> objects;
   for (const ObjectFrame& frame : files.objects) objects[frame.stamp] = &frame;
   std::map<Timestamp, Eigen::Vector3d> truth;
@@ -105,8 +107,28 @@ void add_frames(const RunFiles& files, Scene& scene) {
     const auto truly = truth.find(pose.stamp);
     if (truly != truth.end()) frame.truth = truly->second;
     frame.series = series_of(files, frame);
-    scene.add(std::move(frame), nullptr, nullptr);
+    frames.push_back(std::move(frame));
   }
+  return frames;
+}
+
+/// Loops within the run; those to an earlier map have no frame of it.
+std::vector<SceneLoop> loops_of(const RunFiles& files) {
+  std::map<Timestamp, std::size_t> frames;
+  for (const StampedPose& pose : files.trajectory) frames.emplace(pose.stamp, frames.size());
+  std::vector<SceneLoop> loops;
+  for (const LoopRecord& loop : files.loops) {
+    const auto earlier = frames.find(loop.earlier);
+    const auto later = frames.find(loop.later);
+    if (earlier == frames.end() || later == frames.end()) continue;
+    loops.push_back({earlier->second, later->second,
+                     loop.outcome == to_string(LoopOutcome::kAccepted), loop.outcome});
+  }
+  return loops;
+}
+
+MapChanges map_of(const RunFiles& files) {
+  return changes_of(files.map.points, files.map.colors, voxel_size_of(files));
 }
 
 }  // namespace
@@ -127,11 +149,21 @@ std::shared_ptr<Scene> open_recorded_scene(const fs::path& folder) {
   if (files.record) info.camera = files.record->camera;
   auto scene = std::make_shared<Scene>(std::move(info));
   scene->set_loader(std::move(loader));
-  add_frames(files, *scene);
-  scene->add_map(std::make_shared<const MapChanges>(
-      changes_of(files.map.points, files.map.colors, voxel_size_of(files))));
+  for (SceneFrame& frame : frames_of(files)) scene->add(std::move(frame), nullptr, nullptr);
+  scene->add_map(std::make_shared<const MapChanges>(map_of(files)));
+  scene->set_loops(loops_of(files));
   scene->end(folder);
   return scene;
+}
+
+void show_final_results(const fs::path& folder, Scene& scene) {
+  const RunFiles files = read_run_files(folder);
+  SceneFrames frames;
+  for (SceneFrame& frame : frames_of(files)) {
+    frames.push_back(std::make_shared<const SceneFrame>(std::move(frame)));
+  }
+  scene.replace(std::move(frames), map_of(files));
+  scene.set_loops(loops_of(files));
 }
 
 }  // namespace mms

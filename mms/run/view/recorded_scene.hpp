@@ -11,4 +11,9 @@ namespace mms {
 /// @throws FileError, DataError if the folder has none or a file cannot be read.
 std::shared_ptr<Scene> open_recorded_scene(const std::filesystem::path& folder);
 
+/// Shows in the scene of a live run its final poses, objects, map and loops.
+/// @param folder  with the results of all its frames
+/// @throws as `open_recorded_scene`
+void show_final_results(const std::filesystem::path& folder, Scene& scene);
+
 }  // namespace mms

@@ -48,6 +48,14 @@ struct SceneFrame {
   std::optional<Eigen::Vector3d> truth;  ///< ground-truth position in the world frame [m]
 };
 
+/// A possible loop between two frames that was checked.
+struct SceneLoop {
+  std::size_t earlier = 0;  ///< index of the frame
+  std::size_t later = 0;
+  bool is_accepted = false;
+  std::string outcome;  ///< "accepted", or the check that failed
+};
+
 /// Consecutive frames, shared with readers while more are added.
 using SceneFrames = std::vector<std::shared_ptr<const SceneFrame>>;
 

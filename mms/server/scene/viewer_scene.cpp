@@ -1,6 +1,7 @@
 #include "mms/server/scene/viewer_scene.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace mms {
@@ -38,6 +39,26 @@ void Scene::end(const std::filesystem::path& folder) {
   apply_pending();
   folder_ = folder;
   ended_ = true;
+}
+
+void Scene::replace(SceneFrames frames, MapChanges map) {
+  map.whole = true;
+  const std::scoped_lock lock(mutex_);
+  apply_pending();
+  assert(frames.size() == frames_.size());
+  frames_ = std::move(frames);
+  changes_.push_back(std::make_shared<const MapChanges>(std::move(map)));
+  ++edition_;
+}
+
+void Scene::set_loops(std::vector<SceneLoop> loops) {
+  const std::scoped_lock lock(mutex_);
+  loops_ = std::move(loops);
+}
+
+std::vector<SceneLoop> Scene::loops() const {
+  const std::scoped_lock lock(mutex_);
+  return loops_;
 }
 
 void Scene::replace_truth(const std::vector<std::optional<Eigen::Vector3d>>& truth) {

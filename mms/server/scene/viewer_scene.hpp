@@ -40,6 +40,13 @@ class Scene {
   /// @param folder  with the run's files
   void end(const std::filesystem::path& folder);
 
+  /// Replaces all frames and the map by those that loops corrected.
+  /// @param frames  as many as there are
+  void replace(SceneFrames frames, MapChanges map);
+
+  /// Shows loops; to be called before the end.
+  void set_loops(std::vector<SceneLoop> loops);
+
   /// Replaces the ground-truth positions, one per frame.
   void replace_truth(const std::vector<std::optional<Eigen::Vector3d>>& truth);
 
@@ -65,6 +72,9 @@ class Scene {
 
   /// Sensor data of a frame, or of the newest; null if unavailable.
   std::shared_ptr<const SensorView> view(std::optional<std::size_t> frame) const;
+
+  /// Empty before the end.
+  std::vector<SceneLoop> loops() const;
 
   /// The present map; first applies all pending changes.
   template <class Read>
@@ -97,6 +107,7 @@ class Scene {
   std::shared_ptr<const SensorView> newest_;
   Changes changes_;
   std::filesystem::path folder_;
+  std::vector<SceneLoop> loops_;
 
   std::mutex map_mutex_;  // never locked by the run
   MapChunks map_;

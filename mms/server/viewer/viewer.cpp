@@ -82,6 +82,7 @@ void Viewer::notice_end() {
   state_due_ = true;
   files_due_ = !hello_due_;
   tracks_due_ = true;
+  loops_due_ = !scene_.loops().empty();
 }
 
 std::optional<Viewer::Encode> Viewer::next(Clock::time_point now) {
@@ -90,6 +91,7 @@ std::optional<Viewer::Encode> Viewer::next(Clock::time_point now) {
   if (edition_sent_ != scene_.edition()) {
     edition_sent_ = scene_.edition();
     poses_sent_ = 0;
+    sent_ = {};
   }
   if (auto task = next_history()) return task;
   map_turn_ = !map_turn_;
@@ -138,6 +140,9 @@ std::optional<Viewer::Encode> Viewer::next_history() {
   }
   if (std::exchange(tracks_due_, false)) {
     return [&scene, last] { return tracks_message(scene.frames(0, last)); };
+  }
+  if (std::exchange(loops_due_, false)) {
+    return [&scene] { return loops_message(scene.loops()); };
   }
   return std::nullopt;
 }

@@ -87,6 +87,7 @@ class Viewer {
   std::size_t poses_sent_ = 0;   // rows of the trajectory
   std::size_t values_sent_ = 0;  // rows of the series
   bool tracks_due_ = true;
+  bool loops_due_ = false;
   std::uint64_t edition_sent_ = 0;
   Sent sent_;
   std::size_t dropped_ = 0;

@@ -1,6 +1,7 @@
 #include "mms/server/viewer/viewer_messages.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -177,6 +178,26 @@ Message tracks_message(const SceneFrames& frames) {
   writer.add("track", tracks, 1);
   writer.add("frame", numbers, 1);
   writer.add("center", centers, 3);
+  return writer.finish();
+}
+
+Message loops_message(const std::vector<SceneLoop>& loops) {
+  std::vector<std::string> outcomes;
+  std::vector<std::uint32_t> frames;
+  std::vector<std::uint8_t> accepted;
+  std::vector<std::uint8_t> outcome;
+  for (const SceneLoop& loop : loops) {
+    const auto known = std::find(outcomes.begin(), outcomes.end(), loop.outcome);
+    outcome.push_back(static_cast<std::uint8_t>(known - outcomes.begin()));
+    if (known == outcomes.end()) outcomes.push_back(loop.outcome);
+    frames.push_back(static_cast<std::uint32_t>(loop.earlier));
+    frames.push_back(static_cast<std::uint32_t>(loop.later));
+    accepted.push_back(loop.is_accepted ? 1 : 0);
+  }
+  MessageWriter writer({{"type", "loops"}, {"outcomes", outcomes}});
+  writer.add("frames", frames, 2);
+  writer.add("accepted", accepted, 1);
+  writer.add("outcome", outcome, 1);
   return writer.finish();
 }
 

@@ -31,6 +31,9 @@ Message series_message(const SceneInfo& info, const SceneFrames& frames, std::si
 /// @param frames  from the first of the run
 Message tracks_message(const SceneFrames& frames);
 
+/// Loops between frames.
+Message loops_message(const std::vector<SceneLoop>& loops);
+
 /// Whether a frame's images are in its message, follow later, or do not exist.
 enum class PicturesState { kNone, kPending, kHere };
 

@@ -3,6 +3,7 @@ import type {
   FrameMessage,
   Hello,
   Intrinsics,
+  LoopsMessage,
   MapMessage,
   Message,
   Quaternion,
@@ -30,6 +31,7 @@ const kDecoders: Record<string, (envelope: Envelope) => Message> = {
   trajectory: decodeTrajectory,
   series: decodeSeries,
   tracks: decodeTracks,
+  loops: decodeLoops,
   frame: decodeFrame,
   map: decodeMap,
   state: decodeState,
@@ -99,6 +101,14 @@ function decodeTracks({ header, buffers }: Envelope): TracksMessage {
     track: array(buffers, 'track', Uint32Array) ?? new Uint32Array(),
     frame: array(buffers, 'frame', Uint32Array) ?? new Uint32Array(),
     centers: floats(buffers, 'center') ?? new Float32Array(),
+  };
+}
+
+function decodeLoops({ buffers }: Envelope): LoopsMessage {
+  return {
+    type: 'loops',
+    frames: array(buffers, 'frames', Uint32Array) ?? new Uint32Array(),
+    accepted: array(buffers, 'accepted', Uint8Array) ?? new Uint8Array(),
   };
 }
 

@@ -68,6 +68,15 @@ export interface TracksMessage {
   centers: Float32Array;
 }
 
+/** Loops between two frames each that were checked. */
+export interface LoopsMessage {
+  type: 'loops';
+  /** Earlier and later frame by loop. */
+  frames: Uint32Array;
+  /** 1 if accepted. */
+  accepted: Uint8Array;
+}
+
 export interface SceneObject {
   id: number;
   class: string;
@@ -141,6 +150,7 @@ export type Message =
   | TrajectoryMessage
   | SeriesMessage
   | TracksMessage
+  | LoopsMessage
   | FrameMessage
   | MapMessage
   | StateMessage

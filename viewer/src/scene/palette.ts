@@ -7,6 +7,8 @@ export const kColors = {
   overruled: '#5b7cff',
   trajectory: '#4db8ff',
   truth: '#f2e3b6',
+  loop: '#c6ff4d',
+  rejectedLoop: '#a8506e',
   staticScan: '#62d6e8',
   dynamicScan: '#ff9f43',
   camera: '#ffffff',

@@ -5,6 +5,7 @@ import type { Run } from '../state/run';
 import type { Layer, Settings } from '../state/settings';
 import { floorGrid, floorHeight, heightRange } from './floor';
 import type { Label } from './label_overlay';
+import { LoopLayer } from './loop_layer';
 import { MapLayer } from './map_layer';
 import { ObjectLayer } from './object_layer';
 import { classColor } from './palette';
@@ -28,6 +29,7 @@ export class SceneView {
   private readonly objects = new ObjectLayer();
   private readonly trails = new TrailLayer();
   private readonly trajectory = new TrajectoryLayer();
+  private readonly loops = new LoopLayer();
   private readonly grid = floorGrid();
   private readonly up = new Vector3(0, -1, 0);
   private readonly layers: Partial<Record<Layer, Object3D>>;
@@ -49,7 +51,7 @@ export class SceneView {
       drawn: () => this.drawLabels(),
     });
     this.world.add(this.map.group, this.sensor.group, this.objects.group, this.trails.object);
-    this.world.add(this.trajectory.estimate, this.trajectory.truth);
+    this.world.add(this.trajectory.estimate, this.trajectory.truth, this.loops.group);
     this.stage.scene.add(this.world, this.grid);
     this.layers = {
       map: this.map.group,
@@ -57,6 +59,7 @@ export class SceneView {
       boxes: this.objects.group,
       trails: this.trails.object,
       trajectory: this.trajectory.estimate,
+      loops: this.loops.group,
       truth: this.trajectory.truth,
       camera: this.sensor.camera,
       grid: this.grid,
@@ -86,6 +89,7 @@ export class SceneView {
     this.run.on('frame', () => this.refresh());
     this.run.on('history', () => {
       this.trajectory.clear();
+      this.loops.update(this.run.loops, this.run.trajectory);
       this.measured = false;
       this.refresh();
     });
@@ -99,6 +103,7 @@ export class SceneView {
   private begin(hello: Hello, again: boolean): void {
     this.map.clear();
     this.trajectory.clear();
+    this.loops.update(null, this.run.trajectory);
     this.objects.setUp(this.up.fromArray(hello.up).normalize());
     this.world.quaternion.copy(upright(this.up));
     this.world.updateMatrixWorld(true);

@@ -1,4 +1,4 @@
-import type { FrameMessage, Hello, MapMessage, Message, StateMessage } from '../protocol/messages';
+import type { FrameMessage, Hello, LoopsMessage, MapMessage, Message, StateMessage } from '../protocol/messages';
 import { Emitter } from './emitter';
 import { SeriesTable } from './series';
 import { Tracks } from './tracks';
@@ -27,6 +27,7 @@ export class Run extends Emitter<RunEvents> {
   trajectory = new Trajectory();
   series = new SeriesTable();
   tracks = new Tracks();
+  loops: LoopsMessage | null = null;
 
   /** Frames still arrive from the sensor. */
   get live(): boolean {
@@ -51,6 +52,9 @@ export class Run extends Emitter<RunEvents> {
       case 'tracks':
         this.tracks.set(message, this.hello?.classes ?? []);
         return this.emit('history', undefined);
+      case 'loops':
+        this.loops = message;
+        return this.emit('history', undefined);
       case 'frame':
         return this.show(message);
       case 'map':
@@ -73,6 +77,7 @@ export class Run extends Emitter<RunEvents> {
     this.trajectory = new Trajectory();
     this.series = new SeriesTable();
     this.tracks = new Tracks();
+    this.loops = null;
     this.emit('hello', { hello, again });
   }
 

@@ -8,6 +8,7 @@ export const kLayers = [
   'labels',
   'trails',
   'trajectory',
+  'loops',
   'truth',
   'camera',
   'grid',
@@ -21,7 +22,7 @@ export type CameraMode = (typeof kCameraModes)[number];
 
 type SettingEvents = { layer: Layer; camera: CameraMode };
 
-const kKey = 'mms-viewer-2'; // counts up with the layers
+const kKey = 'mms-viewer-3'; // counts up with the layers
 const kHiddenAtFirst: Layer[] = ['heights', 'ceiling'];
 
 /** Display settings of the user, stored in the browser. */

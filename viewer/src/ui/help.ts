@@ -27,6 +27,7 @@ export function buildHelp(): void {
       meaning(kColors.vehicle, 'vehicles'),
       meaning(kColors.trajectory, 'trajectory of the sensor'),
       meaning(kColors.truth, 'ground truth, if known'),
+      meaning(kColors.loop, 'loops: places that were recognized'),
       meaning(kColors.staticScan, 'static points of this frame'),
       meaning(kColors.dynamicScan, 'dynamic points of this frame'),
     ),

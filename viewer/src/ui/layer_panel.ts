@@ -26,6 +26,7 @@ export const kRows: Row[] = [
   { layer: 'labels', name: 'Labels', key: 'L', colors: [], hint: 'Class, number and speed' },
   { layer: 'trails', name: 'Trails', key: 'R', colors: [kColors.person, kColors.vehicle], hint: 'Where objects came from' },
   { layer: 'trajectory', name: 'Trajectory', key: 'T', colors: [kColors.trajectory], hint: 'Trajectory of the sensor' },
+  { layer: 'loops', name: 'Loops', key: 'O', colors: [kColors.loop, kColors.rejectedLoop], hint: 'Places that were recognized; rejected ones dark' },
   { layer: 'truth', name: 'Truth', key: 'G', colors: [kColors.truth], hint: 'Where the sensor really was' },
   { layer: 'camera', name: 'Sensor', key: 'C', colors: [kColors.camera], hint: 'Where the sensor looks' },
   { layer: 'masks', name: 'Image masks', key: 'K', colors: [kColors.person, kColors.vehicle], hint: 'What was found in the image; overruled masks are blue' },
@@ -46,7 +47,9 @@ export class LayerPanel {
     run.on('hello', ({ hello }) => {
       this.switches.get('truth')?.toggleAttribute('disabled', !hello.hasTruth);
       this.switches.get('masks')?.toggleAttribute('disabled', hello.image === null);
+      this.showLoops(run);
     });
+    run.on('history', () => this.showLoops(run));
     this.update();
   }
 
@@ -67,6 +70,14 @@ export class LayerPanel {
     );
     this.switches.set(layer, button);
     return button;
+  }
+
+  private showLoops({ loops }: Run): void {
+    const button = this.switches.get('loops');
+    button?.toggleAttribute('disabled', loops === null);
+    if (!loops) return;
+    const accepted = loops.accepted.reduce((sum, one) => sum + one, 0);
+    button?.setAttribute('title', `${accepted} places were recognized; ${loops.accepted.length - accepted} rejected ones are dark`);
   }
 
   private update(): void {

@@ -77,6 +77,17 @@ describe('decodeMessage', () => {
     expect((frame as FrameMessage).pose).toBeNull();
   });
 
+  it('reads loops', () => {
+    const loops = decodeMessage(
+      message({ type: 'loops', outcomes: ['accepted', 'few inliers'] }, [
+        ['frames', 2, Uint32Array.of(0, 9, 1, 8)],
+        ['accepted', 1, Uint8Array.of(1, 0)],
+      ]),
+    );
+    expect(loops).toEqual({ type: 'loops', frames: Uint32Array.of(0, 9, 1, 8), accepted: Uint8Array.of(1, 0) });
+    expect(decodeMessage(message({ type: 'loops' }))).toEqual({ type: 'loops', frames: new Uint32Array(), accepted: new Uint8Array() });
+  });
+
   it('reads map chunks and their removal', () => {
     const points = Float32Array.of(1, 2, 3);
     const header = { type: 'map', chunk: '0,1,-2', level: 2, voxel: 0.1, remove: false };
