@@ -125,6 +125,24 @@ def check_lidar():
     print("ok: 12 poses and the map of a LiDAR with a camera are those of mms run")
 
 
+def check_map():
+    """The pose in an earlier map is published once its place is recognized."""
+    frames = 80
+    run_mms("convert", f"sim:warehouse_loop?frames={frames}&width=320", "-o", "long.mcap")
+    run_mms("run", "long.mcap", "--segmenter", "masks", "--save-map", "x.mmsmap", "-o", "long")
+    node = start_node("in_map", "--frames", str(frames), "--map", "x.mmsmap", "--localise")
+    finish(start_partner("play", "long.mcap", "receive", "in_map_tf", "topics",
+                         "/tf=tf2_msgs/TFMessage", "expect", str(frames)),
+           "the partner of a node with a map")
+    finish(node, "the node with a map")
+    samples = sorted(Path("in_map_tf").glob("_tf.*.cdr"), key=lambda p: int(p.name.split(".")[1]))
+    transforms = [struct.unpack_from("<I", sample.read_bytes(), 4)[0] for sample in samples]
+    known = transforms.index(2) if 2 in transforms else None
+    check(known and transforms == [1] * known + [2] * (frames - known),
+          f"numbers of transforms: {transforms}")
+    print(f"ok: the pose in the map is known from frame {known} on")
+
+
 def check_decoded():
     """By other libraries than ours."""
     installed = subprocess.run([READERS / "install.sh", WORK], stdout=subprocess.PIPE, text=True)
@@ -249,6 +267,7 @@ run_mms("convert", f"sim:warehouse_loop?frames={FRAMES}&width=320", "-o", "x.mca
 run_mms("run", "x.mcap", "--segmenter", "masks", "--mcap", "-o", "run")
 check_same_results()
 check_lidar()
+check_map()
 check_decoded()
 check_discovery()
 check_restart()
