@@ -43,6 +43,8 @@ class Odometry {
     FeatureCloud features;                           ///< at the time of the pose
     std::optional<RegistrationResult> registration;  ///< nothing before the first frame
     bool is_valid = false;                           ///< whether the frame is not lost
+    /// Of the sensor during a scan [m/s, rad/s], where the expected one does not de-skew it.
+    std::optional<Vector6d> velocity{};
   };
 
   /// Estimates a frame's pose. The frames must come in the order of their stamps.
@@ -73,6 +75,9 @@ class Odometry {
   /// gyroscope, or between the last two poses; zero until two frames were tracked.
   Vector6d velocity(Timestamp from, Timestamp to) const { return motion_.velocity(from, to); }
 
+  /// Of the sensor during the last scan, where it was not the expected one; see `Alignment`.
+  const std::optional<Vector6d>& unexpected_velocity() const { return unexpected_velocity_; }
+
   /// Of the sensor, between the last two poses [rad/s].
   double turn_rate() const { return motion_.velocity().tail<3>().norm(); }
 
@@ -85,6 +90,8 @@ class Odometry {
   using Isometry = Eigen::Isometry3d;
 
   FeatureCloud at_pose_time(FeatureCloud features) const;
+  Alignment align_scan(const FeatureCloud& measured) const;
+  std::optional<Vector6d> changed_velocity(const Alignment& alignment) const;
   OdometryEstimate initialize(const FeatureCloud& features);
   Alignment align_at_pose_time(FeatureCloud features) const;
   OdometryEstimate track(const Alignment& alignment);
@@ -109,6 +116,7 @@ class Odometry {
   MotionModel motion_;
   Isometry trimmed_at_ = Isometry::Identity();
   bool lost_ = false;
+  std::optional<Vector6d> unexpected_velocity_;
 };
 
 }  // namespace mms

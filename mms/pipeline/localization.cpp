@@ -73,10 +73,14 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
     const auto [from, to] = times_of(result.cloud, frame.features);
     odometry_.sense(frame.motion, frame.motion_calibration, result.cloud.organised());
-    deskew(result.cloud, odometry_.velocity(from, to));
+    const Vector6d expected = odometry_.velocity(from, to);
+    deskew(result.cloud, expected);
     exclude_moving_points(result.cloud, frame.features);
-    return odometry_.accept(hypotheses_.align(
+    const OdometryEstimate estimate = odometry_.accept(hypotheses_.align(
         odometry_, result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
+    const std::optional<Vector6d>& velocity = odometry_.unexpected_velocity();
+    if (velocity) deskew(result.cloud, Vector6d(*velocity - expected));
+    return estimate;
   });
   result.T_global_world = corrections_.at(result.odometry.stamp);
   result.warnings = odometry_.take_warnings();

@@ -31,6 +31,16 @@ TEST(MotionModel, PredictsConstantVelocity) {
   EXPECT_TRUE(model.predict(at(0.9)).T_world_sensor.isApprox(steady(-0.1), 1e-9));
 }
 
+TEST(MotionModel, ExtrapolatesAChangeOfVelocity) {
+  MotionModel model{MotionConfig{}};
+  const auto accelerated = [](double t) { return motion(0.5 * 2.0 * t * t, 0, 0, 0, 0, 0); };
+  model.place(at(0.2), accelerated(0.2));
+  EXPECT_NEAR(model.velocity_at(at(0.3), accelerated(0.3))[0], 0.5, 1e-9) << "of two poses";
+  model.measure(at(0.3), accelerated(0.3));
+  EXPECT_NEAR(model.velocity_at(at(0.5), accelerated(0.5))[0], 1.0, 1e-9);
+  EXPECT_EQ(model.velocity_at(at(0.3), accelerated(0.5)), model.velocity());
+}
+
 TEST(MotionModel, IsUninformativeBeforeVelocityIsKnown) {
   MotionModel model{MotionConfig{}};
   model.place(at(0.0), steady(0.0));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "mms/geometry/se3.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/segmentation/segmenters/segmenter.hpp"
 #include "mms/simulation/simulated_scene.hpp"
@@ -71,6 +72,13 @@ PlayedScan play() {
   return played;
 }
 
+/// [rad/s]
+double turn_rate(const SimulatedScene& scene, int frame) {
+  return 10.0 * se3::angle((scene.truth(frame).T_world_sensor.inverse() *
+                            scene.truth(frame + 1).T_world_sensor)
+                               .isometry());
+}
+
 const PlayedScan& played() {
   static const PlayedScan the_played = play();
   return the_played;
@@ -90,6 +98,25 @@ TEST(ScanSystem, DeskewsThePointsOfAScan) {
   std::sort(errors.begin(), errors.end());
   EXPECT_LT(errors[errors.size() / 2], 0.045);
   EXPECT_LT(errors[errors.size() * 9 / 10], 0.08);
+}
+
+/// The robot turns at a corner: within 0.5 s, it is four times as fast as expected.
+TEST(ScanSystem, FollowsATurnThatBeginsSuddenly) {
+  constexpr int kFirst = 500;
+  SimulatedScene scene(scan_config());
+  SlamSystem system({}, std::make_unique<NoneSegmenter>());
+  const Eigen::Isometry3d T_first_truth = scene.truth(kFirst).T_world_sensor.isometry().inverse();
+  double fastest = 0.0;
+  for (int i = kFirst; i < kFirst + 16; ++i) {
+    const FrameResult result = system.process(scene.render(i).frame);
+    const Eigen::Isometry3d truth = T_first_truth * scene.truth(i).T_world_sensor.isometry();
+    const Eigen::Isometry3d error = truth.inverse() * result.odometry.T_world_sensor.isometry();
+    EXPECT_NE(result.odometry.status, Status::kLost) << i;
+    EXPECT_LT(error.translation().norm(), 0.08) << i;
+    EXPECT_LT(se3::angle(error), 0.01) << i;
+    fastest = std::max(fastest, turn_rate(scene, i));
+  }
+  EXPECT_GT(fastest, 1.0);
 }
 
 TEST(ScanSystem, FindsMovingObjectsWithoutMasks) {

@@ -145,6 +145,15 @@ Vector6d MotionModel::velocity(Timestamp from, Timestamp to) const {
   return velocity;
 }
 
+Vector6d MotionModel::velocity_at(Timestamp stamp, const Eigen::Isometry3d& pose) const {
+  const double seconds = since_measured(stamp);
+  if (seconds < kMinInterval) return velocity_;
+  const Vector6d mean = se3::log(measured_.inverse() * pose) / seconds;
+  if (!interval_) return mean;
+  // Both velocities are those at the centers of their intervals.
+  return mean + (mean - velocity_) * (seconds / (seconds + *interval_));
+}
+
 PosePrediction MotionModel::extrapolate(Timestamp stamp) const {
   PosePrediction prediction;
   prediction.T_world_sensor = pose_ * se3::exp(velocity_ * to_seconds(stamp - stamp_));

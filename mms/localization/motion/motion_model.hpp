@@ -65,6 +65,10 @@ class MotionModel {
   /// Between the last two measured poses, in the sensor's frame [m/s, rad/s]; zero before.
   const Vector6d& velocity() const { return velocity_; }
 
+  /// At `stamp`, if the sensor is at `pose` then: the velocity since the last measured pose and the
+  /// one before, extrapolated.
+  Vector6d velocity_at(Timestamp stamp, const Eigen::Isometry3d& pose) const;
+
   /// That between two times, by the sensors where they measured it.
   Vector6d velocity(Timestamp from, Timestamp to) const;
 
