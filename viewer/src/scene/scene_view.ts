@@ -51,7 +51,7 @@ export class SceneView {
       drawn: () => this.drawLabels(),
     });
     this.world.add(this.map.group, this.sensor.group, this.objects.group, this.trails.object);
-    this.world.add(this.trajectory.estimate, this.trajectory.truth, this.loops.group);
+    this.world.add(this.trajectory.estimate, this.trajectory.truth, this.loops.accepted, this.loops.rejected);
     this.stage.scene.add(this.world, this.grid);
     this.layers = {
       map: this.map.group,
@@ -59,7 +59,8 @@ export class SceneView {
       boxes: this.objects.group,
       trails: this.trails.object,
       trajectory: this.trajectory.estimate,
-      loops: this.loops.group,
+      loops: this.loops.accepted,
+      rejected: this.loops.rejected,
       truth: this.trajectory.truth,
       camera: this.sensor.camera,
       grid: this.grid,

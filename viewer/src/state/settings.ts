@@ -9,6 +9,7 @@ export const kLayers = [
   'trails',
   'trajectory',
   'loops',
+  'rejected',
   'truth',
   'camera',
   'grid',
@@ -23,7 +24,7 @@ export type CameraMode = (typeof kCameraModes)[number];
 type SettingEvents = { layer: Layer; camera: CameraMode };
 
 const kKey = 'mms-viewer-3'; // counts up with the layers
-const kHiddenAtFirst: Layer[] = ['heights', 'ceiling'];
+const kHiddenAtFirst: Layer[] = ['heights', 'rejected', 'ceiling'];
 
 /** Display settings of the user, stored in the browser. */
 export class Settings extends Emitter<SettingEvents> {

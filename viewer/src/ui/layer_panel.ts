@@ -26,7 +26,8 @@ export const kRows: Row[] = [
   { layer: 'labels', name: 'Labels', key: 'L', colors: [], hint: 'Class, number and speed' },
   { layer: 'trails', name: 'Trails', key: 'R', colors: [kColors.person, kColors.vehicle], hint: 'Where objects came from' },
   { layer: 'trajectory', name: 'Trajectory', key: 'T', colors: [kColors.trajectory], hint: 'Trajectory of the sensor' },
-  { layer: 'loops', name: 'Loops', key: 'O', colors: [kColors.loop, kColors.rejectedLoop], hint: 'Places that were recognized; rejected ones dark' },
+  { layer: 'loops', name: 'Loops', key: 'O', colors: [kColors.loop], hint: 'Places that were recognized' },
+  { layer: 'rejected', name: 'Rejected loops', key: 'X', colors: [kColors.rejectedLoop], hint: 'Pairs of places that failed a check' },
   { layer: 'truth', name: 'Truth', key: 'G', colors: [kColors.truth], hint: 'Where the sensor really was' },
   { layer: 'camera', name: 'Sensor', key: 'C', colors: [kColors.camera], hint: 'Where the sensor looks' },
   { layer: 'masks', name: 'Image masks', key: 'K', colors: [kColors.person, kColors.vehicle], hint: 'What was found in the image; overruled masks are blue' },
@@ -73,11 +74,14 @@ export class LayerPanel {
   }
 
   private showLoops({ loops }: Run): void {
-    const button = this.switches.get('loops');
-    button?.toggleAttribute('disabled', loops === null);
-    if (!loops) return;
-    const accepted = loops.accepted.reduce((sum, one) => sum + one, 0);
-    button?.setAttribute('title', `${accepted} places were recognized; ${loops.accepted.length - accepted} rejected ones are dark`);
+    const accepted = loops?.accepted.reduce((sum, one) => sum + one, 0) ?? 0;
+    const rejected = (loops?.accepted.length ?? 0) - accepted;
+    const show = (layer: Layer, count: number, what: string): void => {
+      this.switches.get(layer)?.toggleAttribute('disabled', count === 0);
+      this.switches.get(layer)?.setAttribute('title', `${count} ${what}`);
+    };
+    show('loops', accepted, 'places were recognized');
+    show('rejected', rejected, 'pairs of places failed a check');
   }
 
   private update(): void {
