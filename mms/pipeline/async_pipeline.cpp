@@ -185,6 +185,7 @@ class StageThreads {
     try {
       while (std::optional<LoopTask> task = keyframes_.pop()) close_loops(*task);
     } catch (...) {
+      error_.keep_current();  // before others see that there is no answer
       keyframes_.close();
       while (keyframes_.pop()) {
         // Nobody must wait for its answer.

@@ -43,6 +43,7 @@ def test_shapes_and_types(slam, frames):
     assert frame.points.shape == (0, 3)
     result = slam.process_frame(frame)
     assert result.pose.shape == (4, 4) and result.information.shape == (6, 6)
+    assert np.array_equal(result.world_in_map, np.eye(4))
     assert result.points.shape == (len(result.labels), 3)
     assert np.isnan(result.points[result.labels == 0]).all()
     assert set(result.stage_ms) == {"segmentation", "fusion", "features", "odometry", "mapping"}
