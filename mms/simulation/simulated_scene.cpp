@@ -11,6 +11,7 @@
 #include "mms/simulation/truth/mesh_sampling.hpp"
 #include "mms/simulation/truth/object_visibility.hpp"
 #include "mms/simulation/world/camera_trajectory.hpp"
+#include "mms/simulation/world/carrying.hpp"
 #include "mms/simulation/world/lidar_scan.hpp"
 #include "mms/simulation/world/stage.hpp"
 
@@ -85,6 +86,10 @@ struct SimulatedScene::Impl {
         table(ray_table(sensor.color.intrinsics)),
         calibration(calibration_of(sensor)),
         T_world_building(first_pose().inverse()) {
+    if (config.carried && config.wheels.enabled) {
+      throw DataError(config.name, "wheels cannot measure how the sensor is carried",
+                      "carried: false, or wheels.enabled: false");
+    }
     calibration = std::make_shared<const Calibration>(with_mounting(*calibration));
   }
 
@@ -98,21 +103,18 @@ struct SimulatedScene::Impl {
     return result;
   }
 
-  bool is_dark(double at) const {
-    return at >= config.dark_from && at < config.dark_from + config.dark_for;
-  }
-
   Stage make_stage() const {
     Building building = build(config);
     const CameraMotion way(config, building, seconds);
-    std::vector<Actor> actors = cast_actors(config, building, way.robot(), seconds);
+    std::vector<Actor> actors = cast_actors(config, building, way, seconds);
     return Stage(std::move(building), std::move(actors));
   }
 
-  /// The world is the first sensor frame of day 0.
+  /// The world is the first sensor frame of day 0 without another start.
   Eigen::Isometry3d first_pose() const {
     SceneConfig first_day = config;
     first_day.day = 0;
+    first_day.start = 0.0;
     const CameraMotion way(first_day, stage.building(), seconds);
     const Eigen::Isometry3d T = way.T_building_camera(0.0);
     return sensor.lidar ? T * sensor.T_camera_lidar : T;
@@ -212,7 +214,7 @@ SimulatedFrame SimulatedScene::render(int index) {
   }
   Image<Eigen::Vector3f> radiance(scene.table.width, scene.table.height, Eigen::Vector3f::Zero());
   result.exact = scene.expose(at, radiance);
-  const bool dark = scene.is_dark(at);
+  const bool dark = is_dark(scene.config, at);
   if (dark)
     radiance =
         Image<Eigen::Vector3f>(scene.table.width, scene.table.height, Eigen::Vector3f::Zero());

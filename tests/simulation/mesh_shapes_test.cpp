@@ -95,6 +95,18 @@ TEST(MeshShapes, PrismHasExactVolume) {
   expect_normals_outwards(mesh);
 }
 
+TEST(Mesh, MirroredShapeStaysClosed) {
+  Mesh mesh;
+  add_box(mesh, sample_pose(), {0.5F, 0.2F, 0.1F}, mesh.add({}));
+  const Eigen::AlignedBox3f before = bounds(mesh, Eigen::Isometry3f::Identity());
+  mirror(mesh);
+  const Eigen::AlignedBox3f after = bounds(mesh, Eigen::Isometry3f::Identity());
+  EXPECT_FLOAT_EQ(after.min().x(), -before.max().x());
+  EXPECT_FLOAT_EQ(after.min().y(), before.min().y());
+  EXPECT_NEAR(volume(mesh), 8.0F * 0.5F * 0.2F * 0.1F, 1e-5F);
+  expect_normals_outwards(mesh);
+}
+
 TEST(Mesh, AppendKeepsShapesAndMaterialsApart) {
   Mesh part;
   Material red;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "mms/core/random_stream.hpp"
 #include "mms/simulation/building/fittings.hpp"
@@ -134,8 +135,9 @@ Building build_hall(const SceneConfig& config, RandomStream& random) {
   const Material wall = one_colored(Pattern::kPlaster, {0.74F, 0.75F, 0.72F}, 0.35F, 1);
   add_shell(hall.mesh, kHalfX, kHalfY, kHeight, wall, random);
   RandomStream today(daily_seed(config, 0x60d5));
+  const std::span<RandomStream> changes(&today, config.day > 0 ? 1 : 0);
   for (const float y : {-2.75F, -1.65F, 1.65F, 2.75F}) {
-    add_rack(hall.mesh, at(0.0F, y, 0.0F), 5, 3, false, random, config.day > 0 ? &today : nullptr);
+    add_rack(hall.mesh, at(0.0F, y, 0.0F), 5, 3, false, random, changes);
   }
   for (const Side& side : sides_of(kHalfX, kHalfY)) {
     furnish_wall(hall.mesh, side, clutter, true, random);
@@ -197,6 +199,59 @@ Building build_aisle(const SceneConfig& config, RandomStream& random) {
   return aisle;
 }
 
+/// 38 x 28 m with four aisles of 27 m, equal but for a fifth of the loads of each. The second one
+/// is mirrored, the fourth turned by half a turn.
+Building build_aisles(const SceneConfig& config, RandomStream& random) {
+  constexpr float kHalfX = 19.0F;
+  constexpr float kHalfY = 14.0F;
+  constexpr float kHeight = 6.5F;
+  constexpr float kPitch = 6.8F;
+  constexpr double kEnd = 15.9;
+  Building aisles;
+  const Material wall = one_colored(Pattern::kPlaster, {0.74F, 0.75F, 0.72F}, 0.35F, 1);
+  add_shell(aisles.mesh, kHalfX, kHalfY, kHeight, wall, random);
+  const Material paint = one_colored(Pattern::kPlain, {0.85F, 0.72F, 0.12F}, 0.03F, random.seed());
+  const RandomStream equal(random.bits());
+  const auto y_of = [](int aisle) { return kPitch * (static_cast<float>(aisle) - 1.5F); };
+  aisles.lane_half_width = 1.9;
+  aisles.vehicle_aside = 1.6;
+  aisles.care = 12.0;
+  for (int i = 0; i < 4; ++i) {
+    RandomStream loads = equal;
+    std::array<RandomStream, 2> changes = {
+        RandomStream(random.bits()),
+        RandomStream(daily_seed(config, 0x60d5 + static_cast<std::uint64_t>(i)))};
+    Mesh racks;
+    for (const float yaw : {0.0F, kPi}) {
+      add_rack(racks, turned(0.0F, 0.0F, 0.0F, yaw) * at(0.0F, 2.85F, 0.0F), 10, 3, false, loads,
+               std::span(changes).first(config.day > 0 ? 2 : 1));
+    }
+    if (i == 1) mirror(racks);
+    append(aisles.mesh, racks, turned(0.0F, y_of(i), 0.0F, i == 3 ? kPi : 0.0F));
+    const double y = y_of(i);
+    mark_lane(aisles.mesh, {-kEnd, y}, {kEnd, y}, aisles.lane_half_width, paint);
+    add_workplaces(aisles, -12.15, 12.15, y + 1.75, 0.5 * std::numbers::pi);
+    add_workplaces(aisles, -12.15, 12.15, y - 1.75, -0.5 * std::numbers::pi);
+  }
+  for (const Side& side : sides_of(kHalfX, kHalfY)) {
+    furnish_wall(aisles.mesh, side, static_cast<float>(config.clutter), true, random);
+  }
+  for (const std::size_t end : {1U, 3U}) {
+    clutter_along(aisles.mesh, sides_of(kHalfX, kHalfY)[end], static_cast<float>(config.clutter),
+                  random);
+  }
+  add_lamps(aisles, kHalfX, kHalfY, 5.8F, kPitch, random);
+  // Each aisle twice, two of them in the other direction the second time.
+  double end = kEnd;
+  for (const int aisle : {0, 1, 2, 3, 0, 2, 3, 1}) {
+    aisles.lane.emplace_back(-end, y_of(aisle));
+    aisles.lane.emplace_back(end, y_of(aisle));
+    end = -end;
+  }
+  aisles.lane_closed = true;
+  return aisles;
+}
+
 }  // namespace
 
 Building build(const SceneConfig& config) {
@@ -206,6 +261,8 @@ Building build(const SceneConfig& config) {
       return build_corridor(config, random);
     case Layout::kAisle:
       return build_aisle(config, random);
+    case Layout::kAisles:
+      return build_aisles(config, random);
     case Layout::kHall:
       break;
   }

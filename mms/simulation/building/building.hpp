@@ -22,6 +22,8 @@ struct Building {
   std::vector<Eigen::Vector2d> lane;  ///< corners of the lane's center line
   bool lane_closed = false;
   double lane_half_width = 1.0;  ///< [m]
+  double vehicle_aside = 1.3;    ///< of oncoming vehicles from the center line [m]
+  double care = 1e9;  ///< of actors for each other up to this distance from the sensor [m]
   std::vector<Workplace> workplaces;
 };
 

@@ -184,22 +184,23 @@ void add_loaded_pallet(Mesh& mesh, const Eigen::Isometry3f& T, float height, Ran
   }
 }
 
-/// The load of the first day, or for some loads nothing or another one.
-void add_moved_load(Mesh& mesh, const Eigen::Isometry3f& T, RandomStream& random,
-                    RandomStream& today) {
+/// A load; each of `changes` takes some loads away or replaces them.
+void add_changed_load(Mesh& mesh, const Eigen::Isometry3f& T, RandomStream& random,
+                      std::span<RandomStream> changes) {
   constexpr float kMoved = 0.2F;  // share of the loads
   constexpr float kGone = 0.5F;   // share of these
-  Mesh first;
-  add_shelf_load(first, T, random);
-  if (!today.chance(kMoved)) {
-    append(mesh, first, Eigen::Isometry3f::Identity());
-  } else if (!today.chance(kGone)) {
-    add_shelf_load(mesh, T, today);
+  Mesh load;
+  add_shelf_load(load, T, random);
+  for (RandomStream& change : changes) {
+    if (!change.chance(kMoved)) continue;
+    load = {};
+    if (!change.chance(kGone)) add_shelf_load(load, T, change);
   }
+  append(mesh, load, Eigen::Isometry3f::Identity());
 }
 
 void add_rack(Mesh& mesh, const Eigen::Isometry3f& T, int bays, int levels, bool equal_loads,
-              RandomStream& random, RandomStream* today) {
+              RandomStream& random, std::span<RandomStream> changes) {
   constexpr float kLevelHeight = 1.55F;
   const float length = static_cast<float>(bays) * kBayLength;
   const RackPaint paint = rack_paint(mesh, random);
@@ -214,10 +215,7 @@ void add_rack(Mesh& mesh, const Eigen::Isometry3f& T, int bays, int levels, bool
     for (int half_bay = 0; half_bay < 2 * bays; ++half_bay) {
       RandomStream own(hash_of(bay_seed, static_cast<std::uint64_t>(level)));
       const float x = (static_cast<float>(half_bay) + 0.5F) * 0.5F * kBayLength - 0.5F * length;
-      const Eigen::Isometry3f T_load = T * at(x, 0.0F, z);
-      RandomStream& load = equal_loads ? own : random;
-      today == nullptr ? add_shelf_load(mesh, T_load, load)
-                       : add_moved_load(mesh, T_load, load, *today);
+      add_changed_load(mesh, T * at(x, 0.0F, z), equal_loads ? own : random, changes);
     }
   }
 }

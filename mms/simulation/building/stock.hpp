@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 
 #include "mms/core/random_stream.hpp"
 #include "mms/simulation/models/mesh.hpp"
@@ -22,9 +23,9 @@ void add_loaded_pallet(Mesh& mesh, const Eigen::Isometry3f& T, float height, Ran
 
 /// A storage rack of `bays` x 2.7 m, 1.1 m deep, its long side along x, with loads on `levels`.
 /// With `equal_loads` all bays are identical.
-/// @param today  where given, decides which loads are gone or others; `random` is used as without
+/// @param changes  each decides which loads are gone or others; `random` is used as without
 void add_rack(Mesh& mesh, const Eigen::Isometry3f& T, int bays, int levels, bool equal_loads,
-              RandomStream& random, RandomStream* today = nullptr);
+              RandomStream& random, std::span<RandomStream> changes = {});
 
 inline constexpr float kBayLength = 2.7F;  ///< [m]
 inline constexpr float kRackDepth = 1.1F;  ///< [m]

@@ -10,11 +10,11 @@
 namespace mms {
 namespace {
 
-constexpr std::array<std::string_view, 3> kLayouts = {"hall", "corridor", "aisle"};
+constexpr std::array<std::string_view, 4> kLayouts = {"hall", "corridor", "aisle", "aisles"};
 constexpr std::array<std::string_view, 4> kTrajectories = {"still", "loop", "along", "shaken"};
-constexpr std::array<std::string_view, 9> kScenes = {
-    "warehouse_loop", "still_walker", "crowd",      "stop_and_go", "corridor",
-    "static",         "fast",         "rack_aisle", "second_day"};
+constexpr std::array<std::string_view, 11> kScenes = {
+    "warehouse_loop", "still_walker", "crowd",      "stop_and_go", "corridor", "static",
+    "fast",           "rack_aisle",   "second_day", "long_aisles", "kidnap"};
 
 SceneConfig nobody(SceneConfig config) {
   config.crossing = config.leading = config.oncoming = config.working = config.agvs = 0;
@@ -109,9 +109,33 @@ SceneConfig second_day() {
   return config;
 }
 
+SceneConfig long_aisles() {
+  SceneConfig config = warehouse_loop();
+  config.duration = 285.0;
+  config.hz = 10.0;
+  config.layout = Layout::kAisles;
+  config.speed = 1.2;
+  config.crossing = 24;
+  config.oncoming = 6;
+  config.working = 8;
+  config.agvs = 12;
+  return config;
+}
+
+SceneConfig kidnap() {
+  SceneConfig config = warehouse_loop();
+  config.duration = 92.0;
+  config.dark_from = 62.0;
+  config.dark_for = 2.0;
+  config.light_for = 4.0;
+  config.carried = true;
+  config.companions = 3;
+  return config;
+}
+
 constexpr std::array<SceneConfig (*)(), kScenes.size()> kMakers = {
-    warehouse_loop, still_walker, crowd,      stop_and_go, corridor,
-    empty_hall,     fast,         rack_aisle, second_day};
+    warehouse_loop, still_walker, crowd,      stop_and_go, corridor, empty_hall,
+    fast,           rack_aisle,   second_day, long_aisles, kidnap};
 
 }  // namespace
 
@@ -154,6 +178,13 @@ void SceneConfig::visit(ConfigVisitor& v) {
            {0.0, 720.0});
   v.number({"dark_from", "s", "start of a time without light and depth"}, dark_from, {0.0, 1e5});
   v.number({"dark_for", "s", "its length"}, dark_for, {0.0, 1e5});
+  v.number({"light_for", "s", "time from its end until it is dark again; 0: forever"}, light_for,
+           {0.0, 1e5});
+  v.boolean({"carried", "", "whether the sensor is carried to an earlier place in the dark"},
+            carried);
+  v.integer({"companions", "", "persons who walk close ahead of the sensor, once it was carried"},
+            companions, {0.0, 8.0});
+  v.number({"start", "m", "place of the sensor along the lane at the start"}, start, {0.0, 1e4});
   v.group({"wheels", "", "dead reckoning of the wheels"}, wheels);
   v.group({"imu", "", "gyroscope and accelerometer"}, imu);
 }

@@ -15,6 +15,7 @@ enum class Layout : std::uint8_t {
   kHall,      ///< racks in the center, surrounded by a lane
   kCorridor,  ///< bare walls, few features
   kAisle,     ///< a long aisle between two identical racks
+  kAisles,    ///< four aisles that look alike; two of them mirrored and turned
 };
 
 enum class CameraTrajectory : std::uint8_t {
@@ -55,6 +56,10 @@ struct SceneConfig {
   double turn_rate = 0.0;  ///< largest of the trajectory `shaken` [degrees/s]; 0: 76
   double dark_from = 0.0;  ///< of a time without light and depth [s]
   double dark_for = 0.0;   ///< its length [s]
+  double light_for = 0.0;  ///< from its end until it is dark again [s]; 0: forever
+  bool carried = false;    ///< whether the sensor is carried to an earlier place in the dark
+  int companions = 0;      ///< persons who walk close ahead of the sensor, once it was carried
+  double start = 0.0;      ///< of the sensor, along the lane [m]
   WheelConfig wheels;
   ImuConfig imu;
 

@@ -1,5 +1,7 @@
 #include "mms/simulation/models/mesh.hpp"
 
+#include <utility>
+
 namespace mms {
 
 void append(Mesh& mesh, const Mesh& part, const Eigen::Isometry3f& T) {
@@ -14,6 +16,14 @@ void append(Mesh& mesh, const Mesh& part, const Eigen::Isometry3f& T) {
     triangle.material += first_material;
     mesh.triangles.push_back(triangle);
   }
+}
+
+void mirror(Mesh& mesh) {
+  for (Vertex& vertex : mesh.vertices) {
+    vertex.position.x() = -vertex.position.x();
+    vertex.normal.x() = -vertex.normal.x();
+  }
+  for (Triangle& triangle : mesh.triangles) std::swap(triangle.corners[1], triangle.corners[2]);
 }
 
 Eigen::AlignedBox3f bounds(const Mesh& mesh, const Eigen::Isometry3f& T) {

@@ -38,6 +38,9 @@ struct Mesh {
 /// Appends the shapes of `part`; `T` is the transform from its frame to the mesh's.
 void append(Mesh& mesh, const Mesh& part, const Eigen::Isometry3f& T);
 
+/// Mirrors the shapes at the plane x = 0.
+void mirror(Mesh& mesh);
+
 /// Bounds of all vertices under `T`.
 Eigen::AlignedBox3f bounds(const Mesh& mesh, const Eigen::Isometry3f& T);
 

@@ -7,6 +7,7 @@
 #include "mms/core/random_stream.hpp"
 #include "mms/simulation/people/person_model.hpp"
 #include "mms/simulation/vehicles/agv_model.hpp"
+#include "mms/simulation/world/carrying.hpp"
 #include "mms/simulation/world/route.hpp"
 
 namespace mms {
@@ -27,7 +28,8 @@ struct Station {
 /// The lane's center line, parameterized by the distance [m] from the sensor's start.
 class Lane {
  public:
-  Lane(const Building& building, const Motion& robot)
+  /// @param start  known place of the sensor's start; 0: the nearest one
+  Lane(const Building& building, const Motion& robot, double start)
       : closed_(building.lane_closed), corners_(building.lane) {
     if (closed_) corners_.push_back(corners_.front());
     for (std::size_t i = 1; i < corners_.size(); ++i) {
@@ -43,6 +45,7 @@ class Lane {
         begin_ = along;
       }
     }
+    if (start > 0.0) begin_ = start;
   }
 
   double length() const { return length_; }
@@ -76,15 +79,18 @@ class Lane {
 /// Places actors one by one without collisions of their trajectories.
 class Casting {
  public:
-  Casting(const SceneConfig& config, const Building& building, const Motion& robot, double seconds)
+  Casting(const SceneConfig& config, const Building& building, const CameraMotion& camera,
+          double seconds)
       : config_(config),
         building_(building),
-        robot_(robot),
+        way_(camera.way()),
+        robot_(camera.robot()),
         seconds_(seconds),
-        lane_(building, robot),
+        lane_(building, robot_, config.start),
         random_(daily_seed(config, 0xac7)) {}
 
   std::vector<Actor> all() {
+    for (int i = 0; i < config_.companions; ++i) add_person([&, i] { return companion(i); });
     for (int i = 0; i < config_.leading; ++i) add_person([&] { return leading(3.2 + 1.2 * i); });
     for (int i = 0; i < config_.agvs; ++i) add_agv(i);
     for (int i = 0; i < config_.oncoming; ++i) add_person([&] { return oncoming(-1.0); });
@@ -153,6 +159,13 @@ class Casting {
     return corners;
   }
 
+  /// They alternate between left and right.
+  Motion companion(int i) {
+    const double left = i % 2 == 0 ? 1.0 : -1.0;
+    return accompany(config_, way_, seconds_,
+                     {between(1.3, 2.0) / config_.speed, left * between(0.0, 0.6)});
+  }
+
   Motion leading(double ahead) {
     Route route = walk(config_.speed);
     route.pause_share = 0.0;
@@ -177,7 +190,7 @@ class Casting {
     if (i % 4 == 1) return leading_vehicle();
     if (i % 4 == 2) return crossing(i, std::max(4, config_.agvs));
     if (i % 4 == 3) return parked();
-    return oncoming(1.3);
+    return oncoming(building_.vehicle_aside);
   }
 
   Motion leading_vehicle() {
@@ -238,8 +251,11 @@ class Casting {
 
   bool is_clear(const Motion& motion, double radius) const {
     for (double t = 0.0; t <= seconds_; t += 0.2) {
+      if (config_.carried && is_dark(config_, t)) continue;  // nobody sees who is carried through
       const Eigen::Vector2d here = motion.position(t);
-      if ((here - robot_.position(t)).norm() < radius + kRobotRadius) return false;
+      const double distance = (here - robot_.position(t)).norm();
+      if (distance < radius + kRobotRadius) return false;
+      if (distance > building_.care) continue;
       for (std::size_t i = 0; i < actors_.size(); ++i) {
         if ((here - actors_[i].motion.position(t)).norm() < radius + radii_[i]) return false;
       }
@@ -249,6 +265,7 @@ class Casting {
 
   const SceneConfig& config_;
   const Building& building_;
+  const Motion& way_;
   const Motion& robot_;
   double seconds_;
   Lane lane_;
@@ -260,8 +277,8 @@ class Casting {
 }  // namespace
 
 std::vector<Actor> cast_actors(const SceneConfig& config, const Building& building,
-                               const Motion& robot, double seconds) {
-  return Casting(config, building, robot, seconds).all();
+                               const CameraMotion& camera, double seconds) {
+  return Casting(config, building, camera, seconds).all();
 }
 
 }  // namespace mms

@@ -6,6 +6,7 @@
 #include "mms/simulation/building/building.hpp"
 #include "mms/simulation/config/scene_config.hpp"
 #include "mms/simulation/models/articulated_model.hpp"
+#include "mms/simulation/world/camera_trajectory.hpp"
 #include "mms/simulation/world/motion.hpp"
 
 namespace mms {
@@ -23,6 +24,6 @@ struct Actor {
 /// All actors of a scene, on trajectories that keep clear of the sensor's robot and of each other.
 /// Actors without such a trajectory are omitted.
 std::vector<Actor> cast_actors(const SceneConfig& config, const Building& building,
-                               const Motion& robot, double seconds);
+                               const CameraMotion& camera, double seconds);
 
 }  // namespace mms

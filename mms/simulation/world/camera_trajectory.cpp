@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "mms/core/hash_noise.hpp"
+#include "mms/simulation/world/carrying.hpp"
 #include "mms/simulation/world/route.hpp"
 
 namespace mms {
@@ -23,7 +24,7 @@ Motion still_robot(const Building& building) {
   return Motion::still(end - kStillFromEnd * ahead, std::atan2(ahead.y(), ahead.x()));
 }
 
-Motion robot_motion(const SceneConfig& config, const Building& building, double seconds) {
+Motion way_of(const SceneConfig& config, const Building& building, double seconds) {
   if (config.trajectory == CameraTrajectory::kStill) return still_robot(building);
   Route route;
   route.corners = building.lane;
@@ -34,7 +35,9 @@ Motion robot_motion(const SceneConfig& config, const Building& building, double 
   if (config.trajectory == CameraTrajectory::kAlong && building.lane_closed) route.start = 2.0;
   constexpr double kDailyStart = 2.0;  // [m]
   if (config.trajectory == CameraTrajectory::kLoop) route.start = kDailyStart * config.day;
-  return drive(route, seconds);
+  route.start += config.start;
+  // Companions are some seconds ahead.
+  return drive(route, config.companions > 0 ? seconds + 5.0 : seconds);
 }
 
 /// Smooth noise of about unit size with a frequency of a few Hz.
@@ -66,7 +69,8 @@ double swing_rate(const SceneConfig& config) {
 }  // namespace
 
 CameraMotion::CameraMotion(const SceneConfig& config, const Building& building, double seconds)
-    : robot_(robot_motion(config, building, seconds)),
+    : way_(way_of(config, building, seconds)),
+      robot_(config.carried ? carried(config, way_, seconds) : way_),
       height_(config.camera_height),
       still_(config.trajectory == CameraTrajectory::kStill),
       swing_amplitude_(config.trajectory == CameraTrajectory::kShaken ? kShakenSwing : 0.12),

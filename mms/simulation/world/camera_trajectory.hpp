@@ -28,9 +28,13 @@ class CameraMotion {
   /// The robot that carries the camera.
   const Motion& robot() const { return robot_; }
 
+  /// Its motion if it were not carried.
+  const Motion& way() const { return way_; }
+
  private:
   double swing(double seconds) const;
 
+  Motion way_;
   Motion robot_;
   double height_;
   bool still_;
