@@ -28,3 +28,10 @@ ms() { awk -v seconds="$(value "$1" "$2" time_per_frame_s)" 'BEGIN { print 1000 
 
 # quietly COMMAND...: prints its output only if it fails.
 quietly() { "$@" > "$out/log" 2>&1 || { cat "$out/log"; return 1; }; }
+
+# cpu_of COMMAND...: user and system time of all threads [s].
+cpu_of() {
+  local TIMEFORMAT='%U %S'
+  { time quietly "$@"; } 2> "$out/time"
+  awk '{ print $1 + $2 }' "$out/time"
+}

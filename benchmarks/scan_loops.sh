@@ -8,13 +8,6 @@ source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
 errors="$(dirname "${BASH_SOURCE[0]}")/loop_errors.py"
 seeds="${1:-1 2 3}" sensors="${2:-lidar16 lidar64 livox}"
 
-# cpu_of COMMAND...: user and system time of all threads [s].
-cpu_of() {
-  TIMEFORMAT='%U %S'
-  { time quietly "$@"; } 2> "$out/time"
-  awk '{ print $1 + $2 }' "$out/time"
-}
-
 echo "| sensor, seed | keyframes | loops | wrong | error, median and largest [cm], [deg] |" \
   "ATE off [cm] | ATE on [cm] | away | CPU [ms/keyframe] |"
 echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
