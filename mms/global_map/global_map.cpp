@@ -51,6 +51,14 @@ constexpr double kNearbyTurn = std::numbers::pi / 6.0;
 /// Source: registration converges from three of them; structures that repeat are farther apart.
 constexpr double kMaxNearbySigma = 0.15;
 
+/// [m, rad]: sum of the distance and the angle of keyframes whose views can confirm a pose. Source:
+/// initial choice; views beyond share too little.
+constexpr double kMaxDoubtDistance = 2.0;
+
+/// [-]: frames in a row that confirm the pose of the odometry where the place is not recognized.
+/// Source: two frames recognize a place; before six, structures that repeat misled the odometry.
+constexpr int kConfirmations = 6;
+
 /// [m]: path since the candidates of a scan by place recognition. Source: their local maps, of 10 m
 /// each, then share no scans.
 constexpr double kScanPath = 20.0;
@@ -147,6 +155,7 @@ std::vector<Loop> GlobalMap::add(KeyframeRecord record) {
   recognizer_.add(record.keypoints.descriptors);
   records_.push_back(std::move(record));
   recognized_.reset();
+  confirmations_ = 0;
   graph_.solve_if_needed(accepted);
   return accepted;
 }
@@ -232,24 +241,63 @@ std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame)
   assert(frame.cloud.organised());
   const KeyframeRecord record = record_of(frame);
   const std::vector<Eigen::Isometry3d> poses = poses_in_world();
-  const std::vector<PlaceCandidate> candidates =
-      recognizer_.find(record.keypoints.descriptors, records_.size(), kMaxRelocalized);
-  for (const PlaceCandidate& candidate : candidates) {
-    if (!graph_.shares_frame(candidate.keyframe) || !may_match(candidate.keyframe)) continue;
-    const Loop loop = verifier_.verify(records_, poses, candidate.keyframe, record);
-    if (loop.outcome != LoopOutcome::kAccepted ||
-        loop.inliers < kInlierFactor * config_.loops.min_inliers) {
-      continue;
-    }
-    recognized_ = {record.stamp,
-                   Transform<World, Sensor>(poses[loop.candidate] * loop.T_candidate_query)};
-    if (!before || !agree(*before, *recognized_)) return std::nullopt;
-    Relocalization result{recognized_->T_world_sensor, {}};
+  const auto placed = [&](const Loop& loop) {
+    Relocalization result{Transform<World, Sensor>(poses[loop.candidate] * loop.T_candidate_query),
+                          {}};
     const auto [first, end] = neighbors(records_, loop.candidate);
     for (std::size_t i = first; i < end; ++i) {
       result.surroundings.push_back({records_[i].features, poses[i]});
     }
     return result;
+  };
+  if (const auto loop = recognize(record, poses)) {
+    confirmations_ = 0;
+    Relocalization place = placed(*loop);
+    recognized_ = {record.stamp, place.T_world_sensor};
+    if (before && agree(*before, *recognized_)) return place;
+    return std::nullopt;
+  }
+  const auto loop = frame.has_pose ? confirm(record, poses) : std::nullopt;
+  confirmations_ = loop ? confirmations_ + 1 : 0;
+  if (confirmations_ < kConfirmations) return std::nullopt;
+  return placed(*loop);
+}
+
+bool GlobalMap::is_possible_place(std::size_t keyframe) const {
+  return graph_.shares_frame(keyframe) && may_match(keyframe);
+}
+
+/// The place of a lost frame by its keypoints.
+std::optional<Loop> GlobalMap::recognize(const KeyframeRecord& record,
+                                         const std::vector<Eigen::Isometry3d>& poses) const {
+  const std::vector<PlaceCandidate> candidates =
+      recognizer_.find(record.keypoints.descriptors, records_.size(), kMaxRelocalized);
+  for (const PlaceCandidate& candidate : candidates) {
+    if (!is_possible_place(candidate.keyframe)) continue;
+    Loop loop = verifier_.verify(records_, poses, candidate.keyframe, record);
+    if (loop.outcome == LoopOutcome::kAccepted &&
+        loop.inliers >= kInlierFactor * config_.loops.min_inliers) {
+      return loop;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether a view near the pose of the odometry confirms it.
+std::optional<Loop> GlobalMap::confirm(const KeyframeRecord& record,
+                                       const std::vector<Eigen::Isometry3d>& poses) const {
+  const Eigen::Isometry3d& pose = record.T_world_sensor.isometry();
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Isometry3d relative = poses[i].inverse() * pose;
+    const double distance = relative.translation().norm() + se3::angle(relative);
+    if (distance < kMaxDoubtDistance && is_possible_place(i)) near.emplace_back(distance, i);
+  }
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), kMaxNearby));
+  for (const auto& [unused, i] : near) {
+    Loop loop = verifier_.verify_nearby(records_, poses, i, record, poses[i].inverse() * pose);
+    if (loop.outcome == LoopOutcome::kAccepted) return loop;
   }
   return std::nullopt;
 }

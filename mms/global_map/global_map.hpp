@@ -46,6 +46,7 @@ struct GlobalKeyframe {
   LabeledCloud cloud;  ///< a scan is as if all its points were measured at its stamp
   Transform<World, Sensor> T_world_sensor;  ///< by odometry
   bool after_lost = false;  ///< whether the sensor was lost since the keyframe before
+  bool has_pose = false;    ///< of a lost sensor: whether the odometry found a pose, in doubt
 };
 
 /// Content of a global map, for map files. Sessions are numbered from 0 in the order of the
@@ -95,8 +96,8 @@ class GlobalMap {
   /// Brings the poses up to date with all loops. After the last keyframe.
   void finish() { graph_.finish(); }
 
-  /// Recognizes the place of a frame whose pose is lost. Two frames in a row must agree.
-  /// @param frame  its pose is not used
+  /// Recognizes the place of a frame whose pose is lost or in doubt. Two frames in a row must
+  /// agree. Where it is not recognized, views near the pose of the odometry can confirm that.
   /// @returns nothing if the place is not recognized for sure
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
 
@@ -126,6 +127,11 @@ class GlobalMap {
   std::vector<Eigen::Isometry3d> poses_in_world() const;
   bool may_match(std::size_t candidate) const;
   std::vector<std::size_t> nearby(std::size_t end) const;
+  bool is_possible_place(std::size_t keyframe) const;
+  std::optional<Loop> recognize(const KeyframeRecord& record,
+                                const std::vector<Eigen::Isometry3d>& poses) const;
+  std::optional<Loop> confirm(const KeyframeRecord& record,
+                              const std::vector<Eigen::Isometry3d>& poses) const;
   std::vector<Loop> find_loop(const KeyframeRecord& record);
 
   GlobalMapConfig config_;
@@ -138,6 +144,7 @@ class GlobalMap {
   LoopGraph graph_;
   LoopConfirmation confirmation_;
   std::optional<StampedPose> recognized_;  ///< of the last lost frame, not yet confirmed
+  int confirmations_ = 0;                  ///< of the odometry's pose, by lost frames in a row
 };
 
 }  // namespace mms

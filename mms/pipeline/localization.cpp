@@ -16,10 +16,6 @@ namespace {
 /// odometry recovers from fewer by itself.
 constexpr int kMinLostFrames = 3;
 
-/// [-]: frames after such a loss in which the pose of the odometry may still be replaced by that of
-/// a recognized place. Source: two must agree, and some are blurred or show nothing but people.
-constexpr int kCheckedFrames = 6;
-
 /// [m]: distance of a recognized place from the pose of the odometry up to which they agree.
 /// Source: errors of poses from keypoints, far below the distance of similar places.
 constexpr double kMaxDistance = 0.2;
@@ -84,12 +80,11 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   });
   result.T_global_world = corrections_.at(result.odometry.stamp);
   result.warnings = odometry_.take_warnings();
-  const bool is_checked = frames_to_check_ > 0;
   result.wants_relocalization = wants_relocalization(result);
   if (result.wants_relocalization) {
+    result.has_pose_in_doubt = result.odometry.status != Status::kLost;
     result.odometry.status = Status::kLost;
   } else {
-    if (is_checked) result.odometry.status = Status::kRecovered;
     choose_keyframes(result);
   }
   result.dynamic_share = dynamic_share(result.cloud);
@@ -106,24 +101,21 @@ FrameResult Localization::relocate(FrameResult lost, const Relocalization& place
         odometry_.relocate(lost.odometry.stamp, place.T_world_sensor, place.surroundings);
     lost.relocalized = true;
   }
-  lost_frames_ = frames_to_check_ = 0;
+  lost_frames_ = 0;
+  is_in_doubt_ = false;
   choose_keyframes(lost);
   return lost;
 }
 
-/// Similar places can mislead the odometry after a loss: until the place is recognized, or for some
-/// frames, the sensor counts as lost.
+/// Similar places can mislead the odometry after a loss: until the place is recognized, or the
+/// views there confirm its pose, the sensor counts as lost.
 bool Localization::wants_relocalization(const FrameResult& result) {
   if (!closes_loops_) return false;
   if (result.odometry.status == Status::kLost) lost_since_global_keyframe_ = true;
   if (!result.cloud.organised()) return false;
-  if (result.odometry.status == Status::kLost) {
-    ++lost_frames_;
-    frames_to_check_ = lost_frames_ >= kMinLostFrames ? kCheckedFrames : 0;
-    return frames_to_check_ > 0;
-  }
-  lost_frames_ = 0;
-  return frames_to_check_ > 0 && --frames_to_check_ > 0;
+  lost_frames_ = result.odometry.status == Status::kLost ? lost_frames_ + 1 : 0;
+  is_in_doubt_ |= has_global_keyframe_ && lost_frames_ >= kMinLostFrames;
+  return is_in_doubt_;
 }
 
 /// Chooses the keyframes of III-C.4, and those of the global map.
@@ -138,6 +130,7 @@ void Localization::choose_keyframes(FrameResult& result) {
   KeyframeSelector& global = result.cloud.organised() ? global_keyframes_ : scan_keyframes_;
   result.global_keyframe =
       global.is_keyframe(result.odometry) || is_search_keyframe(result.odometry);
+  has_global_keyframe_ |= result.global_keyframe;
   if (result.global_keyframe) {
     result.after_lost = std::exchange(lost_since_global_keyframe_, false);
   }

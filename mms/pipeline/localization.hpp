@@ -61,8 +61,9 @@ class Localization {
   bool searches_place_ = false;
   std::optional<Timestamp> search_begin_;
   Timestamp last_search_;
-  int lost_frames_ = 0;      // in a row
-  int frames_to_check_ = 0;  // after a loss
+  bool has_global_keyframe_ = false;
+  int lost_frames_ = 0;       // in a row
+  bool is_in_doubt_ = false;  // since a loss: the place is not recognized yet
   ThreadConfinement thread_;
 };
 

@@ -87,7 +87,8 @@ class SlamSystem {
 
   /// What `close_loops` takes of a localized frame.
   static GlobalKeyframe global_keyframe(const Frame& frame, const FrameResult& localized) {
-    return {frame.color, localized.cloud, localized.odometry.T_world_sensor, localized.after_lost};
+    return {frame.color, localized.cloud, localized.odometry.T_world_sensor, localized.after_lost,
+            localized.has_pose_in_doubt};
   }
 
   const GlobalMap& global_map() const { return loop_closing_.global_map(); }
