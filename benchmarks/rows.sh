@@ -17,7 +17,8 @@ tool() {
 # value FILE KEY [PATTERN]: the first number of "KEY" in a JSON file, after PATTERN if given; nan if
 # there is none.
 value() {
-  sed -n "/${3:-.}/,\$p" "$1" | grep -m1 "\"$2\"" | grep -oE '[0-9.eE+-]+,?$' | tr -d , || echo nan
+  sed -n "/${3:-.}/,\$p" "$1" | grep -m1 -oE "\"$2\": ?[0-9.eE+-]+" | head -n 1 |
+    grep -oE '[0-9.eE+-]+$' || echo nan
 }
 
 # cm FILE KEY: a length in meters, converted to centimeters.
