@@ -62,7 +62,12 @@ TEST(AddOccupied, MarksTheVoxelsOfPoints) {
   OccupancyVoxels voxels{0.1, {{0, 0, 5}}, {{1, 2, 3}, {4, 4, 4}}};
   Eigen::Isometry3d T_world_map = Eigen::Isometry3d::Identity();
   T_world_map.translation() = Eigen::Vector3d(1.0, 0.0, 0.0);
-  add_occupied({{1.15F, 0.25F, 0.35F}, {1.16F, 0.25F, 0.35F}, {0.95F, 0.05F, 0.05F}},
+  add_occupied({{1.15F, 0.25F, 0.35F},
+                {1.16F, 0.25F, 0.35F},
+                {0.95F, 0.05F, 0.05F},
+                {NAN, 0, 0},
+                {0, 0, NAN},
+                {1e30F, 0, 0}},
                Transform<World, Map>(T_world_map), voxels);
   EXPECT_EQ(voxels.occupied, (std::vector<VoxelKey>{{-1, 0, 0}, {0, 0, 5}, {1, 2, 3}}));
   EXPECT_EQ(voxels.free, (std::vector<VoxelKey>{{4, 4, 4}}));

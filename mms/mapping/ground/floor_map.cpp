@@ -19,6 +19,9 @@ constexpr double kMaxFloorDip = 0.3;
 /// cells.
 constexpr std::int64_t kMaxCells = 100'000'000;
 
+/// [-]: voxels from the origin to a point. Source: keys are integers of 32 bits.
+constexpr float kMaxVoxels = 1e9F;
+
 /// Calls `visit(key)` for the voxels of the map frame whose centres may lie in the block.
 template <class Visit>
 void for_each_near(const OccupancyBlock& block, double voxel_size,
@@ -142,7 +145,9 @@ void add_occupied(const std::vector<Eigen::Vector3f>& points,
   const auto inverse_size = static_cast<float>(1.0 / voxels.voxel_size);
   std::vector<VoxelKey>& occupied = voxels.occupied;
   for (const Eigen::Vector3f& point : points) {
-    occupied.push_back(voxel_key(T_map_world * point, inverse_size));
+    const Eigen::Vector3f in_map = T_map_world * point;
+    if (!in_map.allFinite() || inverse_size * in_map.cwiseAbs().maxCoeff() > kMaxVoxels) continue;
+    occupied.push_back(voxel_key(in_map, inverse_size));
   }
   std::sort(occupied.begin(), occupied.end());
   occupied.erase(std::unique(occupied.begin(), occupied.end()), occupied.end());

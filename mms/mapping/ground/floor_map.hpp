@@ -15,7 +15,7 @@ OccupancyVoxels voxels_in_map_frame(const OccupancyMap& map,
                                     const Transform<World, Map>& T_world_map);
 
 /// Marks the voxels of points as occupied.
-/// @param points  world frame [m]
+/// @param points  world frame [m]; those that are not finite or too far are left out
 void add_occupied(const std::vector<Eigen::Vector3f>& points,
                   const Transform<World, Map>& T_world_map, OccupancyVoxels& voxels);
 
