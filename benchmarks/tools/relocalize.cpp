@@ -2,7 +2,8 @@
 // usage: mms_relocalize MAP_RECORDING FRAMES QUERY_RECORDING FIRST COUNT
 //   Maps the first FRAMES frames, then takes COUNT pairs of successive frames, evenly spread from
 //   frame FIRST on, each as of a lost sensor. With two different recordings, every answer is wrong.
-// Recordings need masks/ and ground truth. Prints one line; exit status 1 if an answer is wrong.
+// Recordings need masks/ and ground truth. Prints one line, and wrong answers on stderr; exit
+// status 1 if an answer is wrong.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -84,6 +85,11 @@ int run(const std::vector<std::string>& arguments) {
     const bool is_right =
         is_known && error.translation().norm() < kMaxDistance && mms::se3::angle(error) < kMaxTurn;
     counts.wrong += !is_right;
+    if (!is_right) {
+      std::fprintf(stderr, "wrong at %.3f s: %.2f m, %.1f degrees off\n",
+                   mms::to_seconds(frame->stamp - Timestamp{}), error.translation().norm(),
+                   mms::se3::angle(error) * 180.0 / std::numbers::pi);
+    }
   }
   std::printf("%d cases, %d found, %d wrong\n", counts.cases, counts.found, counts.wrong);
   return counts.wrong == 0 ? 0 : 1;

@@ -20,27 +20,6 @@ constexpr std::size_t kMaxRecognized = 3;
 /// [-]: candidates of a keyframe by position. Source: computing time.
 constexpr std::size_t kMaxNearby = 2;
 
-/// [-]: candidates of a lost frame. Source: computing time; a lost sensor has no better use of it.
-constexpr std::size_t kMaxRelocalized = 5;
-
-/// [-]: inliers of a lost frame, as a multiple of those of a loop. Source: no odometry confirms the
-/// place; in a warehouse, similar places had 1.5 and the right ones more than three.
-constexpr int kInlierFactor = 2;
-
-/// [m]: distance of the places of two lost frames that the errors of their poses explain.
-/// Source: initial choice.
-constexpr double kMaxStep = 0.1;
-
-/// [rad]: the same of the angle. Source: initial choice, 5 degrees.
-constexpr double kMaxStepTurn = 5.0 * std::numbers::pi / 180.0;
-
-/// [m/s]: largest speed between two lost frames. Source: initial choice, a person who walks fast.
-constexpr double kMaxSpeed = 2.0;
-
-/// [rad/s]: largest turn rate between two lost frames. Source: initial choice, half a turn a
-/// second.
-constexpr double kMaxTurnRate = std::numbers::pi;
-
 /// [m]: distance of candidates by position. Source: initial choice; views beyond share too little.
 constexpr double kNearby = 1.0;
 
@@ -50,14 +29,6 @@ constexpr double kNearbyTurn = std::numbers::pi / 6.0;
 /// [m]: largest standard deviation of a position by the odometry for candidates by position.
 /// Source: registration converges from three of them; structures that repeat are farther apart.
 constexpr double kMaxNearbySigma = 0.15;
-
-/// [m, rad]: sum of the distance and the angle of keyframes whose views can confirm a pose. Source:
-/// initial choice; views beyond share too little.
-constexpr double kMaxDoubtDistance = 2.0;
-
-/// [-]: frames in a row that confirm the pose of the odometry where the place is not recognized.
-/// Source: two frames recognize a place; before six, structures that repeat misled the odometry.
-constexpr int kConfirmations = 6;
 
 /// [m]: path since the candidates of a scan by place recognition. Source: their local maps, of 10 m
 /// each, then share no scans.
@@ -71,15 +42,6 @@ KeyframeRecord pose_of(const KeyframeRecord& record) {
   pose.T_world_sensor = record.T_world_sensor;
   pose.after_lost = record.after_lost;
   return pose;
-}
-
-/// Whether a sensor can move from one pose to the other.
-bool agree(const StampedPose& before, const StampedPose& now) {
-  const double seconds = std::abs(to_seconds(now.stamp - before.stamp));
-  const Eigen::Isometry3d motion =
-      (before.T_world_sensor.inverse() * now.T_world_sensor).isometry();
-  return motion.translation().norm() < kMaxStep + kMaxSpeed * seconds &&
-         se3::angle(motion) < kMaxStepTurn + kMaxTurnRate * seconds;
 }
 
 /// Whether a session has loops, within it or to others.
@@ -154,8 +116,7 @@ std::vector<Loop> GlobalMap::add(KeyframeRecord record) {
   if (is_in_map) record = pose_of(record);
   recognizer_.add(record.keypoints.descriptors);
   records_.push_back(std::move(record));
-  recognized_.reset();
-  confirmations_ = 0;
+  relocalizer_.reset();
   graph_.solve_if_needed(accepted);
   return accepted;
 }
@@ -236,70 +197,25 @@ std::vector<Eigen::Isometry3d> GlobalMap::poses_in_world() const {
 }
 
 std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame) {
-  const std::optional<StampedPose> before = std::exchange(recognized_, std::nullopt);
-  if (records_.empty() || records_.back().session != session()) return std::nullopt;
-  assert(frame.cloud.organised());
-  const KeyframeRecord record = record_of(frame);
-  const std::vector<Eigen::Isometry3d> poses = poses_in_world();
-  const auto placed = [&](const Loop& loop) {
-    Relocalization result{Transform<World, Sensor>(poses[loop.candidate] * loop.T_candidate_query),
-                          {}};
-    const auto [first, end] = neighbors(records_, loop.candidate);
-    for (std::size_t i = first; i < end; ++i) {
-      result.surroundings.push_back({records_[i].features, poses[i]});
-    }
-    return result;
-  };
-  if (const auto loop = recognize(record, poses)) {
-    confirmations_ = 0;
-    Relocalization place = placed(*loop);
-    recognized_ = {record.stamp, place.T_world_sensor};
-    if (before && agree(*before, *recognized_)) return place;
+  if (records_.empty() || records_.back().session != session()) {
+    relocalizer_.reset();
     return std::nullopt;
   }
-  const auto loop = frame.has_pose ? confirm(record, poses) : std::nullopt;
-  confirmations_ = loop ? confirmations_ + 1 : 0;
-  if (confirmations_ < kConfirmations) return std::nullopt;
-  return placed(*loop);
-}
-
-bool GlobalMap::is_possible_place(std::size_t keyframe) const {
-  return graph_.shares_frame(keyframe) && may_match(keyframe);
-}
-
-/// The place of a lost frame by its keypoints.
-std::optional<Loop> GlobalMap::recognize(const KeyframeRecord& record,
-                                         const std::vector<Eigen::Isometry3d>& poses) const {
-  const std::vector<PlaceCandidate> candidates =
-      recognizer_.find(record.keypoints.descriptors, records_.size(), kMaxRelocalized);
-  for (const PlaceCandidate& candidate : candidates) {
-    if (!is_possible_place(candidate.keyframe)) continue;
-    Loop loop = verifier_.verify(records_, poses, candidate.keyframe, record);
-    if (loop.outcome == LoopOutcome::kAccepted &&
-        loop.inliers >= kInlierFactor * config_.loops.min_inliers) {
-      return loop;
-    }
+  assert(frame.cloud.organised());
+  const std::vector<Eigen::Isometry3d> poses = poses_in_world();
+  const auto is_usable = [&](std::size_t keyframe) {
+    return graph_.shares_frame(keyframe) && may_match(keyframe);
+  };
+  const auto loop = relocalizer_.find({records_, poses, recognizer_, verifier_, is_usable},
+                                      record_of(frame), frame.has_pose);
+  if (!loop) return std::nullopt;
+  Relocalization result{Transform<World, Sensor>(poses[loop->candidate] * loop->T_candidate_query),
+                        {}};
+  const auto [first, end] = neighbors(records_, loop->candidate);
+  for (std::size_t i = first; i < end; ++i) {
+    result.surroundings.push_back({records_[i].features, poses[i]});
   }
-  return std::nullopt;
-}
-
-/// Whether a view near the pose of the odometry confirms it.
-std::optional<Loop> GlobalMap::confirm(const KeyframeRecord& record,
-                                       const std::vector<Eigen::Isometry3d>& poses) const {
-  const Eigen::Isometry3d& pose = record.T_world_sensor.isometry();
-  std::vector<std::pair<double, std::size_t>> near;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::Isometry3d relative = poses[i].inverse() * pose;
-    const double distance = relative.translation().norm() + se3::angle(relative);
-    if (distance < kMaxDoubtDistance && is_possible_place(i)) near.emplace_back(distance, i);
-  }
-  std::sort(near.begin(), near.end());
-  near.resize(std::min(near.size(), kMaxNearby));
-  for (const auto& [unused, i] : near) {
-    Loop loop = verifier_.verify_nearby(records_, poses, i, record, poses[i].inverse() * pose);
-    if (loop.outcome == LoopOutcome::kAccepted) return loop;
-  }
-  return std::nullopt;
+  return result;
 }
 
 std::optional<Transform<Global, World>> GlobalMap::last_correction() const {

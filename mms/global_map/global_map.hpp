@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "mms/core/config_visitor.hpp"
-#include "mms/core/trajectory.hpp"
 #include "mms/geometry/sensor_noise.hpp"
 #include "mms/global_map/graph/loop_confirmation.hpp"
 #include "mms/global_map/graph/loop_graph.hpp"
@@ -16,6 +15,7 @@
 #include "mms/global_map/loops/loop_verification.hpp"
 #include "mms/global_map/places/place_recognizer.hpp"
 #include "mms/global_map/pose_correction.hpp"
+#include "mms/global_map/relocalizer.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
 #include "mms/localization/registration/registration.hpp"
@@ -96,9 +96,8 @@ class GlobalMap {
   /// Brings the poses up to date with all loops. After the last keyframe.
   void finish() { graph_.finish(); }
 
-  /// Recognizes the place of a frame whose pose is lost or in doubt. Two frames in a row must
-  /// agree. Where it is not recognized, views near the pose of the odometry can confirm that.
-  /// @returns nothing if the place is not recognized for sure
+  /// Finds the place of a frame whose pose is lost or in doubt, see `Relocalizer`.
+  /// @returns nothing if it is not sure
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
 
   /// Correction of the present session by all loops so far; empty without any.
@@ -127,11 +126,6 @@ class GlobalMap {
   std::vector<Eigen::Isometry3d> poses_in_world() const;
   bool may_match(std::size_t candidate) const;
   std::vector<std::size_t> nearby(std::size_t end) const;
-  bool is_possible_place(std::size_t keyframe) const;
-  std::optional<Loop> recognize(const KeyframeRecord& record,
-                                const std::vector<Eigen::Isometry3d>& poses) const;
-  std::optional<Loop> confirm(const KeyframeRecord& record,
-                              const std::vector<Eigen::Isometry3d>& poses) const;
   std::vector<Loop> find_loop(const KeyframeRecord& record);
 
   GlobalMapConfig config_;
@@ -143,8 +137,7 @@ class GlobalMap {
   std::deque<KeyframeRecord> records_;
   LoopGraph graph_;
   LoopConfirmation confirmation_;
-  std::optional<StampedPose> recognized_;  ///< of the last lost frame, not yet confirmed
-  int confirmations_ = 0;                  ///< of the odometry's pose, by lost frames in a row
+  Relocalizer relocalizer_;
 };
 
 }  // namespace mms

@@ -1,4 +1,4 @@
-// Relative poses of keypoints, and agreement of the depth of two views.
+// Pairs and relative poses of keypoints, and agreement of the depth of two views.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "mms/global_map/corrected_occupancy.hpp"
 #include "mms/global_map/keyframes/keyframe_view.hpp"
 #include "mms/global_map/loops/keypoint_matching.hpp"
+#include "mms/global_map/loops/place_matching.hpp"
 #include "mms/global_map/loops/point_alignment.hpp"
 
 namespace mms {
@@ -83,6 +84,59 @@ TEST(KeypointMatching, FindsEachOthersNearestAlone) {
   EXPECT_TRUE(match_keypoints(a, {}).empty());
 }
 
+/// Keypoints with depth, all with other descriptors.
+ImageKeypoints some_keypoints(std::size_t count, std::uint64_t seed) {
+  RandomStream random(seed);
+  ImageKeypoints keypoints;
+  for (std::size_t i = 0; i < count; ++i) {
+    BinaryDescriptor descriptor;
+    for (std::uint64_t& word : descriptor.words) word = random.bits();
+    keypoints.descriptors.push_back(descriptor);
+    keypoints.points.emplace_back(random.between(-2.0F, 2.0F), random.between(-1.0F, 1.0F),
+                                  random.between(1.0F, 5.0F));
+    keypoints.pixels.emplace_back(0.5F, 0.5F);
+  }
+  return keypoints;
+}
+
+TEST(PlaceMatching, FindsSimilarKeypointsAtTheirPlacesAlone) {
+  std::deque<KeyframeRecord> records(2);
+  records[0].keypoints = some_keypoints(100, 1);
+  records[1].keypoints = some_keypoints(100, 2);
+  const std::vector<Eigen::Isometry3d> poses = {Eigen::Isometry3d::Identity(), some_pose()};
+  const PlacedKeypoints place = keypoints_at(records, poses, 0, 2, DepthNoise{});
+  ASSERT_EQ(place.points.size(), 200U);
+  // The frame has half of each keyframe's keypoints, with a tenth of the bits flipped.
+  const Eigen::Isometry3d pose = se3::exp(0.1 * Vector6d::Ones());
+  ImageKeypoints frame;
+  for (std::size_t i = 0; i < 200; i += 2) {
+    BinaryDescriptor descriptor = place.descriptors[i];
+    descriptor.words[i % 4] ^= 0x3FFFFFFU;
+    frame.descriptors.push_back(descriptor);
+    frame.points.emplace_back((pose.inverse() * place.points[i]).cast<float>());
+  }
+  frame.points[7].x() += 1.0F;                       // elsewhere
+  frame.descriptors[9].words[0] ^= 0x3FFFFFFU << 1;  // of something else
+  frame.descriptors[9].words[1] ^= 0x3FFFFFFU;
+  // A twin, less similar.
+  frame.descriptors.push_back(frame.descriptors[20]);
+  frame.descriptors.back().words[3] ^= 0xFU << 30;
+  frame.points.push_back(frame.points[20]);
+  const PlaceMatches matches = match_at_place(place, frame, pose, DepthNoise{});
+  EXPECT_EQ(matches.frames.size(), 98U);
+  for (std::size_t i = 0; i < matches.frames.size(); ++i) {
+    EXPECT_NE(matches.frames[i], 7U);
+    EXPECT_NE(matches.frames[i], 9U);
+    EXPECT_LT(matches.frames[i], 100U);
+    EXPECT_TRUE(matches.pairs.a[i].isApprox(place.points[2 * matches.frames[i]]));
+  }
+  const PointAlignment alignment =
+      refine_alignment(matches.pairs, se3::exp(0.003 * Vector6d::Ones()) * pose);
+  EXPECT_TRUE(alignment.T_a_b.isApprox(pose, 1e-5));
+  EXPECT_TRUE(match_at_place(place, {}, pose, DepthNoise{}).frames.empty());
+  EXPECT_TRUE(match_at_place({}, frame, pose, DepthNoise{}).frames.empty());
+}
+
 constexpr CameraIntrinsics kCamera{300.0, 300.0, 159.5, 119.5, 320, 240, {}};
 
 /// A wall at a distance, with a box of 1 m in front of it unless it is left out.
@@ -141,6 +195,19 @@ TEST(KeyframeView, DynamicPointsAreNotCompared) {
   const KeyframeView with = make_keyframe_view(cloud);
   const KeyframeView without = make_keyframe_view(room(moved(0.0, 0.0), false));
   EXPECT_LT(compare_views(without, with, moved(0.0, 0.0), DepthNoise{}).contradiction, 0.01);
+}
+
+TEST(KeyframeView, PointsBehindPeopleDoNotCountAsMissing) {
+  LabeledCloud cloud = room(moved(0.0, 0.0), true);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (static_cast<int>(i) % cloud.width > cloud.width / 2) continue;
+    cloud.points[i] *= 1.0F / cloud.points[i].z();
+    cloud.labels[i] = PointLabel::kDynamic;
+  }
+  const KeyframeView covered = make_keyframe_view(cloud);
+  const KeyframeView open = make_keyframe_view(room(moved(0.0, 0.0), true));
+  EXPECT_GT(compare_views(covered, open, moved(0.0, 0.0), DepthNoise{}).overlap, 0.9);
+  EXPECT_GT(compare_views(open, covered, moved(0.0, 0.0), DepthNoise{}).overlap, 0.9);
 }
 
 TEST(CorrectedOccupancy, HasTheViewsOfJoinedSessionsAtTheirCorrectedPoses) {

@@ -183,6 +183,38 @@ TEST(Relocalization, TwoFramesOfAKnownPlaceGiveThePose) {
   EXPECT_FALSE(place->surroundings.empty());
 }
 
+/// With people close to the sensor in one half of the view.
+GlobalKeyframe half_covered(GlobalKeyframe frame, bool left) {
+  LabeledCloud& cloud = frame.cloud;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const bool is_left = static_cast<int>(i) % cloud.width < cloud.width / 2;
+    if (is_left != left || cloud.labels[i] == PointLabel::kInvalid) continue;
+    cloud.points[i] *= 0.5F / cloud.points[i].z();
+    cloud.labels[i] = PointLabel::kDynamic;
+  }
+  return frame;
+}
+
+TEST(Relocalization, HalfOfTheViewGivesThePose) {
+  Visit visit;
+  for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());
+  int found = 0;
+  double seconds = 100.0;
+  for (const int i : {3, 5, 7, 9, 11, 13}) {
+    for (const bool left : {false, true}) {
+      visit.map.relocalize(half_covered(at_unknown_pose(i, seconds += 10.0), left));
+      const auto place =
+          visit.map.relocalize(half_covered(at_unknown_pose(i, seconds += 0.1), left));
+      if (!place) continue;
+      ++found;
+      const Eigen::Isometry3d truth =
+          views()[static_cast<std::size_t>(i)].T_world_sensor.isometry();
+      EXPECT_LT((place->T_world_sensor.translation() - truth.translation()).norm(), 0.03);
+    }
+  }
+  EXPECT_GE(found, 9);  // of twelve
+}
+
 TEST(Relocalization, PlacesThatNoSensorMovesBetweenGiveNoPose) {
   Visit visit;
   for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());

@@ -25,6 +25,9 @@ constexpr float kMaxDepth = 65535.0F;
 /// compared. Source: a surface at 76 degrees, across two pixels of 80.
 constexpr float kMaxSlope = 0.1F;
 
+/// [px]: bound on coordinates of pixels. Source: far beyond every view.
+constexpr double kMaxPixel = 1e6;
+
 /// `FreeSpace` takes the nearest of nine pixels, so that steep surfaces and boundaries seem to
 /// contradict.
 bool is_smooth(const Image<std::uint16_t>& depth, int x, int y) {
@@ -37,6 +40,18 @@ bool is_smooth(const Image<std::uint16_t>& depth, int x, int y) {
     }
   }
   return true;
+}
+
+/// Whether a person or vehicle of a view hides a point (sensor frame [m]).
+bool is_hidden(const KeyframeView& view, const CameraModel& camera, const Eigen::Vector3f& point) {
+  const Eigen::Vector3d p = point.cast<double>();
+  if (!(p.z() > 0.0) || !camera.in_lens_range(p)) return false;
+  const Eigen::Vector2d pixel = camera.project(p);
+  if (!(pixel.cwiseAbs().maxCoeff() < kMaxPixel)) return false;
+  const auto x = static_cast<int>(std::lround(pixel.x()));
+  const auto y = static_cast<int>(std::lround(pixel.y()));
+  if (!view.depth_mm.contains(x, y) || view.depth_mm(x, y) == 0) return false;
+  return view.is_static(x, y) == 0 && 0.001 * view.depth_mm(x, y) < p.z();
 }
 
 }  // namespace
@@ -91,6 +106,7 @@ ViewAgreement agreement_of(std::size_t all, std::size_t on_surface, std::size_t 
 ViewAgreement compare_views(const KeyframeView& a, const KeyframeView& b,
                             const Eigen::Isometry3d& T_a_b, const DepthNoise& noise) {
   const FreeSpace space(a.cloud(), kMargin, noise);
+  const CameraModel camera(a.camera);
   const Eigen::Isometry3f T = T_a_b.cast<float>();
   const LabeledCloud points = b.cloud();
   std::size_t all = 0;
@@ -99,10 +115,12 @@ ViewAgreement compare_views(const KeyframeView& a, const KeyframeView& b,
   for (int y = 0; y < points.height; ++y) {
     for (int x = 0; x < points.width; ++x) {
       if (b.is_static(x, y) == 0 || !is_smooth(b.depth_mm, x, y)) continue;
-      ++all;
       const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(points.width) +
                      static_cast<std::size_t>(x);
-      const SpaceState state = space.state_at(T * points.points[i]);
+      const Eigen::Vector3f point = T * points.points[i];
+      if (is_hidden(a, camera, point)) continue;
+      ++all;
+      const SpaceState state = space.state_at(point);
       on_surface += state == SpaceState::kSurface;
       in_free_space += state == SpaceState::kFree;
     }

@@ -34,6 +34,10 @@ constexpr int kMaxInCell = 30;
 /// [px]: boundary of the image without keypoints. Source: ORB's patch of 31 px.
 constexpr int kBoundary = 31;
 
+/// [-]: least contrast of a keypoint. Source: minThFAST of ORB-SLAM; the static part of a view full
+/// of people has few strong ones.
+constexpr int kMinContrast = 7;
+
 /// [-]: differences of depth within a continuous surface, as a share of the depth.
 /// Source: a surface at 70 degrees, across two points of the grid.
 constexpr float kMaxStep = 0.03F;
@@ -110,7 +114,8 @@ ImageKeypoints extract_keypoints(const Image<Rgb>& color, const LabeledCloud& cl
   ImageKeypoints result;
   if (color.empty() || !cloud.organised()) return result;
   const cv::Mat gray = gray_of(color);
-  const cv::Ptr<cv::ORB> orb = cv::ORB::create(kDetected, 1.2F, 8, kBoundary);
+  const cv::Ptr<cv::ORB> orb = cv::ORB::create(kDetected, 1.2F, 8, kBoundary, 0, 2,
+                                               cv::ORB::HARRIS_SCORE, kBoundary, kMinContrast);
   std::vector<cv::KeyPoint> detected;
   orb->detect(gray, detected, mask_of(cloud, gray));
   std::stable_sort(detected.begin(), detected.end(),

@@ -33,10 +33,14 @@ struct LoopConfig {
   }
 };
 
-/// First and end of the keyframes around one in its session, whose features are the local map of
-/// its place.
+/// [-]: keyframes before and after one whose features are the local map of its place. Source: about
+/// 1 m on each side, so that the local map exceeds the view.
+inline constexpr std::size_t kNeighbors = 3;
+
+/// First and end of the keyframes around one in its session.
+/// @param count  of them before and after it
 std::pair<std::size_t, std::size_t> neighbors(const std::deque<KeyframeRecord>& records,
-                                              std::size_t keyframe);
+                                              std::size_t keyframe, std::size_t count = kNeighbors);
 
 /// Pairs of keypoints that a loop of a keyframe needs.
 int min_inliers_of(const LoopConfig& config, const KeyframeRecord& keyframe);
@@ -55,6 +59,13 @@ class LoopVerifier {
               const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
               const KeyframeRecord& query) const;
 
+  /// A candidate for a frame whose pose is lost: half of its view may be covered, and no odometry
+  /// confirms the place. Pairs of keypoints come from all keyframes around the candidate.
+  /// @returns with the one of them that is nearest to the pose
+  Loop verify_lost(const std::deque<KeyframeRecord>& records,
+                   const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
+                   const KeyframeRecord& query) const;
+
   /// A candidate nearby: the relative pose is known but for some centimeters.
   Loop verify_nearby(const std::deque<KeyframeRecord>& records,
                      const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
@@ -64,13 +75,17 @@ class LoopVerifier {
   bool align(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const;
   bool align_scans(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const;
   bool align_keypoints(const ImageKeypoints& a, const ImageKeypoints& b, Loop& loop) const;
+  double contradiction_around(const std::deque<KeyframeRecord>& records,
+                              const std::vector<Eigen::Isometry3d>& poses, std::size_t keyframe,
+                              const KeyframeView& view, const Eigen::Isometry3d& pose) const;
   bool register_features(const std::deque<KeyframeRecord>& records,
                          const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
                          Loop& loop) const;
   bool is_same_place(const std::deque<KeyframeRecord>& records,
                      const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
-                     Loop& loop) const;
-  bool compare(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const;
+                     double min_overlap, Loop& loop) const;
+  bool compare(const KeyframeRecord& a, const KeyframeRecord& b, double min_overlap,
+               Loop& loop) const;
 
   LoopConfig config_;
   RegistrationConfig registration_;

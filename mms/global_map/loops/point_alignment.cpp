@@ -55,15 +55,6 @@ Eigen::Isometry3d fit(const PointPairs& pairs, const Indices& indices) {
   return se3::normalized(T);
 }
 
-Indices inliers_of(const PointPairs& pairs, const Eigen::Isometry3d& T_a_b) {
-  Indices inliers;
-  for (std::size_t i = 0; i < pairs.a.size(); ++i) {
-    const double distance = (pairs.a[i] - T_a_b * pairs.b[i]).norm();
-    if (distance < kInlierSigmas * pairs.sigma[i]) inliers.push_back(i);
-  }
-  return inliers;
-}
-
 /// Whether three pairs can be the same triangle, and a large enough one.
 bool is_triangle(const PointPairs& pairs, const std::array<std::size_t, 3>& sample) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -79,6 +70,15 @@ bool is_triangle(const PointPairs& pairs, const std::array<std::size_t, 3>& samp
 
 }  // namespace
 
+std::vector<std::size_t> inliers_of(const PointPairs& pairs, const Eigen::Isometry3d& T_a_b) {
+  Indices inliers;
+  for (std::size_t i = 0; i < pairs.a.size(); ++i) {
+    const double distance = (pairs.a[i] - T_a_b * pairs.b[i]).norm();
+    if (distance < kInlierSigmas * pairs.sigma[i]) inliers.push_back(i);
+  }
+  return inliers;
+}
+
 std::optional<PointAlignment> align_points(const PointPairs& pairs, std::uint64_t seed) {
   if (pairs.a.size() < kMinInliers) return std::nullopt;
   RandomStream random(seed);
@@ -92,7 +92,12 @@ std::optional<PointAlignment> align_points(const PointPairs& pairs, std::uint64_
     if (inliers.size() > best.inliers.size()) best = {T, std::move(inliers)};
   }
   if (best.inliers.size() < kMinInliers) return std::nullopt;
-  for (int round = 0; round < kRounds; ++round) {
+  return refine_alignment(pairs, best.T_a_b);
+}
+
+PointAlignment refine_alignment(const PointPairs& pairs, const Eigen::Isometry3d& T_a_b) {
+  PointAlignment best{T_a_b, inliers_of(pairs, T_a_b)};
+  for (int round = 0; round < kRounds && best.inliers.size() >= kMinInliers; ++round) {
     const Eigen::Isometry3d T = fit(pairs, best.inliers);
     Indices inliers = inliers_of(pairs, T);
     if (inliers.size() < best.inliers.size()) break;

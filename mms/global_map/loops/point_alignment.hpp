@@ -26,4 +26,10 @@ struct PointAlignment {
 /// @returns nothing if no transform has four inliers
 std::optional<PointAlignment> align_points(const PointPairs& pairs, std::uint64_t seed);
 
+/// Indices of the pairs within three sigma by a transform, ascending.
+std::vector<std::size_t> inliers_of(const PointPairs& pairs, const Eigen::Isometry3d& T_a_b);
+
+/// Least squares over the pairs that agree with a transform that is roughly known.
+PointAlignment refine_alignment(const PointPairs& pairs, const Eigen::Isometry3d& T_a_b);
+
 }  // namespace mms
