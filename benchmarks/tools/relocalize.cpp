@@ -1,7 +1,7 @@
 // Relocalization at random places: how often, how fast, and how often wrong.
 // usage: mms_relocalize MAP_RECORDING FRAMES QUERY_RECORDING FIRST COUNT
-//   Maps the first FRAMES frames, then takes COUNT pairs of successive frames, evenly spread from
-//   frame FIRST on, each as of a lost sensor. With two different recordings, every answer is wrong.
+//   Maps the first FRAMES frames, then takes COUNT times up to ten successive frames, evenly spread
+//   from frame FIRST on, as of a lost sensor. With two different recordings, every answer is wrong.
 // Recordings need masks/ and ground truth. Prints one line, and wrong answers on stderr; exit
 // status 1 if an answer is wrong.
 #include <algorithm>
@@ -27,6 +27,9 @@ using mms::Timestamp;
 /// Limits beyond which an answer is wrong. Source: acceptance of relocalization.
 constexpr double kMaxDistance = 0.2;                         // [m]
 constexpr double kMaxTurn = 5.0 * std::numbers::pi / 180.0;  // [rad]
+
+/// [frames]: of one case, at most. Source: 1 s at 10 Hz.
+constexpr std::size_t kFrames = 10;
 
 struct Counts {
   int cases = 0;
@@ -65,18 +68,20 @@ int run(const std::vector<std::string>& arguments) {
   const auto query = mms::open_dataset(arguments[2], {});
   const auto begin = static_cast<std::size_t>(std::stoi(arguments[3]));
   const auto count = static_cast<std::size_t>(std::stoi(arguments[4]));
-  const std::size_t step = std::max<std::size_t>(2, (query->size() - begin) / count);
+  const std::size_t step = std::max<std::size_t>(1, (query->size() - begin) / count);
   query->skip(begin);
   Counts counts;
   while (static_cast<std::size_t>(counts.cases) < count) {
     mms::Perception perception(config, std::make_unique<mms::MaskSegmenter>());
-    const auto before = query->next();
-    const auto frame = query->next();
-    if (!before || !frame) break;
+    std::optional<mms::Relocalization> place;
+    std::optional<Frame> frame;
+    std::size_t taken = 0;
+    for (; taken < kFrames && !place && (frame = query->next()); ++taken) {
+      place = system.relocalize(perceived(perception, *frame));
+    }
+    if (taken == 0) break;
     ++counts.cases;
-    system.relocalize(perceived(perception, *before));
-    const auto place = system.relocalize(perceived(perception, *frame));
-    query->skip(step - 2);
+    if (step > taken) query->skip(step - taken);
     if (!place) continue;
     ++counts.found;
     const Eigen::Isometry3d truth =

@@ -39,9 +39,14 @@ constexpr double kMaxDoubtDistance = 2.0;
 /// Source: two frames recognize a place; before six, structures that repeat misled the odometry.
 constexpr int kConfirmations = 6;
 
+/// [s]: time between two frames that are recognized, beyond which they do not confirm each other.
+/// Source: the sensor may have moved to the next rack.
+constexpr double kMaxGap = 0.4;
+
 /// Whether a sensor can move from one pose to the other.
 bool can_move(const StampedPose& before, const StampedPose& now) {
   const double seconds = std::abs(to_seconds(now.stamp - before.stamp));
+  if (seconds > kMaxGap) return false;
   const Eigen::Isometry3d motion =
       (before.T_world_sensor.inverse() * now.T_world_sensor).isometry();
   return motion.translation().norm() < kMaxStep + kMaxSpeed * seconds &&
@@ -74,8 +79,8 @@ std::optional<Loop> confirm(const KnownPlaces& places, const KeyframeRecord& fra
   std::sort(near.begin(), near.end());
   near.resize(std::min(near.size(), kMaxNear));
   for (const auto& [unused, i] : near) {
-    Loop loop = places.verifier.verify_nearby(places.records, places.poses, i, frame,
-                                              places.poses[i].inverse() * pose);
+    Loop loop = places.verifier.verify_lost_nearby(places.records, places.poses, i, frame,
+                                                   places.poses[i].inverse() * pose);
     if (loop.outcome == LoopOutcome::kAccepted) return loop;
   }
   return std::nullopt;
@@ -85,12 +90,12 @@ std::optional<Loop> confirm(const KnownPlaces& places, const KeyframeRecord& fra
 
 std::optional<Loop> Relocalizer::find(const KnownPlaces& places, const KeyframeRecord& frame,
                                       bool has_pose) {
-  const std::optional<StampedPose> before = std::exchange(recognized_, std::nullopt);
   if (std::optional<Loop> loop = recognize(places, frame)) {
     confirmations_ = 0;
-    recognized_ = {frame.stamp, Transform<World, Sensor>(places.poses[loop->candidate] *
-                                                         loop->T_candidate_query)};
-    if (before && can_move(*before, *recognized_)) return loop;
+    const StampedPose pose{frame.stamp, Transform<World, Sensor>(places.poses[loop->candidate] *
+                                                                 loop->T_candidate_query)};
+    const std::optional<StampedPose> before = std::exchange(recognized_, pose);
+    if (before && can_move(*before, pose)) return loop;
     return std::nullopt;
   }
   std::optional<Loop> loop = has_pose ? confirm(places, frame) : std::nullopt;

@@ -26,8 +26,8 @@ struct KnownPlaces {
 /// Finds the place of a lost sensor from frame to frame.
 class Relocalizer {
  public:
-  /// The place of the next frame. Two frames in a row must agree. Where it is not recognized, views
-  /// near the pose of the odometry can confirm that.
+  /// The place of the next frame. Two frames that are shortly after each other must agree. Where it
+  /// is not recognized, views near the pose of the odometry can confirm that.
   /// @param has_pose  whether the odometry found a pose, in doubt
   /// @returns the keyframe and the pose relative to it; nothing if it is not sure
   std::optional<Loop> find(const KnownPlaces& places, const KeyframeRecord& frame, bool has_pose);
@@ -36,7 +36,7 @@ class Relocalizer {
   void reset() { *this = {}; }
 
  private:
-  std::optional<StampedPose> recognized_;  ///< of the last lost frame, not yet confirmed
+  std::optional<StampedPose> recognized_;  ///< of the last recognized frame, not yet confirmed
   int confirmations_ = 0;                  ///< of the odometry's pose, by lost frames in a row
 };
 

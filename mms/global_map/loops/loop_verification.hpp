@@ -66,6 +66,12 @@ class LoopVerifier {
                    const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
                    const KeyframeRecord& query) const;
 
+  /// The same with a relative pose that the odometry has found, in doubt.
+  Loop verify_lost_nearby(const std::deque<KeyframeRecord>& records,
+                          const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
+                          const KeyframeRecord& query,
+                          const Eigen::Isometry3d& T_candidate_query) const;
+
   /// A candidate nearby: the relative pose is known but for some centimeters.
   Loop verify_nearby(const std::deque<KeyframeRecord>& records,
                      const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,
@@ -75,6 +81,9 @@ class LoopVerifier {
   bool align(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const;
   bool align_scans(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const;
   bool align_keypoints(const ImageKeypoints& a, const ImageKeypoints& b, Loop& loop) const;
+  void check_lost(const std::deque<KeyframeRecord>& records,
+                  const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
+                  double min_overlap, double min_pairs, Loop& loop) const;
   double contradiction_around(const std::deque<KeyframeRecord>& records,
                               const std::vector<Eigen::Isometry3d>& poses, std::size_t keyframe,
                               const KeyframeView& view, const Eigen::Isometry3d& pose) const;
