@@ -40,7 +40,7 @@ std::vector<double> numbers_of(const JsonEntry& list) {
 /// A 4x4 matrix in mm as a transform in m.
 Eigen::Isometry3d transform_of(const JsonEntry& entry) {
   std::vector<double> rows = numbers_of(entry);
-  for (const std::size_t i : {3, 7, 11}) {
+  for (const std::size_t i : {3U, 7U, 11U}) {
     if (i < rows.size()) rows[i] *= kMillimeter;
   }
   return isometry_from_rows(rows, "lidar_to_sensor_transform");
