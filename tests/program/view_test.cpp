@@ -112,6 +112,26 @@ TEST(View, ExplainsMissingPicturesWithoutNetwork) {
   expect_in("own.safetensors", hello["pictures_note"].get<std::string>());
 }
 
+TEST(View, ShowsRestOfDamagedFolder) {
+  const TempFolder folder;
+  run_scene(folder);
+  const std::vector<std::string> damaged = {"static_map.ply", "objects.json", "truth.tum",
+                                            "timing.csv",     "frames.csv",   "loops.csv",
+                                            "run.json"};
+  for (const std::string& name : damaged) folder.write("out/" + name, "1.0 no such row\n");
+  RunningMms program(folder.path(), {"view", "out", "--port", "0"});
+  ViewerClient client(port_of(folder));
+  EXPECT_EQ(client.wait_for("hello").json["frames"], kFrames);
+  program.send(SIGINT);
+  const Outcome outcome = program.wait();
+  expect_success(outcome);
+  for (const std::string& name : damaged) {
+    EXPECT_EQ(lines_with(outcome, "warning: out/" + name), 1) << name;
+  }
+  folder.write("out/trajectory_map.tum", "1.0 no such row\n");
+  expect_error(run_mms(folder.path(), {"view", "out", "--port", "0"}), "out/trajectory_map.tum:1");
+}
+
 TEST(View, ShowsKilledRun) {
   const TempFolder folder;
   run_scene(folder, {"--keep-journal"});

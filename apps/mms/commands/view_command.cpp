@@ -5,8 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "apps/mms/console/viewing.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/run/view/recorded_scene.hpp"
 #include "mms/run/view/serve.hpp"
 
@@ -19,7 +22,9 @@ struct ViewArguments {
 };
 
 void view(const ViewArguments& arguments) {
-  const std::shared_ptr<Scene> scene = open_recorded_scene(arguments.folder);
+  std::vector<std::string> warnings;
+  const std::shared_ptr<Scene> scene = open_recorded_scene(arguments.folder, warnings);
+  print_warnings(warnings);
   const auto server = serve(arguments.options, scene, "--port N", false);
   announce(*server, arguments.options);
   if (!scene->info().has_pictures) {

@@ -42,6 +42,12 @@ std::map<Timestamp, std::vector<float>> read_times(const fs::path& file) {
   return times;
 }
 
+std::map<Timestamp, FrameRecord> read_frames(const fs::path& file) {
+  std::map<Timestamp, FrameRecord> frames;
+  for (const FrameRecord& frame : read_frame_records(file)) frames[frame.stamp] = frame;
+  return frames;
+}
+
 /// Rows of loops.csv; an outcome has one word or two.
 std::vector<LoopRecord> read_loops(const fs::path& file) {
   constexpr std::size_t kColumnsAfter = 11;  // the outcome
@@ -90,18 +96,21 @@ SystemConfig read_settings(const fs::path& file) {
 RunFiles read_finished(const fs::path& folder) {
   RunFiles files;
   files.trajectory = read_trajectory_tum(map_trajectory_file(folder));
-  const auto there = [&](const char* name) { return fs::exists(folder / name); };
-  if (there("static_map.ply")) files.map = read_map(folder / "static_map.ply");
-  if (there("objects.json")) files.objects = read_objects(folder / "objects.json");
-  if (there("truth.tum")) files.truth = read_trajectory_tum(folder / "truth.tum");
-  if (there("timing.csv")) files.times = read_times(folder / "timing.csv");
-  if (there("frames.csv")) {
-    for (const FrameRecord& frame : read_frame_records(folder / "frames.csv")) {
-      files.frames[frame.stamp] = frame;
+  const auto read = [&](const char* name, const auto& reader, auto& part) {
+    if (!fs::exists(folder / name)) return;
+    try {
+      part = reader(folder / name);
+    } catch (const Error& error) {
+      files.warnings.emplace_back(error.what());
     }
-  }
-  if (there("loops.csv")) files.loops = read_loops(folder / "loops.csv");
-  if (there("run.json")) files.record = read_run_record(folder / "run.json");
+  };
+  read("static_map.ply", read_map, files.map);
+  read("objects.json", read_objects, files.objects);
+  read("truth.tum", read_trajectory_tum, files.truth);
+  read("timing.csv", read_times, files.times);
+  read("frames.csv", read_frames, files.frames);
+  read("loops.csv", read_loops, files.loops);
+  read("run.json", read_run_record, files.record);
   files.config = read_settings(folder / "config.yaml");
   if (files.record) files.data = files.record->data;
   return files;

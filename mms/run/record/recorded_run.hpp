@@ -33,11 +33,12 @@ struct RunFiles {
   std::vector<LoopRecord> loops;
   std::optional<RunRecord> record;
   SystemConfig config;
-  std::string data;  ///< input of the run, if known
+  std::string data;                   ///< input of the run, if known
+  std::vector<std::string> warnings;  ///< of files that are left out as they cannot be read
 };
 
 /// Reads the results of mms run, or the journal of a killed run.
-/// @throws FileError, DataError if the folder has none or a file cannot be read.
+/// @throws FileError, DataError if the folder has none, or its poses cannot be read.
 RunFiles read_run_files(const std::filesystem::path& folder);
 
 }  // namespace mms

@@ -133,8 +133,10 @@ MapChanges map_of(const RunFiles& files) {
 
 }  // namespace
 
-std::shared_ptr<Scene> open_recorded_scene(const fs::path& folder) {
+std::shared_ptr<Scene> open_recorded_scene(const fs::path& folder,
+                                           std::vector<std::string>& warnings) {
   const RunFiles files = read_run_files(folder);
+  warnings.insert(warnings.end(), files.warnings.begin(), files.warnings.end());
   SceneInfo info;
   Scene::ViewLoader loader = make_loader(files, info.pictures_note);
   info.name = name_of(folder, files.data);

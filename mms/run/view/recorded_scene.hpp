@@ -2,14 +2,18 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "mms/server/scene/viewer_scene.hpp"
 
 namespace mms {
 
 /// Opens a finished run for viewing: the results of mms run, or the journal of a killed run.
-/// @throws FileError, DataError if the folder has none or a file cannot be read.
-std::shared_ptr<Scene> open_recorded_scene(const std::filesystem::path& folder);
+/// @param warnings  of files that are left out as they cannot be read
+/// @throws FileError, DataError if the folder has none, or its poses cannot be read.
+std::shared_ptr<Scene> open_recorded_scene(const std::filesystem::path& folder,
+                                           std::vector<std::string>& warnings);
 
 /// Shows in the scene of a live run its final poses, objects, map and loops.
 /// @param folder  with the results of all its frames
