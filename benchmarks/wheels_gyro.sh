@@ -27,7 +27,7 @@ dark() {
   local name="$1" sensors="$2"
   [[ "$name" =~ $only ]] || return 0
   local scene="sim:static?seed=$seed&frames=150&dark_from=5&dark_for=5$sensors"
-  quietly "$mms" simulate "$scene" -o "$out/rec"
+  quietly "$mms" simulate "$scene" -o "$out/rec" --overwrite
   quietly "$mms" run "$out/rec" --segmenter none --loops off -o "$out/run" --overwrite
   local file
   for file in "$out/rec/groundtruth.txt" "$out/run/trajectory.tum"; do

@@ -23,8 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 using namespace testing;  // NOLINT: helpers of the tests
 
-void write_frames(const fs::path& folder, const SensorPreset& sensor, int count) {
-  SimulationWriter writer(folder, {}, sensor);
+void write_frames(const fs::path& folder, const SensorPreset& sensor, int count,
+                  bool overwrite = false) {
+  SimulationWriter writer(folder, {}, sensor, overwrite);
   for (int i = 0; i < count; ++i) {
     writer.add(synthetic_frame(i, sensor), synthetic_pose(i, sensor));
   }
@@ -130,7 +131,10 @@ TEST(SimulationWriter, ReplacesEarlierSimulation) {
   const TempFolder folder;
   write_frames(folder.path(), small_sensor(), 3);
   folder.write("notes.txt", "mine");
-  write_frames(folder.path(), small_sensor(true), 2);
+  expect_in("has an earlier simulation (replace it with --overwrite",
+            message_of<FileError>([&] { write_frames(folder.path(), small_sensor(true), 2); }));
+  expect_playback(folder.path(), small_sensor(), 3);
+  write_frames(folder.path(), small_sensor(true), 2, true);
   EXPECT_FALSE(fs::exists(folder.path() / "rgb"));
   EXPECT_EQ(read_file(folder.path() / "notes.txt"), "mine");
   expect_playback(folder.path(), small_sensor(true), 2);
@@ -155,7 +159,7 @@ TEST(SimulationWriter, SceneConfigRoundTrips) {
   SceneConfig config;
   config.seed = 77;
   config.mask_errors.enabled = true;
-  prepare_recording_folder(folder.path() / "new", config);
+  prepare_recording_folder(folder.path() / "new", config, false);
   SceneConfig read;
   load_config(folder.path() / "new/scene.yaml", read);
   EXPECT_EQ(read.seed, 77);

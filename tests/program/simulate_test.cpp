@@ -48,6 +48,18 @@ TEST(Simulate, SameBytesForAnyThreadCount) {
   }
 }
 
+TEST(Simulate, KeepsEarlierSimulationUnlessTold) {
+  const TempFolder folder;
+  expect_success(simulate(folder, {"-o", "data"}));
+  const std::string scene = read_file(folder.path() / "data/scene.yaml");
+  expect_error(simulate(folder, {"-o", "data", "--seed", "3"}),
+               "data: has an earlier simulation (replace it with --overwrite");
+  EXPECT_EQ(read_file(folder.path() / "data/scene.yaml"), scene);
+  EXPECT_TRUE(fs::exists(folder.path() / "data/rgb.txt"));
+  expect_success(simulate(folder, {"-o", "data", "--seed", "3", "--overwrite"}));
+  EXPECT_NE(read_file(folder.path() / "data/scene.yaml"), scene);
+}
+
 TEST(Simulate, PrintsSceneAsYaml) {
   const TempFolder folder;
   const Outcome outcome = simulate(folder, {"--print", "--set", "mask_errors.enabled=true"});

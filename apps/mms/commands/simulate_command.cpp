@@ -36,6 +36,7 @@ struct SimulateOptions {
   std::vector<std::string> set;                ///< key=value
   int threads = 0;                             ///< 0: one per core
   bool print = false;
+  bool overwrite = false;
 };
 
 /// A built-in scene, an address as for `mms run` (sim:crowd?seed=3), or a YAML file.
@@ -93,6 +94,7 @@ void simulate(const SimulateOptions& options) {
   RateProgress progress("frame");
   const InterruptGuard interrupt;
   WriteOptions write;
+  write.overwrite = options.overwrite;
   write.progress = [&](int done, int total) {
     progress.show(done, total);
     return !InterruptGuard::requested();
@@ -124,6 +126,8 @@ void add_simulate_command(CLI::App& app) {
                        ", also as for mms run: sim:crowd?seed=3")
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "output folder for the recording");
+  command->add_flag("--overwrite", options->overwrite,
+                    "replace an earlier simulation in this folder");
   command->add_option("--seed", options->seed, "seed of all random numbers");
   command->add_option("--frames", options->frames, "number of frames (default: that of the scene)");
   command->add_option("--sensor", options->sensor, "one of " + listed(sensor_names()));

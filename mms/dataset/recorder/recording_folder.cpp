@@ -63,10 +63,14 @@ std::string scene_yaml(const SceneConfig& config) {
          "'; recreate it with mms simulate scene.yaml -o DIR.\n" + dump_config(config);
 }
 
-void prepare_recording_folder(const fs::path& folder, const SceneConfig& config) {
+void prepare_recording_folder(const fs::path& folder, const SceneConfig& config, bool overwrite) {
   make_folder(folder);
   const std::vector<std::string> names = list_folder(folder);
   if (is_simulation(folder)) {
+    if (!overwrite) {
+      throw FileError(folder.string(), "has an earlier simulation",
+                      "replace it with --overwrite, or choose a new folder with -o");
+    }
     remove_simulation(folder);
   } else if (!names.empty()) {
     throw FileError(folder.string(),

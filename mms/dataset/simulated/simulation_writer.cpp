@@ -36,9 +36,9 @@ Trajectory dense_poses(const SimulatedScene& scene, int frames, double rate) {
 }  // namespace
 
 SimulationWriter::SimulationWriter(const fs::path& folder, const SceneConfig& config,
-                                   const SensorPreset& sensor)
+                                   const SensorPreset& sensor, bool overwrite)
     : folder_(folder), lock_(folder) {
-  prepare_recording_folder(folder, config);
+  prepare_recording_folder(folder, config, overwrite);
   layout_ = layout_for(folder, config, sensor);
 }
 
@@ -66,7 +66,7 @@ void SimulationWriter::finish() {
 
 WrittenRecording write_simulation(SimulatedScene& scene, const fs::path& folder,
                                   const WriteOptions& options) {
-  SimulationWriter writer(folder, scene.config(), scene.sensor());
+  SimulationWriter writer(folder, scene.config(), scene.sensor(), options.overwrite);
   WrittenRecording written;
   bool go_on = true;
   while (go_on && written.frames < scene.size()) {

@@ -21,7 +21,7 @@ class SimulationWriter {
   /// @throws FileError if the folder cannot be written or contains other files
   /// (prepare_recording_folder).
   SimulationWriter(const std::filesystem::path& folder, const SceneConfig& config,
-                   const SensorPreset& sensor);
+                   const SensorPreset& sensor, bool overwrite);
 
   /// Writes a frame; stamps must increase.
   /// @throws FileError
@@ -49,6 +49,7 @@ class SimulationWriter {
 struct WriteOptions {
   double pose_rate = 200.0;      ///< of the poses in groundtruth_dense.txt [Hz]
   double static_spacing = 0.04;  ///< of the points in static_truth.ply [m]
+  bool overwrite = false;        ///< replaces an earlier simulation
   /// Called after every frame; returning false ends the recording.
   std::function<bool(int done, int total)> progress = {};
 };
