@@ -355,6 +355,21 @@ TEST_P(BagSources, ConvertsToBagAndBackWithoutLoss) {
   }
 }
 
+/// What a recorder that is killed leaves.
+TEST(FolderRecorder, HasFramesSoFarBeforeItsEnd) {
+  for (const std::string sensor : {"d435", "lidar16"}) {
+    const TempFolder folder;
+    const auto source = open_dataset("sim:crowd?frames=3&width=64&sensor=" + sensor);
+    const auto recorder = record_folder(folder.path() / sensor);
+    for (std::size_t count = 1; count < 3; ++count) {
+      recorder->add(*source->next());
+      const Playback played(open_dataset(folder.path() / sensor));
+      EXPECT_EQ(played.frames.size(), count) << sensor;
+      EXPECT_TRUE(played.warnings.empty()) << sensor << played.warnings.front();
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, BagSources, ::testing::Values("a.bag", "a.mcap"),
                          [](const auto& format) { return format.param.substr(2); });
 

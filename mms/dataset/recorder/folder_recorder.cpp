@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <ostream>
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/recorder/frame_recorder.hpp"
@@ -46,13 +49,40 @@ void append_samples(std::vector<Sample>& all, const std::vector<Sample>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-void add_line(std::string& list, Timestamp stamp, const std::string& file) {
-  list += stamp.to_string() + " " + file + "\n";
-}
+/// A list that grows by a line per frame, so that it is also there after kill -9.
+class GrowingList {
+ public:
+  explicit GrowingList(fs::path path) : path_(std::move(path)) {}
+
+  /// @throws FileError if it cannot be written.
+  void add(const std::string& line) {
+    if (!buffer_.is_open() && buffer_.open(path_, std::ios::out | std::ios::binary) == nullptr) {
+      fail(errno);
+    }
+    std::ostream stream(&buffer_);
+    stream << line << '\n' << std::flush;
+    if (!stream) fail(buffer_.error());
+  }
+
+ private:
+  [[noreturn]] void fail(int error_number) const {
+    throw FileError(path_.string(),
+                    std::string("cannot be written: ") + std::strerror(error_number),
+                    "check that the folder is writable and has space");
+  }
+
+  fs::path path_;
+  WrittenBuffer buffer_;
+};
 
 class FolderRecorder final : public FrameRecorder {
  public:
-  explicit FolderRecorder(const fs::path& folder) : folder_(folder), lock_(folder) {
+  explicit FolderRecorder(const fs::path& folder)
+      : folder_(folder),
+        lock_(folder),
+        color_list_(folder / "rgb.txt"),
+        depth_list_(folder / "depth.txt"),
+        times_(folder / "times.txt") {
     const auto names = list_folder(folder_);
     if (names.empty()) return;
     throw FileError(folder_.string(), "is not empty (it has " + names.front() + ")",
@@ -70,13 +100,7 @@ class FolderRecorder final : public FrameRecorder {
   void finish(const Trajectory& truth) override {
     if (!motion_.wheels.empty()) write_wheels(folder_ / "odometry.csv", motion_.wheels);
     if (!motion_.imu.empty()) write_imu(folder_ / "imu.csv", motion_.imu);
-    if (lidar_) {
-      write_file(folder_ / "times.txt", times_);
-      if (!truth.empty()) write_poses(truth);
-    } else {
-      write_file(folder_ / "rgb.txt", "# stamp file\n" + color_list_);
-      write_file(folder_ / "depth.txt", "# stamp file\n" + depth_list_);
-    }
+    if (lidar_ && !truth.empty()) write_poses(truth);
     if (!truth.empty()) write_trajectory_tum(folder_ / "groundtruth.txt", truth);
   }
 
@@ -86,6 +110,9 @@ class FolderRecorder final : public FrameRecorder {
     calibration_ = *frame.calibration;
     if (frame.has_depth()) calibration_.depth_scale = depth_scale_of(frame);
     write_calibration(folder_ / "calibration.yaml", calibration_);
+    if (lidar_) return;
+    color_list_.add("# stamp file");
+    depth_list_.add("# stamp file");
   }
 
   template <class Pixel>
@@ -101,8 +128,8 @@ class FolderRecorder final : public FrameRecorder {
     write_image("rgb/" + name, frame.color);
     write_image(depth_file, recorded_depth(frame.depth, calibration_.depth_scale));
     if (!frame.mask.empty()) write_image("masks/" + name, frame.mask);
-    add_line(color_list_, frame.stamp, "rgb/" + name);
-    add_line(depth_list_, depth_stamp, depth_file);
+    color_list_.add(frame.stamp.to_string() + " rgb/" + name);
+    depth_list_.add(depth_stamp.to_string() + " " + depth_file);
   }
 
   void add_scan(const Frame& frame) {
@@ -117,7 +144,7 @@ class FolderRecorder final : public FrameRecorder {
     }
     if (!frame.color.empty()) write_image("image_2/" + std::string(name) + ".png", frame.color);
     if (!frame.mask.empty()) write_image("masks/" + std::string(name) + ".png", frame.mask);
-    times_ += frame.stamp.to_string() + "\n";
+    times_.add(frame.stamp.to_string());
     stamps_.push_back(frame.stamp);
   }
 
@@ -141,9 +168,9 @@ class FolderRecorder final : public FrameRecorder {
   Calibration calibration_;
   bool lidar_ = false;
   std::size_t count_ = 0;
-  std::string color_list_;
-  std::string depth_list_;
-  std::string times_;
+  GrowingList color_list_;
+  GrowingList depth_list_;
+  GrowingList times_;
   std::vector<Timestamp> stamps_;
   MotionSamples motion_;
 };
