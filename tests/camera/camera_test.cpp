@@ -206,7 +206,35 @@ TEST_F(Camera, FaultsAreOneSentence) {
   expect_success(run({"--version"}));
 }
 
-class OniFile : public Camera {};
+class OniFile : public Camera {
+ protected:
+  /// The program tells of damage, or reads the rest, but does not crash as OpenNI2 does.
+  void expect_survival_of_damage(const std::string& whole) {
+    temp_.write("damaged.oni", "no recording, but of some length");
+    expect_error(run({"info", "damaged.oni"}), "damaged.oni: is not a recording of OpenNI");
+    const auto with = [&](const std::string& text, std::size_t offset, const std::string& bytes) {
+      std::string damaged = whole;
+      damaged.replace(whole.find(text) + offset, bytes.size(), bytes);
+      temp_.write("damaged.oni", damaged);
+      return run({"info", "damaged.oni"});
+    };
+    const std::string huge = "\xff\xff\xff\x7f";
+    const std::string record("NIR\0", 4);
+    expect_error(with("NI10", 20, huge), "at byte 20: has 2147483647 nodes");
+    expect_error(with(record, 0, "NONE"), "at byte 24: no record begins there");
+    expect_error(with(record, 8, huge), "at byte 24: a record of node 2147483647");
+    expect_error(with(record, 12, huge), "at byte 24: a record of 2147483647 and 0 bytes");
+    expect_error(with(record, 28, huge), "with 2147483647 bytes of data");
+    expect_error(with("xnFOV", 0, "\xff"), "a record with a damaged name");
+    // A record of another kind in place of the end of the properties.
+    std::string end = record + "\t";
+    end.resize(8);
+    expect_error(with(end, 4, "\a"), "the properties of a node have no end before it");
+    temp_.write("damaged.oni", whole.substr(0, whole.size() / 3));
+    const Outcome cut = run({"info", "damaged.oni"});
+    EXPECT_TRUE(cut.exit_code == 0 || cut.exit_code == 1) << cut.err;
+  }
+};
 
 TEST_F(OniFile, GivesPosesOfRecording) {
   const std::string recorder =
@@ -222,8 +250,7 @@ TEST_F(OniFile, GivesPosesOfRecording) {
   EXPECT_EQ(trajectory("played"), trajectory("recorded"));
   expect_success(run({"convert", "x.oni", "-o", "converted"}));
   EXPECT_EQ(open_dataset(temp_.path() / "converted")->size(), static_cast<std::size_t>(kFrames));
-  temp_.write("damaged.oni", "no recording");
-  expect_error(localize("damaged.oni", "live"), "damaged.oni: cannot be opened: ");
+  expect_survival_of_damage(read_file(temp_.path() / "x.oni"));
 }
 
 }  // namespace

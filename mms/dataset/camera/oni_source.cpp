@@ -4,6 +4,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/camera/camera_calibration.hpp"
+#include "mms/dataset/camera/oni_records.hpp"
 
 namespace mms {
 namespace {
@@ -105,6 +106,7 @@ std::unique_ptr<FrameSource> open_oni_recording(const std::filesystem::path& pat
     throw DataError(path.string(), "is a recording of OpenNI, which takes no masks",
                     "convert it to a folder with mms convert -o DIR");
   }
+  check_oni_records(path);
   return std::make_unique<OniSource>(path, options);
 }
 

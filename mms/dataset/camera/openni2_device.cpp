@@ -209,6 +209,7 @@ class OpenNi2Device final : public CameraDevice, private OpenNI::DeviceDisconnec
       throw DataError(what_, "cannot be read: " + openni_fault());
     }
     if (!image.isValid()) return Event::kNothing;
+    check_size(image, ready == 0 ? sizeof(Rgb) : sizeof(std::uint16_t));
     count(stream, image.getFrameIndex());
     const Timestamp stamp(static_cast<std::int64_t>(image.getTimestamp()) * 1000);
     ready == 0 ? frames.add_color(stamp, color_of(image))
@@ -316,6 +317,24 @@ class OpenNi2Device final : public CameraDevice, private OpenNI::DeviceDisconnec
       missed_ += static_cast<std::size_t>(lost);
     }
     stream.last = number;
+  }
+
+  /// Of a recording that is damaged, or of a faulty driver.
+  void check_size(const openni::VideoFrameRef& frame, std::size_t pixel) const {
+    const int width = frame.getWidth();
+    const int height = frame.getHeight();
+    const int row = frame.getStrideInBytes();
+    const auto fits = [](int part, std::size_t size, int whole) {
+      return part > 0 && whole > 0 &&
+             static_cast<std::size_t>(part) * size <= static_cast<std::size_t>(whole);
+    };
+    if (row > 0 && fits(width, pixel, row) &&
+        fits(height, static_cast<std::size_t>(row), frame.getDataSize())) {
+      return;
+    }
+    throw DataError(what_, "has an image of " + std::to_string(width) + "x" +
+                               std::to_string(height) + " pixels with " +
+                               std::to_string(frame.getDataSize()) + " bytes");
   }
 
   Image<Rgb> color_of(const openni::VideoFrameRef& frame) const {
