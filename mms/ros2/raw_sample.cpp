@@ -69,6 +69,7 @@ ddsi_serdata* from_vectors(const ddsi_sertype* type, ddsi_serdata_kind kind,
     std::memcpy(bytes->data.get() + done, vectors[i].iov_base, part);
     done += part;
   }
+  std::fill(bytes->data.get() + done, bytes->data.get() + size, std::byte{0});
   return bytes;
 }
 

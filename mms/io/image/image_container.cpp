@@ -239,20 +239,6 @@ const Container* container_of(Bytes bytes) {
   return found == std::end(kContainers) ? nullptr : found;
 }
 
-/// The largest number of pixels of an image.
-std::uint64_t pixel_limit() {
-  static const std::uint64_t limit = [] {
-    constexpr std::uint64_t kDefault = std::uint64_t{1} << 26U;
-    const char* given = std::getenv("MMS_MAX_IMAGE_PIXELS");
-    if (given == nullptr) return kDefault;
-    const auto number = parse_integer(given);
-    if (number && *number > 0) return static_cast<std::uint64_t>(*number);
-    throw ConfigError("MMS_MAX_IMAGE_PIXELS",
-                      "is '" + std::string(given) + "', allowed: 1 or more");
-  }();
-  return limit;
-}
-
 void check_size(const Size& size, const std::string& where) {
   constexpr std::uint64_t kLimit = kMaxImageSide;
   const std::string pixels =
@@ -272,6 +258,19 @@ void check_size(const Size& size, const std::string& where) {
 }
 
 }  // namespace
+
+std::uint64_t pixel_limit() {
+  static const std::uint64_t limit = [] {
+    constexpr std::uint64_t kDefault = std::uint64_t{1} << 26U;
+    const char* given = std::getenv("MMS_MAX_IMAGE_PIXELS");
+    if (given == nullptr) return kDefault;
+    const auto number = parse_integer(given);
+    if (number && *number > 0) return static_cast<std::uint64_t>(*number);
+    throw ConfigError("MMS_MAX_IMAGE_PIXELS",
+                      "is '" + std::string(given) + "', allowed: 1 or more");
+  }();
+  return limit;
+}
 
 void check_whole_image(std::string_view bytes, const std::string& where) {
   if (bytes.empty()) throw DataError(where, "is empty, expected an image");

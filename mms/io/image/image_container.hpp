@@ -1,9 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace mms {
+
+/// The largest number of pixels of an image: 2^26, or that of the environment variable
+/// MMS_MAX_IMAGE_PIXELS. @throws ConfigError if it is no number above 0.
+std::uint64_t pixel_limit();
 
 /// Checks that the bytes are an image file: PNG, JPEG, BMP, WebP, TIFF, EXR or PFM, and except for
 /// TIFF and EXR that it is complete. Decoders fill missing parts of truncated files with gray and

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mms/core/error.hpp"
+#include "mms/io/image/image_container.hpp"
 #include "mms/io/video/libav_pointer.hpp"
 
 namespace mms {
@@ -79,6 +80,7 @@ class VideoReader::Impl {
     const AVCodecParameters& parameters = *format_->streams[stream_]->codecpar;
     codec_.reset(avcodec_alloc_context3(decoder));
     int code = avcodec_parameters_to_context(codec_.get(), &parameters);
+    check_pixels();
     if (code >= 0) code = avcodec_open2(codec_.get(), decoder, nullptr);
     if (code < 0) throw DataError(path_, "cannot be decoded: " + error_text(code));
     if (codec_->width < 1 || codec_->height < 1 || codec_->width > kMaxImageSide ||
@@ -87,6 +89,18 @@ class VideoReader::Impl {
                                  std::to_string(codec_->height) + " pixels, allowed are 1 to " +
                                  std::to_string(kMaxImageSide));
     }
+  }
+
+  /// Also of images whose size changes later, which then cannot be decoded.
+  void check_pixels() {
+    const auto limit = static_cast<std::int64_t>(pixel_limit());
+    codec_->max_pixels = limit;
+    if (std::int64_t{codec_->width} * codec_->height <= limit) return;
+    throw DataError(path_,
+                    "has images of " + std::to_string(codec_->width) + "x" +
+                        std::to_string(codec_->height) + " pixels, allowed: up to " +
+                        std::to_string(limit) + " pixels",
+                    "the environment variable MMS_MAX_IMAGE_PIXELS sets the limit");
   }
 
   void read_times() {
