@@ -13,6 +13,7 @@
 #include "mms/io/journal/journal.hpp"
 #include "mms/io/journal/journal_reader.hpp"
 #include "mms/io/journal/journal_record.hpp"
+#include "mms/io/motion/motion_io.hpp"
 #include "mms/io/results/objects_io.hpp"
 #include "mms/io/results/occupancy_grid_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
@@ -52,9 +53,14 @@ void read_ply_bytes(std::string_view bytes) {
 
 Seeds pcd_seeds() {
   const std::string head = "VERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F F\n";
-  return {
-      bytes_of("a.pcd", [](const auto& path) { write_pcd(path, two_points()); }),
-      head + "COUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n1 2 3 4e-39\nnan 1 1 0\n"};
+  // 24 bytes as literals, then 36 as four literals and their repetition.
+  const std::string compressed = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS ";
+  return {bytes_of("a.pcd", [](const auto& path) { write_pcd(path, two_points()); }),
+          head + "COUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n1 2 3 4e-39\nnan 1 1 0\n",
+          compressed + "2\nDATA binary_compressed\n" + raw("\x19\0\0\0\x18\0\0\0\x17") +
+              std::string(24, '\x3f'),
+          compressed + "3\nDATA binary_compressed\n" +
+              raw("\x08\0\0\0\x24\0\0\0\3\0\0\x80\x3f\xe0\x17\3")};
 }
 
 void read_pcd_bytes(std::string_view bytes) {
@@ -83,6 +89,32 @@ void read_trajectory_bytes(std::string_view bytes) {
 
 Seeds times_seeds() {
   return {bytes_of("times.bin", [](const auto& path) { write_point_times(path, {0.0F, 0.1F}); })};
+}
+
+Seeds motion_seeds() {
+  return {bytes_of("wheels.csv",
+                   [](const auto& path) {
+                     write_wheels(path, std::vector<WheelSample>{{Timestamp(1'000'000'000), {}},
+                                                                 {Timestamp(1'100'000'000), {}}});
+                   }),
+          bytes_of("imu.csv",
+                   [](const auto& path) {
+                     write_imu(path,
+                               std::vector<ImuSample>{
+                                   {Timestamp(1'000'000'000), {0.1, 0.2, 0.3}, {0.0, 0.0, 9.81}}});
+                   }),
+          "# stamp x y yaw\n1.0,0.5,0.25,3.1\n1.1,0.5,0.25,-3.1\n"};
+}
+
+void read_motion_bytes(std::string_view bytes) {
+  const auto file = as_file(bytes, "motion.csv");
+  MotionSamples samples;
+  try {
+    samples.wheels = read_wheels(file);
+  } catch (const Error&) {  // may still be a gyroscope's
+  }
+  if (samples.wheels.empty()) samples.imu = read_imu(file);
+  faults_of(samples, "input");
 }
 
 void read_times_bytes(std::string_view bytes) {
@@ -254,12 +286,6 @@ std::string text_of(const std::vector<std::uint8_t>& bytes) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// A literal with zero bytes.
-template <std::size_t n>
-std::string raw(const char (&text)[n]) {
-  return {text, n - 1};
-}
-
 Seeds image_seeds() {
   Image<Rgb> color(5, 4, Rgb{10, 20, 30});
   std::string bmp(
@@ -335,6 +361,7 @@ std::vector<FuzzTarget> file_targets() {
           {"pcd", pcd_seeds, read_pcd_bytes},
           {"trajectory", trajectory_seeds, read_trajectory_bytes},
           {"point_times", times_seeds, read_times_bytes},
+          {"motion", motion_seeds, read_motion_bytes},
           {"settings", settings_seeds, read_settings_bytes},
           {"calibration", calibration_seeds, read_calibration_bytes},
           {"posed_cameras", posed_camera_seeds, read_posed_camera_bytes},

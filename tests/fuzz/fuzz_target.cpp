@@ -85,7 +85,8 @@ void damage(std::string& bytes, const std::string& other, Random& random) {
 
 std::vector<FuzzTarget> fuzz_targets() {
   std::vector<FuzzTarget> all = file_targets();
-  for (const auto& more : {map_targets(), recording_targets(), network_targets()}) {
+  for (const auto& more :
+       {map_targets(), result_targets(), recording_targets(), network_targets()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -16,15 +17,22 @@ struct FuzzTarget {
   void (*read)(std::string_view bytes);
 };
 
-/// Readers of files and texts, of map files, of recordings, and of the network and the viewer's
-/// server.
+/// Readers of files and texts, of map files, of result folders, of recordings, and of the network
+/// and the viewer's server.
 std::vector<FuzzTarget> file_targets();
 std::vector<FuzzTarget> map_targets();
+std::vector<FuzzTarget> result_targets();
 std::vector<FuzzTarget> recording_targets();
 std::vector<FuzzTarget> network_targets();
 
 /// All of them.
 std::vector<FuzzTarget> fuzz_targets();
+
+/// A literal with zero bytes.
+template <std::size_t n>
+std::string raw(const char (&text)[n]) {
+  return {text, n - 1};
+}
 
 /// A folder for the files of this process, removed at its end.
 const std::filesystem::path& fuzz_folder();

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/camera/oni_records.hpp"
 #include "mms/dataset/lidar/kitti_calibration.hpp"
 #include "mms/dataset/lidar/scan_format.hpp"
 #include "mms/dataset/open_dataset.hpp"
@@ -10,6 +11,7 @@
 #include "mms/io/capture/velodyne_calibration.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/atomic_file.hpp"
+#include "mms/io/video/video_reader.hpp"
 #include "mms/ros/bag/bag_files.hpp"
 #include "mms/ros/bag/bag_reader.hpp"
 #include "mms/ros/camera_messages.hpp"
@@ -19,6 +21,7 @@
 #include "mms/ros/rvl.hpp"
 #include "mms/ros/transform_tree.hpp"
 #include "tests/dataset/capture_file.hpp"
+#include "tests/dataset/video_file.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/ros/sample_bags.hpp"
 
@@ -140,6 +143,14 @@ Seeds message_seeds() {
   msg::PoseStamped pose;
   pose.header = header;
   add_seeds(seeds, pose);
+  msg::Odometry odometry;
+  odometry.header = header;
+  odometry.child_frame_id = "base";
+  add_seeds(seeds, odometry);
+  msg::Imu imu;
+  imu.header = header;
+  imu.angular_velocity = {0.1, 0.2, 0.3};
+  add_seeds(seeds, imu);
   Segmentation masks;
   masks.width = 8;
   masks.height = 6;
@@ -182,6 +193,9 @@ void read_message_bytes(std::string_view bytes) {
     });
     try_message<msg::PoseStamped>(bytes, format,
                                   [](const auto& message) { isometry_of(message.pose); });
+    try_message<msg::Odometry>(bytes, format,
+                               [](const auto& message) { isometry_of(message.pose); });
+    try_message<msg::Imu>(bytes, format, [](const auto&) {});
     try_message<msg::Masks>(bytes, format,
                             [](const auto& message) { segmentation_of(message, 8, 6, "input"); });
   }
@@ -219,6 +233,60 @@ void read_capture_bytes(std::string_view bytes) {
   const auto source = open_dataset(as_file(bytes, "in.pcap"));
   source->on_warning([](const std::string&) {});
   while (source->next()) {
+  }
+}
+
+/// A recording of OpenNI2 with one node, a property and an image.
+Seeds oni_seeds() {
+  std::string file = "NI10";
+  for (const std::uint32_t number : {0x0001'0001U, 0U, 100U, 0U, 1U}) put(file, number);
+  const auto add = [&](std::uint32_t type, const std::string& fields, const std::string& payload) {
+    constexpr std::size_t kHeader = 28;
+    file += raw("NIR\0");
+    put(file, type);
+    put<std::uint32_t>(file, 1);
+    put(file, static_cast<std::uint32_t>(kHeader + fields.size()));
+    put(file, static_cast<std::uint32_t>(payload.size()));
+    put<std::uint64_t>(file, 0);
+    file += fields + payload;
+  };
+  add(0xD, raw("\6\0\0\0Image\0\3\0\0\0NONE\1\0\0\0") + std::string(24, '\0'), "");
+  add(0x3, raw("\6\0\0\0xnFPS\0\x08\0\0\0\x1e\0\0\0\0\0\0\0"), "");
+  add(0x5, raw("\3\0\0\0ab\0\2\0\0\0c\0"), "");
+  add(0x9, "", "");
+  add(0x8, std::string(12, '\0'), "");
+  add(0xA, std::string(12, '\1'), std::string(48, '\x40'));
+  add(0xB, "", "");
+  return {file};
+}
+
+void read_oni_bytes(std::string_view bytes) {
+  check_oni_records(as_file(bytes, "in.oni"));
+}
+
+Seeds video_seeds() {
+  const std::vector<Image<Rgb>> images(3, Image<Rgb>(16, 16, Rgb{10, 200, 30}));
+  const std::vector<Duration> times = {Duration(0), Duration(40'000'000), Duration(80'000'000)};
+  Seeds seeds;
+  const auto add = [&](const std::string& name, VideoCodec codec) {
+    seeds.push_back(
+        bytes_of(name, [&](const auto& path) { write_video(path, images, times, codec); }));
+  };
+  add("a.mkv", VideoCodec::kLossless);
+  add("a.mp4", VideoCodec::kPredicted);
+  add("a.avi", VideoCodec::kPredicted);
+  return seeds;
+}
+
+/// The first image, a later one, and one before it.
+void read_video_bytes(std::string_view bytes) {
+  VideoReader video(as_file(bytes, "in.mp4"));
+  const std::size_t last = video.times().size() - 1;
+  for (const std::size_t index : {std::size_t{0}, last, last / 2}) {
+    try {
+      video.read(index);
+    } catch (const Error&) {  // another may still be whole
+    }
   }
 }
 
@@ -314,8 +382,10 @@ std::vector<FuzzTarget> recording_targets() {
       {"velodyne_calibration", velodyne_seeds, read_velodyne_bytes},
       {"scan", scan_seeds, read_scan_bytes},
       {"image_list", list_seeds, read_list_bytes},
+      {"oni_records", oni_seeds, read_oni_bytes},
       {"kitti_calibration", kitti_calibration_seeds, read_kitti_calibration_bytes}};
   if (MMS_WITH_LIBPCAP) targets.push_back({"capture", capture_seeds, read_capture_bytes});
+  if (kHasVideo) targets.push_back({"video", video_seeds, read_video_bytes});
   return targets;
 }
 
