@@ -3,6 +3,7 @@
 //   MMS_FAIL_AT=N               the first call that fails, from 1
 //   MMS_FAIL_COUNT=N            how many fail (default: all from there on)
 //   MMS_FAIL_ERRNO=N            the error (default: ENOSPC)
+//   MMS_FAIL_FILE=TEXT          only writes to files with this in their path (default: to all)
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -16,6 +17,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 
 namespace {
 
@@ -42,9 +44,15 @@ int error() {
   return static_cast<int>(number("MMS_FAIL_ERRNO", ENOSPC));
 }
 
-bool is_regular(int descriptor) {
+/// Whether the descriptor is that of a regular file whose writes are to fail.
+bool is_meant(int descriptor) {
   struct stat status {};
-  return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return false;
+  const char* part = std::getenv("MMS_FAIL_FILE");
+  if (part == nullptr) return true;
+  char path[4096] = {};
+  const std::string link = "/proc/self/fd/" + std::to_string(descriptor);
+  return readlink(link.c_str(), path, sizeof path - 1) > 0 && std::strstr(path, part) != nullptr;
 }
 
 template <class Function>
@@ -70,6 +78,16 @@ std::FILE* fopen_with(const char* name, const char* path, const char* mode) {
   return next<std::FILE* (*)(const char*, const char*)>(name)(path, mode);
 }
 
+/// SQLite's writes.
+ssize_t write_at(const char* name, int descriptor, const void* bytes, size_t size, off64_t at) {
+  const auto real = next<ssize_t (*)(int, const void*, size_t, off64_t)>(name);
+  if (is_meant(descriptor)) {
+    if (fails("write")) return errno = error(), -1;
+    if (size > 1 && fails("short")) return real(descriptor, bytes, 1, at);
+  }
+  return real(descriptor, bytes, size, at);
+}
+
 mode_t mode_of(int flags, va_list arguments) {
   return (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
 }
@@ -80,7 +98,7 @@ extern "C" {
 
 ssize_t write(int descriptor, const void* bytes, size_t size) {
   const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
-  if (is_regular(descriptor)) {
+  if (is_meant(descriptor)) {
     if (fails("write")) return errno = error(), -1;
     if (size > 1 && fails("short")) return real(descriptor, bytes, 1);
   }
@@ -88,7 +106,7 @@ ssize_t write(int descriptor, const void* bytes, size_t size) {
 }
 
 ssize_t writev(int descriptor, const iovec* parts, int count) {
-  if (is_regular(descriptor)) {
+  if (is_meant(descriptor)) {
     if (fails("write")) return errno = error(), -1;
     int first = 0;
     while (first < count && parts[first].iov_len == 0) ++first;
@@ -98,6 +116,14 @@ ssize_t writev(int descriptor, const iovec* parts, int count) {
     }
   }
   return next<ssize_t (*)(int, const iovec*, int)>("writev")(descriptor, parts, count);
+}
+
+ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t at) {
+  return write_at("pwrite", descriptor, bytes, size, at);
+}
+
+ssize_t pwrite64(int descriptor, const void* bytes, size_t size, off64_t at) {
+  return write_at("pwrite64", descriptor, bytes, size, at);
 }
 
 int open(const char* path, int flags, ...) {
