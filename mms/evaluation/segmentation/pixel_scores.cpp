@@ -17,8 +17,8 @@ constexpr double kTall = 1.0 / 3.0;
 constexpr double kMedium = 1.0 / 8.0;
 
 constexpr std::array<const char*, kHeightClassCount> kKeys = {"tall", "medium", "small"};
-constexpr std::array<const char*, kHeightClassCount> kNames = {"above 1/3", "1/8 to 1/3",
-                                                               "below 1/8"};
+constexpr std::array<const char*, kHeightClassCount> kHeightNames = {"above 1/3", "1/8 to 1/3",
+                                                                     "below 1/8"};
 
 std::size_t height_class(const Rle& mask) {
   const double height = rle_box(mask)[3] / mask.height;
@@ -162,7 +162,7 @@ PixelScores pixel_scores(const CocoDataset& truth, const std::vector<CocoResult>
 std::string to_table(const PixelScores& scores) {
   std::string table = row("height", "objects", "recall", "precision");
   for (std::size_t k = 0; k < kHeightClassCount; ++k) {
-    table += row(kNames[k], scores.by_height[k]);
+    table += row(kHeightNames[k], scores.by_height[k]);
   }
   return table + row("all", scores.all);
 }
