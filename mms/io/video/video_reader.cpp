@@ -147,6 +147,7 @@ class VideoReader::Impl {
 
   /// @returns false at the end
   bool decode_next() {
+    current_.reset();  // the frame is emptied also where none follows
     while (true) {
       const int code = avcodec_receive_frame(codec_.get(), frame_.get());
       if (code >= 0) {
@@ -170,6 +171,7 @@ class VideoReader::Impl {
   }
 
   Image<Rgb> to_rgb(std::size_t index) {
+    if (frame_->width < 1 || frame_->height < 1) fail(index);
     const auto format = static_cast<AVPixelFormat>(frame_->format);
     Image<Rgb> image(frame_->width, frame_->height);
     scaler_.reset(sws_getCachedContext(scaler_.release(), image.width(), image.height(), format,
