@@ -1,8 +1,8 @@
 #include "mms/io/cloud/kitti_io.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <string>
 
 #include "mms/core/error.hpp"
@@ -43,7 +43,7 @@ std::vector<float> read_point_times(const std::filesystem::path& path) {
                     "a time is a float32 in seconds; the file may be truncated");
   }
   std::vector<float> times(bytes.size() / sizeof(float));
-  std::memcpy(times.data(), bytes.data(), bytes.size());
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(times.data()));
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (std::isfinite(times[i])) continue;
     throw DataError(path.string(), "the time of point " + std::to_string(i) + " is not finite");
