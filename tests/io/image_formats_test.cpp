@@ -142,6 +142,11 @@ TEST(ImageFormats, RejectsHugeSizesBeforeDecoding) {
   expect_in("is 65536x4 pixels, allowed: up to 16384x16384", message_of<DataError>([&] {
               read_stored_depth(folder.write("a.exr", changed(exr, right, {"\xFF\xFF\0\0", 4})));
             }));
+  // OpenEXR would allocate the size of an attribute.
+  expect_in(
+      "is a truncated EXR", message_of<DataError>([&] {
+        read_stored_depth(folder.write("a.exr", changed(exr, right - 12, {"\xFF\xFF\xFF\x7F", 4})));
+      }));
 }
 
 TEST(ImageFormats, RejectsTooManyPixelsBeforeDecoding) {

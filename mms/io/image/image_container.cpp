@@ -181,30 +181,62 @@ bool pfm_is_whole(Bytes bytes) {
 
 /// Iterates over the attributes (name, type, size, value) of the header up to dataWindow, which has
 /// xMin, yMin, xMax, yMax as int32.
+/// An attribute in the header of an EXR file.
+struct ExrAttribute {
+  Bytes name;
+  Bytes value;
+  std::size_t end;  ///< where the next one begins
+};
+
+/// nullopt where it goes on behind the end of the file.
+std::optional<ExrAttribute> exr_attribute(Bytes bytes, std::size_t at) {
+  const std::size_t name_end = bytes.find('\0', at);
+  const std::size_t type_end = name_end == Bytes::npos ? name_end : bytes.find('\0', name_end + 1);
+  if (type_end == Bytes::npos || type_end + 5 > bytes.size()) return std::nullopt;
+  const std::size_t value = type_end + 5;
+  const std::uint64_t length = little_endian(bytes, type_end + 1, 4);
+  if (length > bytes.size() - value) return std::nullopt;
+  return ExrAttribute{bytes.substr(at, name_end - at), bytes.substr(value, length), value + length};
+}
+
+constexpr std::size_t kExrAttributes = 8;  // after signature and version
+
 std::optional<Size> exr_size(Bytes bytes) {
-  std::size_t at = 8;  // after signature and version
+  std::size_t at = kExrAttributes;
   while (at < bytes.size() && bytes[at] != '\0') {
-    const std::size_t name_end = bytes.find('\0', at);
-    const std::size_t type_end =
-        name_end == Bytes::npos ? name_end : bytes.find('\0', name_end + 1);
-    if (type_end == Bytes::npos || type_end + 5 > bytes.size()) return std::nullopt;
-    const std::size_t value = type_end + 5;
-    const std::uint64_t length = little_endian(bytes, type_end + 1, 4);
-    if (length > bytes.size() - value) return std::nullopt;
-    if (bytes.substr(at, name_end - at) == "dataWindow" && length == 16) {
+    const auto attribute = exr_attribute(bytes, at);
+    if (!attribute) return std::nullopt;
+    if (attribute->name == "dataWindow" && attribute->value.size() == 16) {
       const auto side = [&](std::size_t low) {
         const auto number = [&](std::size_t k) {
           return static_cast<std::int64_t>(
-              static_cast<std::int32_t>(little_endian(bytes, value + k, 4)));
+              static_cast<std::int32_t>(little_endian(attribute->value, k, 4)));
         };
         return static_cast<std::uint64_t>(
             std::max<std::int64_t>(0, number(low + 8) - number(low) + 1));
       };
       return Size{side(0), side(4), 4 * sizeof(float)};
     }
-    at = value + length;
+    at = attribute->end;
   }
   return std::nullopt;
+}
+
+/// Whether the headers, several in files of several parts, have what they say: OpenEXR allocates
+/// before it reads.
+bool exr_is_whole(Bytes bytes) {
+  std::size_t at = kExrAttributes;
+  while (at < bytes.size()) {
+    if (bytes[at] == '\0') {
+      const bool parts = (bytes[5] & 0x10) != 0;
+      ++at;
+      if (!parts || at >= bytes.size() || bytes[at] == '\0') return true;
+    }
+    const auto attribute = exr_attribute(bytes, at);
+    if (!attribute) return false;
+    at = attribute->end;
+  }
+  return at <= bytes.size();
 }
 
 bool is_whole(Bytes) {
@@ -223,7 +255,7 @@ constexpr Container kContainers[] = {{"PNG", kPngSignature, png_is_whole, png_si
                                      {"TIFF", Bytes("II*\0", 4), is_whole, tiff_size},
                                      {"TIFF", Bytes("MM\0*", 4), is_whole, tiff_size},
                                      {"BMP", "BM", bmp_is_whole, bmp_size},
-                                     {"EXR", "\x76\x2F\x31\x01", is_whole, exr_size},
+                                     {"EXR", "\x76\x2F\x31\x01", exr_is_whole, exr_size},
                                      {"PFM", "Pf\n", pfm_is_whole, pfm_size},
                                      {"PFM", "PF\n", pfm_is_whole, pfm_size},
                                      {"WebP", "RIFF", webp_is_whole, webp_size}};
