@@ -25,7 +25,7 @@ for ((seed = 1; per_seed * (seed - 1) < cases; ++seed)); do
   quietly "$mms" run "$out/rec" --segmenter masks -o "$out/run"
   read -r all fast late wrong times < <("$errors" "$out/rec" "$out/run" "$dark_from" "$dark_for" "$light_for")
   other="sim:warehouse_loop?seed=$((1000 + seed))&companions=3&frames=900"
-  away_found="$("$relocalize" "$out/rec" "$first" "$other" 45 "$away" || true)"
+  away_found="$("$relocalize" "$out/rec" "$first" "$other" 45 "$away" 2> /dev/null || true)"
   echo "| $seed | $all | $fast | $late | $wrong | $times | $away_found |"
   rm -rf "$out/rec" "$out/run"
 done

@@ -39,6 +39,10 @@ constexpr double kLostFactor = 1.5;
 /// geometry confirmed wrong poses with at most one pair.
 constexpr double kConfirmFactor = 0.5;
 
+/// [rad]: largest change of the pose of a lost frame by the registration. Source: of 57 accepted
+/// views 53 changed by less than 1 degree; two of 3 degrees and more were wrong or uncertain.
+constexpr double kMaxLostTurn = 2.0 * std::numbers::pi / 180.0;
+
 /// [-]: overlap of a lost frame. Source: people who cover half of the view leave 0.15 to 0.2.
 constexpr double kMinLostOverlap = 0.15;
 
@@ -212,6 +216,8 @@ Loop LoopVerifier::verify_lost(const std::deque<KeyframeRecord>& records,
   loop.T_candidate_query = poses[loop.candidate].inverse() * pose;
   check_lost(records, poses, query, std::min(config_.min_overlap, kMinLostOverlap), min_pairs,
              loop);
+  const double turn = se3::angle(pose.inverse() * poses[loop.candidate] * loop.T_candidate_query);
+  if (turn > kMaxLostTurn) loop.outcome = LoopOutcome::kNotRegistered;
   return loop;
 }
 
