@@ -17,7 +17,7 @@ constexpr double kRelativeError = 0.004;
 constexpr double kLeastError = 0.01;
 
 /// [-]: largest distance of descriptors of one point whose position is known. Source: in 700 views
-/// of two warehouses, wrong places had at most five pairs up to 40, right ones 57 in the median.
+/// of two warehouses, right places had 55 pairs up to 40 in the median, wrong ones 10.
 constexpr int kMaxBits = 40;
 
 /// [-]: standard deviations of the distance of a pair, at most. Source: three-sigma rule.

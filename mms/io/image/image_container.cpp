@@ -179,9 +179,7 @@ bool pfm_is_whole(Bytes bytes) {
   return bytes.size() - header->second >= width * height * pixel;
 }
 
-/// Iterates over the attributes (name, type, size, value) of the header up to dataWindow, which has
-/// xMin, yMin, xMax, yMax as int32.
-/// An attribute in the header of an EXR file.
+/// An attribute in the header of an EXR file: name, type, size and value.
 struct ExrAttribute {
   Bytes name;
   Bytes value;
@@ -201,6 +199,7 @@ std::optional<ExrAttribute> exr_attribute(Bytes bytes, std::size_t at) {
 
 constexpr std::size_t kExrAttributes = 8;  // after signature and version
 
+/// Of the attribute dataWindow, which has xMin, yMin, xMax, yMax as int32.
 std::optional<Size> exr_size(Bytes bytes) {
   std::size_t at = kExrAttributes;
   while (at < bytes.size() && bytes[at] != '\0') {
