@@ -215,6 +215,30 @@ TEST(Relocalization, HalfOfTheViewGivesThePose) {
   EXPECT_GE(found, 9);  // of twelve
 }
 
+/// A frame of which the odometry has the pose, in doubt.
+GlobalKeyframe in_doubt(int i, double seconds) {
+  GlobalKeyframe frame = views()[static_cast<std::size_t>(i)];
+  frame.cloud.stamp = Timestamp::from_seconds(seconds);
+  frame.has_pose = true;
+  return frame;
+}
+
+TEST(Relocalization, GeometryConfirmsAPoseOnlyWithoutTexture) {
+  Visit visit;
+  for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());
+  const Image<Rgb> other = views_of(2)[7].color;
+  for (int k = 0; k < 10; ++k) {
+    GlobalKeyframe frame = in_doubt(7, 100.0 + 0.1 * k);
+    frame.color = other;
+    EXPECT_FALSE(visit.map.relocalize(frame));
+  }
+  for (int k = 0; k < 6; ++k) {
+    GlobalKeyframe frame = in_doubt(7, 110.0 + 0.1 * k);
+    frame.color = Image<Rgb>(frame.color.width(), frame.color.height(), Rgb{});
+    EXPECT_EQ(visit.map.relocalize(frame).has_value(), k == 5);
+  }
+}
+
 TEST(Relocalization, PlacesThatNoSensorMovesBetweenGiveNoPose) {
   Visit visit;
   for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());
