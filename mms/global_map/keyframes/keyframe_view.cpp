@@ -25,6 +25,10 @@ constexpr float kMaxDepth = 65535.0F;
 /// compared. Source: a surface at 76 degrees, across two pixels of 80.
 constexpr float kMaxSlope = 0.1F;
 
+/// [-]: static points per point that counts for the overlap, at most; people may hide the others.
+/// Source: a view that they cover by more than three quarters identifies no place.
+constexpr std::size_t kMaxHiddenFactor = 4;
+
 /// [px]: bound on coordinates of pixels. Source: far beyond every view.
 constexpr double kMaxPixel = 1e6;
 
@@ -110,6 +114,7 @@ ViewAgreement compare_views(const KeyframeView& a, const KeyframeView& b,
   const Eigen::Isometry3f T = T_a_b.cast<float>();
   const LabeledCloud points = b.cloud();
   std::size_t all = 0;
+  std::size_t hidden = 0;
   std::size_t on_surface = 0;
   std::size_t in_free_space = 0;
   for (int y = 0; y < points.height; ++y) {
@@ -118,14 +123,18 @@ ViewAgreement compare_views(const KeyframeView& a, const KeyframeView& b,
       const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(points.width) +
                      static_cast<std::size_t>(x);
       const Eigen::Vector3f point = T * points.points[i];
-      if (is_hidden(a, camera, point)) continue;
       ++all;
+      if (is_hidden(a, camera, point)) {
+        ++hidden;
+        continue;
+      }
       const SpaceState state = space.state_at(point);
       on_surface += state == SpaceState::kSurface;
       in_free_space += state == SpaceState::kFree;
     }
   }
-  return agreement_of(all, on_surface, in_free_space);
+  const std::size_t compared = std::max(all - hidden, all / kMaxHiddenFactor);
+  return agreement_of(compared, on_surface, in_free_space);
 }
 
 }  // namespace mms
