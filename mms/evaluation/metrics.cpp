@@ -51,6 +51,11 @@ Json loops_json(const LoopMetrics& metrics) {
                  {"checked", metrics.checked},
                  {"closed", metrics.closed},
                  {"relocalized", metrics.relocalized}};
+  if (metrics.sessions) {
+    object["sessions"] = {{"begun", metrics.sessions->begun},
+                          {"in_map", metrics.sessions->in_map},
+                          {"frames_outside", metrics.sessions->frames_outside}};
+  }
   if (metrics.earlier_map) {
     const EarlierMapMetrics& map = *metrics.earlier_map;
     object["earlier_map"] = {{"sessions", map.sessions},
@@ -117,6 +122,11 @@ MetricSection loops_section(const RunMetrics& metrics) {
   if (!metrics.loops) return section;
   if (metrics.loops->relocalized > 0) {
     add(section, {count("relocalized after lost frames", metrics.loops->relocalized)});
+  }
+  if (metrics.loops->sessions) {
+    add(section, {count("sessions, since the sensor was lost", metrics.loops->sessions->begun),
+                  count("sessions in the map", metrics.loops->sessions->in_map),
+                  count("frames outside the map", metrics.loops->sessions->frames_outside)});
   }
   if (metrics.loops->earlier_map && metrics.loops->earlier_map->localized_s) {
     add(section,

@@ -45,12 +45,20 @@ struct EarlierMapMetrics {
   std::optional<double> localized_s;  ///< stamp of the first one, from the first frame [s]
 };
 
+/// Sessions of a run. Another one begins where the sensor is lost for seconds.
+struct SessionMetrics {
+  std::int64_t begun = 0;
+  std::int64_t in_map = 0;          ///< those whose place in the map is known at the end
+  std::int64_t frames_outside = 0;  ///< frames whose place in it is not known
+};
+
 /// Loop closure of a run.
 struct LoopMetrics {
   std::int64_t keyframes = 0;                    ///< of the global map
   std::int64_t checked = 0;                      ///< possible loops
   std::int64_t closed = 0;                       ///< accepted loops
   std::int64_t relocalized = 0;                  ///< lost frames whose place was recognized
+  std::optional<SessionMetrics> sessions;        ///< with more than one
   std::optional<EarlierMapMetrics> earlier_map;  ///< with a map file
   std::optional<TrajectoryError> trajectory;     ///< of the corrected poses; with ground truth
 };

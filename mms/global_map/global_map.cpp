@@ -98,10 +98,15 @@ void GlobalMap::restore(GlobalMapContent content, MapUse use) {
   }
   graph_.restore(std::move(content.poses), std::move(content.loops));
   if (use == MapUse::kLocalizeOnly) graph_.fix();
+  earlier_sessions_ = session();
 }
 
 std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
   KeyframeRecord record = record_of(keyframe);
+  if (run_sessions_.empty() || run_sessions_.back() != keyframe.session) {
+    run_sessions_.push_back(keyframe.session);
+    record.session = earlier_sessions_ + static_cast<std::uint32_t>(run_sessions_.size()) - 1U;
+  }
   if (!keyframe.cloud.organised()) describe_scan(keyframe, record);
   return add(std::move(record));
 }
@@ -197,7 +202,7 @@ std::vector<Eigen::Isometry3d> GlobalMap::poses_in_world() const {
 }
 
 std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame) {
-  if (records_.empty() || records_.back().session != session()) {
+  if (run_sessions_.empty() || run_sessions_.back() != frame.session) {
     relocalizer_.reset();
     return std::nullopt;
   }
@@ -225,6 +230,12 @@ std::optional<Transform<Global, World>> GlobalMap::last_correction() const {
   if (!has_loops(records_, graph_.loops(), session())) return none;
   return Transform<Global, World>(graph_.poses().back() *
                                   records_.back().T_world_sensor.isometry().inverse());
+}
+
+std::optional<std::uint32_t> GlobalMap::session_of_run(std::uint32_t session) const {
+  const auto found = std::lower_bound(run_sessions_.begin(), run_sessions_.end(), session);
+  if (found == run_sessions_.end() || *found != session) return std::nullopt;
+  return earlier_sessions_ + static_cast<std::uint32_t>(found - run_sessions_.begin());
 }
 
 PoseCorrection GlobalMap::correction(std::uint32_t session) const {

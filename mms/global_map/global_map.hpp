@@ -45,8 +45,9 @@ struct GlobalKeyframe {
   Image<Rgb> color;    ///< image of the frame; may be empty
   LabeledCloud cloud;  ///< a scan is as if all its points were measured at its stamp
   Transform<World, Sensor> T_world_sensor;  ///< by odometry
-  bool after_lost = false;  ///< whether the sensor was lost since the keyframe before
-  bool has_pose = false;    ///< of a lost sensor: whether the odometry found a pose, in doubt
+  bool after_lost = false;    ///< whether the sensor was lost since the keyframe before
+  bool has_pose = false;      ///< of a lost sensor: whether the odometry found a pose, in doubt
+  std::uint32_t session = 0;  ///< of the run; its world is that of the odometry since it began
 };
 
 /// Content of a global map, for map files. Sessions are numbered from 0 in the order of the
@@ -85,7 +86,8 @@ class GlobalMap {
   /// the first loops to earlier ones give its place.
   void restore(GlobalMapContent content, MapUse use);
 
-  /// Adds the next keyframe and checks loops to earlier ones.
+  /// Adds the next keyframe and checks loops to earlier ones. That of another session of the run
+  /// begins a new one here.
   /// @returns the loops accepted with it
   std::vector<Loop> add(const GlobalKeyframe& keyframe);
 
@@ -100,9 +102,9 @@ class GlobalMap {
   /// @returns nothing if it is not sure
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
 
-  /// Correction of the present session by all loops so far; empty without any.
-  PoseCorrection correction() const { return correction(session()); }
+  /// Correction of a session, or the present one, by all loops so far; empty without any.
   PoseCorrection correction(std::uint32_t session) const;
+  PoseCorrection correction() const { return correction(session()); }
 
   /// Correction of the present session at its last keyframe; nothing until loops join it to an
   /// earlier map.
@@ -111,8 +113,17 @@ class GlobalMap {
   /// Whether loops join a session to the first one, whose world is the frame of the map.
   bool is_joined(std::uint32_t session) const { return graph_.is_joined(session); }
 
+  /// Whether loops join two sessions that have keyframes.
+  bool share_frame(std::uint32_t a, std::uint32_t b) const { return graph_.share_frame(a, b); }
+
   /// Number of the session of the keyframes that are added.
   std::uint32_t session() const { return graph_.session(); }
+
+  /// Number of the sessions of an earlier map; those of the run follow.
+  std::uint32_t earlier_sessions() const { return earlier_sessions_; }
+
+  /// Number here of a session of the run; nothing if it has no keyframe.
+  std::optional<std::uint32_t> session_of_run(std::uint32_t session) const;
 
   /// All candidates that were checked, in order.
   const std::vector<Loop>& loops() const { return graph_.loops(); }
@@ -138,6 +149,8 @@ class GlobalMap {
   LoopGraph graph_;
   LoopConfirmation confirmation_;
   Relocalizer relocalizer_;
+  std::uint32_t earlier_sessions_ = 0;
+  std::vector<std::uint32_t> run_sessions_;  ///< of the run that have keyframes, ascending
 };
 
 }  // namespace mms

@@ -274,11 +274,24 @@ RegistrationResult Odometry::register_near(const FeatureCloud& features,
                         prediction, config, noise_);
 }
 
+void Odometry::restart() {
+  maps_.reset();
+  first_scan_.reset();
+  keyframes_.clear();
+  origin_ = trimmed_at_ = motion_.pose();
+  motion_.rest(motion_.stamp(), origin_);
+  lost_ = false;
+}
+
+bool Odometry::can_begin_with(const FeatureCloud& features) const {
+  const auto count = features.planes.size() + features.edges.size();
+  return count >= static_cast<std::size_t>(config_.min_inliers);
+}
+
 OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
   OdometryEstimate estimate;
-  motion_.place(features.stamp, Isometry::Identity());
-  const auto count = features.planes.size() + features.edges.size();
-  if (count < static_cast<std::size_t>(config_.min_inliers)) {
+  motion_.place(features.stamp, origin_);
+  if (!can_begin_with(features)) {
     estimate.status = Status::kLost;
     return estimate;
   }
@@ -304,7 +317,7 @@ OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud seco
   const Vector6d velocity = motion_.velocity();
   deskew(first, velocity);
   deskew(second, velocity);
-  motion_.place(first.stamp, se3::exp(velocity * to_seconds(first.points_offset)));
+  motion_.place(first.stamp, origin_ * se3::exp(velocity * to_seconds(first.points_offset)));
   begin_maps(static_cast<double>(maps_->voxel_size()), first);
   return track(align_at_pose_time(std::move(second)));
 }

@@ -60,6 +60,13 @@ class Odometry {
   OdometryEstimate relocate(Timestamp stamp, const Transform<World, Sensor>& T_world_sensor,
                             const std::vector<PlacedFeatures>& surroundings);
 
+  /// Begins anew with the next frame: new local maps from the pose that is predicted now. For a
+  /// sensor that is lost where the local maps do not reach.
+  void restart();
+
+  /// Whether a frame has enough features for local maps to begin with.
+  bool can_begin_with(const FeatureCloud& features) const;
+
   OdometryEstimate estimate(FeatureCloud features) { return accept(align(std::move(features))); }
 
   /// Adds measurements of wheels and gyroscope up to the end of the next frame.
@@ -114,6 +121,7 @@ class Odometry {
   DepthNoise noise_;
   double map_radius_ = 0.0;
   MotionModel motion_;
+  Isometry origin_ = Isometry::Identity();  ///< pose of the frame that the local maps began with
   Isometry trimmed_at_ = Isometry::Identity();
   bool lost_ = false;
   std::optional<Vector6d> unexpected_velocity_;

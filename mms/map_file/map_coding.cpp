@@ -245,7 +245,7 @@ void decode_keyframe(std::string_view compressed, const std::string& where,
   check_finite(keyframe.features.planes, position, reader);
 }
 
-std::string encode_surfaces(const SessionSurfaces& surfaces, double voxel_size,
+std::string encode_surfaces(const StampedMap& surfaces, double voxel_size,
                             std::vector<std::uint32_t> indices) {
   const MapCloud& cloud = surfaces.cloud;
   SurfaceGrid grid;
@@ -292,8 +292,7 @@ std::string encode_surfaces(const SessionSurfaces& surfaces, double voxel_size,
   return compress_zstd(bytes);
 }
 
-void decode_surfaces(std::string_view compressed, const std::string& where,
-                     SessionSurfaces& surfaces) {
+void decode_surfaces(std::string_view compressed, const std::string& where, StampedMap& surfaces) {
   const std::string bytes = decompress(compressed, Compression::kZstd, kMaxDecoded, where);
   ByteReader reader(bytes, where);
   SurfaceGrid grid;

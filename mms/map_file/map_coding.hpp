@@ -8,6 +8,7 @@
 
 #include "mms/global_map/keyframes/keyframe_record.hpp"
 #include "mms/map_file/map_session.hpp"
+#include "mms/mapping/static_map/map_cloud.hpp"
 
 namespace mms {
 
@@ -24,11 +25,11 @@ void decode_keyframe(std::string_view bytes, const std::string& where, KeyframeR
 /// to about 0.5 degrees, stamps to 10 ms.
 /// @param voxel_size  [m]
 /// @param indices     of the points
-std::string encode_surfaces(const SessionSurfaces& surfaces, double voxel_size,
+std::string encode_surfaces(const StampedMap& surfaces, double voxel_size,
                             std::vector<std::uint32_t> indices);
 
 /// Appends the points that `encode_surfaces` wrote.
 /// @throws DataError at `where` if the bytes are damaged; then nothing is appended
-void decode_surfaces(std::string_view bytes, const std::string& where, SessionSurfaces& surfaces);
+void decode_surfaces(std::string_view bytes, const std::string& where, StampedMap& surfaces);
 
 }  // namespace mms

@@ -16,14 +16,6 @@ std::optional<bool> has_scans(const GlobalMapContent& content, std::uint32_t ses
   return readable->is_scan();
 }
 
-void append(MapCloud& map, const MapCloud& other) {
-  map.points.insert(map.points.end(), other.points.begin(), other.points.end());
-  map.colors.insert(map.colors.end(), other.colors.begin(), other.colors.end());
-  map.normals.insert(map.normals.end(), other.normals.begin(), other.normals.end());
-  map.observations.insert(map.observations.end(), other.observations.begin(),
-                          other.observations.end());
-}
-
 std::vector<std::uint32_t> joined_sessions(const GlobalMapContent& content) {
   SessionGroups groups;
   for (std::size_t i = 0; i < content.records.size(); ++i) {
@@ -40,9 +32,9 @@ std::vector<std::uint32_t> joined_sessions(const GlobalMapContent& content) {
   return joined;
 }
 
-SessionSurfaces corrected_surfaces(const MapFile& file, const GlobalMapContent& content,
-                                   std::uint32_t session, const MapFile::WarningHandler& warn) {
-  SessionSurfaces surfaces = file.surfaces(session, warn);
+StampedMap corrected_surfaces(const MapFile& file, const GlobalMapContent& content,
+                              std::uint32_t session, const MapFile::WarningHandler& warn) {
+  StampedMap surfaces = file.surfaces(session, warn);
   const PoseCorrection correction =
       session_correction(content.records, content.poses, content.loops, session);
   if (correction.empty()) return surfaces;

@@ -15,11 +15,9 @@ std::optional<bool> has_scans(const GlobalMapContent& content, std::uint32_t ses
 /// Numbers of the sessions that loops join to the first one.
 std::vector<std::uint32_t> joined_sessions(const GlobalMapContent& content);
 
-void append(MapCloud& map, const MapCloud& other);
-
 /// Static map of a session with its corrections, in the frame of its group.
-SessionSurfaces corrected_surfaces(const MapFile& file, const GlobalMapContent& content,
-                                   std::uint32_t session, const MapFile::WarningHandler& warn);
+StampedMap corrected_surfaces(const MapFile& file, const GlobalMapContent& content,
+                              std::uint32_t session, const MapFile::WarningHandler& warn);
 
 /// Static map of all joined sessions in the frame of the map, which is the world of the first one.
 /// Points of several sessions in one voxel are merged.

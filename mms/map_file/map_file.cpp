@@ -168,7 +168,7 @@ Loop loop_of(const SqliteStatement& row, std::size_t keyframes, const std::strin
 }
 
 /// Indices of the points by the submap of their last measurement.
-std::vector<std::vector<std::uint32_t>> divided(const SessionSurfaces& surfaces,
+std::vector<std::vector<std::uint32_t>> divided(const StampedMap& surfaces,
                                                 const std::vector<Timestamp>& keyframes) {
   std::vector<std::vector<std::uint32_t>> submaps(keyframes.size() / kSubmapKeyframes + 1);
   for (std::size_t i = 0; i < surfaces.stamps.size(); ++i) {
@@ -329,8 +329,8 @@ GlobalMapContent MapFile::content(const WarningHandler& warn) const {
   return content;
 }
 
-SessionSurfaces MapFile::surfaces(std::uint32_t session, const WarningHandler& warn) const {
-  SessionSurfaces surfaces;
+StampedMap MapFile::surfaces(std::uint32_t session, const WarningHandler& warn) const {
+  StampedMap surfaces;
   SqliteStatement rows =
       database_->prepare("SELECT number, data FROM submaps WHERE session = ?1 ORDER BY number");
   rows.bind(1, std::int64_t{session});
@@ -367,7 +367,7 @@ std::vector<std::string> MapFile::check() const {
   return faults;
 }
 
-void MapFile::add_session(const MapSession& session, const SessionSurfaces& surfaces,
+void MapFile::add_session(const MapSession& session, const StampedMap& surfaces,
                           const std::deque<KeyframeRecord>& records) {
   const auto number = static_cast<std::int64_t>(sessions_.size());
   SqliteStatement row = database_->prepare(

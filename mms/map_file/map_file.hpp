@@ -13,6 +13,7 @@
 #include "mms/global_map/global_map.hpp"
 #include "mms/io/text/temporary_path.hpp"
 #include "mms/map_file/map_session.hpp"
+#include "mms/mapping/static_map/map_cloud.hpp"
 #include "mms/storage/sqlite_database.hpp"
 
 namespace mms {
@@ -51,7 +52,7 @@ class MapFile {
 
   /// Static map of a session. Damaged parts are left out.
   /// @param warn  called for each of these
-  SessionSurfaces surfaces(std::uint32_t session, const WarningHandler& warn) const;
+  StampedMap surfaces(std::uint32_t session, const WarningHandler& warn) const;
 
   /// Reads everything.
   /// @returns all faults
@@ -59,7 +60,7 @@ class MapFile {
 
   /// Adds the next session.
   /// @param records  those of this session are added
-  void add_session(const MapSession& session, const SessionSurfaces& surfaces,
+  void add_session(const MapSession& session, const StampedMap& surfaces,
                    const std::deque<KeyframeRecord>& records);
 
   /// Replaces the poses of all keyframes, and all loops.

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "mms/core/calibration.hpp"
 #include "mms/core/time.hpp"
-#include "mms/mapping/static_map/map_cloud.hpp"
 
 namespace mms {
 
@@ -21,12 +18,6 @@ struct MapSession {
   Timestamp end;            ///< stamp of the last one
   double voxel_size = 0.0;  ///< of its static map [m]
   CameraIntrinsics camera;  ///< of its depth images; of LiDAR scans none
-};
-
-/// Static map of a session in its world frame, as `StaticMap::cloud`. Vectors are parallel.
-struct SessionSurfaces {
-  MapCloud cloud;
-  std::vector<Timestamp> stamps;  ///< of the last frame that measured each point
 };
 
 }  // namespace mms

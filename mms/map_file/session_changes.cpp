@@ -115,7 +115,7 @@ MapChangeCloud find_changes(const MapFile& file, const GlobalMapContent& content
                             const DepthNoise& noise, const MapFile::WarningHandler& warn) {
   MapChangeCloud result;
   for (const std::uint32_t session : joined_sessions(content)) {
-    const SessionSurfaces surfaces = corrected_surfaces(file, content, session, warn);
+    const StampedMap surfaces = corrected_surfaces(file, content, session, warn);
     const PointCubes cubes(surfaces.cloud.points);
     std::vector<Evidence> earlier(surfaces.cloud.size());
     std::vector<Evidence> later(surfaces.cloud.size());

@@ -22,6 +22,12 @@ class CorrectionFeed {
   /// Whether to wait for results that are late, so that they do not depend on the computer.
   void set_waiting(bool waits) { waits_ = waits; }
 
+  /// Nothing is known any more: frames of a new session follow.
+  void reset() {
+    current_.reset();
+    coming_.clear();
+  }
+
   /// Adds the result of a keyframe, later than those before.
   void add(Timestamp keyframe, std::future<MapCorrection> result) {
     coming_.push_back({keyframe, std::move(result)});

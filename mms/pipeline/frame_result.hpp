@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,7 @@ using StageTimes = std::array<double, kStageCount>;
 struct FrameResult {
   OdometryEstimate odometry;
   LabeledCloud cloud;
+  std::uint32_t session = 0;           ///< of the run; one that begins after a loss has the next
   bool keyframe = false;               ///< of the static map
   bool global_keyframe = false;        ///< of the global map
   bool after_lost = false;             ///< frames since the last global keyframe were lost
@@ -44,6 +46,9 @@ struct FrameResult {
   std::vector<TrackedObject> objects;  ///< of the dynamic map, by id
   std::vector<std::string> warnings;   ///< about wheels and gyroscope, one line each
   StageTimes stage_ms{};
+
+  /// Whether the pose is not known, since the place after a loss is not recognized yet.
+  bool is_searching() const { return wants_relocalization && odometry.status == Status::kLost; }
 };
 
 }  // namespace mms

@@ -30,6 +30,10 @@ constexpr Duration kSearchTime = std::chrono::seconds(5);
 /// [s]: these intervals. Source: two views must agree, and within 1 s of the start some may fail.
 constexpr Duration kSearchInterval = std::chrono::milliseconds(200);
 
+/// [s]: time for which a sensor with enough features is lost after which a new session begins.
+/// Source: nine of ten kidnapped cameras are relocalized within 1 s, if their place is known.
+constexpr Duration kSessionDelay = std::chrono::seconds(3);
+
 bool agree(const OdometryEstimate& odometry, const Relocalization& place) {
   const Eigen::Isometry3d difference =
       (odometry.T_world_sensor.inverse() * place.T_world_sensor).isometry();
@@ -51,19 +55,25 @@ Config for_mode(Config step, FusionMode mode) {
 
 }  // namespace
 
+Localization::Session::Session(const SystemConfig& config)
+    : motion_segmentation(for_mode(config.motion_segmentation, config.fusion.mode), config.noise),
+      hypotheses(for_mode(config.mask_check, config.fusion.mode),
+                 with_noise(config.features, config.noise), config.fusion.sizes),
+      keyframes(config.keyframes),
+      global_keyframes(config.global_map.keyframes),
+      scan_keyframes(config.global_map.scan_keyframes) {}
+
 Localization::Localization(const SystemConfig& config)
-    : odometry_(config.odometry, config.noise.depth),
-      motion_segmentation_(for_mode(config.motion_segmentation, config.fusion.mode), config.noise),
-      hypotheses_(for_mode(config.mask_check, config.fusion.mode),
-                  with_noise(config.features, config.noise), config.fusion.sizes),
-      keyframes_(config.keyframes),
-      global_keyframes_(config.global_map.keyframes),
-      scan_keyframes_(config.global_map.scan_keyframes),
+    : config_(config),
+      odometry_(config.odometry, config.noise.depth),
+      session_(config),
       closes_loops_(config.global_map.enabled) {}
 
 FrameResult Localization::localize(PerceivedFrame frame) {
   assert(thread_.is_owner());
+  if (is_lost_for_long(frame.cloud.stamp, frame.features)) begin_session();
   FrameResult result;
+  result.session = session_number_;
   result.stage_ms = frame.stage_ms;
   result.cloud = std::move(frame.cloud);
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
@@ -72,7 +82,7 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     const Vector6d expected = odometry_.velocity(from, to);
     deskew(result.cloud, expected);
     exclude_moving_points(result.cloud, frame.features);
-    const OdometryEstimate estimate = odometry_.accept(hypotheses_.align(
+    const OdometryEstimate estimate = odometry_.accept(session_.hypotheses.align(
         odometry_, result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
     const std::optional<Vector6d>& velocity = odometry_.unexpected_velocity();
     if (velocity) deskew(result.cloud, Vector6d(*velocity - expected));
@@ -87,6 +97,7 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   } else {
     choose_keyframes(result);
   }
+  is_lost_ = result.odometry.status == Status::kLost;
   result.dynamic_share = dynamic_share(result.cloud);
   result.overruled_share = overruled_share(result.cloud, result.cloud.overruled);
   return result;
@@ -102,9 +113,36 @@ FrameResult Localization::relocate(FrameResult lost, const Relocalization& place
     lost.relocalized = true;
   }
   lost_frames_ = 0;
-  is_in_doubt_ = false;
+  is_in_doubt_ = is_lost_ = false;
   choose_keyframes(lost);
   return lost;
+}
+
+/// Counts the time of frames with enough features. Without loop closure, nothing would tell where
+/// a new session is.
+bool Localization::is_lost_for_long(Timestamp stamp, const FeatureCloud& features) {
+  const Duration interval = stamp - std::exchange(last_stamp_, stamp);
+  if (!closes_loops_ || !has_global_keyframe_ || !is_lost_) {
+    lost_for_ = Duration::zero();
+    return false;
+  }
+  if (!odometry_.can_begin_with(features)) return false;
+  lost_for_ += interval;
+  return lost_for_ >= kSessionDelay;
+}
+
+/// The world goes on from the predicted pose, so that it does not jump; its place in the map is
+/// unknown until loops join it.
+void Localization::begin_session() {
+  ++session_number_;
+  odometry_.restart();
+  session_ = Session(config_);
+  corrections_.reset();
+  searches_place_ = true;
+  search_begin_.reset();
+  lost_for_ = Duration::zero();
+  lost_frames_ = 0;
+  is_in_doubt_ = has_global_keyframe_ = false;
 }
 
 /// Similar places can mislead the odometry after a loss: until the place is recognized, or the
@@ -121,13 +159,14 @@ bool Localization::wants_relocalization(const FrameResult& result) {
 /// Chooses the keyframes of III-C.4, and those of the global map.
 void Localization::choose_keyframes(FrameResult& result) {
   const OdometryEstimate& odometry = result.odometry;
-  result.keyframe = keyframes_.is_keyframe(odometry);
+  result.keyframe = session_.keyframes.is_keyframe(odometry);
   if (result.keyframe) {
-    motion_segmentation_.remember(result.cloud, odometry.T_world_sensor);
-    hypotheses_.remember(result.cloud, odometry.T_world_sensor);
+    session_.motion_segmentation.remember(result.cloud, odometry.T_world_sensor);
+    session_.hypotheses.remember(result.cloud, odometry.T_world_sensor);
   }
   if (!closes_loops_) return;
-  KeyframeSelector& global = result.cloud.organised() ? global_keyframes_ : scan_keyframes_;
+  KeyframeSelector& global =
+      result.cloud.organised() ? session_.global_keyframes : session_.scan_keyframes;
   result.global_keyframe =
       global.is_keyframe(result.odometry) || is_search_keyframe(result.odometry);
   has_global_keyframe_ |= result.global_keyframe;
@@ -149,7 +188,7 @@ bool Localization::is_search_keyframe(const OdometryEstimate& odometry) {
 void Localization::exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const {
   const auto expected = odometry_.expected(cloud.stamp);
   if (!expected) return;
-  const Image<std::uint8_t> moved = motion_segmentation_.relabel(cloud, *expected);
+  const Image<std::uint8_t> moved = session_.motion_segmentation.relabel(cloud, *expected);
   if (!moved.empty()) exclude(moved, cloud, features);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "mms/core/thread_confinement.hpp"
@@ -23,7 +24,8 @@ class Localization {
   explicit Localization(const SystemConfig& config);
 
   /// III-C.2, III-C.3 and the choice of keyframes of III-C.4; before that the points of moving
-  /// objects without a mask are labeled dynamic. One thread at a time, frames in order.
+  /// objects without a mask are labeled dynamic. Where the sensor is lost for seconds, though it
+  /// sees enough, a new session begins. One thread at a time, frames in order.
   /// @returns the result without objects
   FrameResult localize(PerceivedFrame frame);
 
@@ -44,17 +46,28 @@ class Localization {
   void release_thread() { thread_.release(); }  ///< lets another thread call
 
  private:
+  /// What compares frames with those before in the world of a session.
+  struct Session {
+    explicit Session(const SystemConfig& config);
+
+    MotionSegmentation motion_segmentation;
+    PoseHypotheses hypotheses;
+    KeyframeSelector keyframes;
+    KeyframeSelector global_keyframes;
+    KeyframeSelector scan_keyframes;  // of the global map, too
+  };
+
+  bool is_lost_for_long(Timestamp stamp, const FeatureCloud& features);
+  void begin_session();
   void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
   bool wants_relocalization(const FrameResult& result);
   void choose_keyframes(FrameResult& result);
   bool is_search_keyframe(const OdometryEstimate& odometry);
 
+  SystemConfig config_;
   Odometry odometry_;
-  MotionSegmentation motion_segmentation_;
-  PoseHypotheses hypotheses_;
-  KeyframeSelector keyframes_;
-  KeyframeSelector global_keyframes_;
-  KeyframeSelector scan_keyframes_;  // of the global map, too
+  Session session_;
+  std::uint32_t session_number_ = 0;
   CorrectionFeed corrections_{Transform<Global, World>()};
   bool closes_loops_;
   bool lost_since_global_keyframe_ = false;
@@ -64,6 +77,9 @@ class Localization {
   bool has_global_keyframe_ = false;
   int lost_frames_ = 0;       // in a row
   bool is_in_doubt_ = false;  // since a loss: the place is not recognized yet
+  bool is_lost_ = false;      // the last frame
+  Timestamp last_stamp_;
+  Duration lost_for_ = Duration::zero();  // of lost frames with enough features
   ThreadConfinement thread_;
 };
 

@@ -17,15 +17,21 @@ StaticMapConfig static_map_config(const SystemConfig& config) {
   return map;
 }
 
+StampedMap stamped(const StaticMap& map) {
+  return {map.cloud(), map.stamps(), map.voxel_size()};
+}
+
 }  // namespace
 
 Mapping::Mapping(const SystemConfig& config)
-    : static_map_(static_map_config(config)),
+    : config_(config),
+      static_map_(static_map_config(config)),
       occupancy_map_(config.occupancy, static_map_config(config).surface),
       dynamic_map_(config.dynamic_map) {}
 
 FrameResult Mapping::map(FrameResult result) {
   assert(thread_.is_owner());
+  if (result.session != earlier_maps_.size()) begin_session();
   result.objects = timed(result.stage_ms, Stage::kMapping, [&] {
     const Transform<World, Sensor>& T_world_sensor = result.odometry.T_world_sensor;
     dynamic_map_.update(result.cloud, result.odometry);  // III-D
@@ -42,10 +48,32 @@ FrameResult Mapping::map(FrameResult result) {
   return result;
 }
 
+/// What was mapped before is as it is, since the pose relative to it is not known.
+void Mapping::begin_session() {
+  static_map_.finalize();
+  earlier_maps_.push_back(stamped(static_map_));
+  static_map_ = StaticMap(static_map_config(config_));
+  occupancy_map_ = OccupancyMap(config_.occupancy, static_map_config(config_).surface);
+}
+
 std::optional<MapChanges> Mapping::finalize() {
   assert(thread_.is_owner());
   if (!static_map_.finalize()) return std::nullopt;
-  return static_map_.changes();
+  return changes();
+}
+
+MapChanges Mapping::changes() const {
+  assert(thread_.is_owner());
+  MapChanges changes = static_map_.changes();
+  if (!earlier_maps_.empty() && static_map_.views() == 1) changes.whole = true;
+  return changes;
+}
+
+std::vector<StampedMap> Mapping::session_maps() const {
+  assert(thread_.is_owner());
+  std::vector<StampedMap> maps = earlier_maps_;
+  maps.push_back(stamped(static_map_));
+  return maps;
 }
 
 const StaticMap& Mapping::static_map() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "mms/core/thread_confinement.hpp"
 #include "mms/geometry/voxels/map_changes.hpp"
@@ -27,13 +28,26 @@ class Mapping {
   /// @returns the changes by the frames since the last keyframe; none without such frames
   std::optional<MapChanges> finalize();
 
+  // Of the present session:
   const StaticMap& static_map() const;
   const OccupancyMap& occupancy_map() const;
+
+  /// Changes of the static map by the last keyframe, see `StaticMap`; those by the first one of a
+  /// session replace the map.
+  MapChanges changes() const;
+
+  /// Static maps of the run's sessions so far, each in its world.
+  std::vector<StampedMap> session_maps() const;
+
   const DynamicMap& dynamic_map() const;
 
   void release_thread() { thread_.release(); }  ///< lets another thread call
 
  private:
+  void begin_session();
+
+  SystemConfig config_;
+  std::vector<StampedMap> earlier_maps_;  // of the sessions before, by their number
   StaticMap static_map_;
   OccupancyMap occupancy_map_;
   DynamicMap dynamic_map_;

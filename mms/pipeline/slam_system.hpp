@@ -87,13 +87,18 @@ class SlamSystem {
 
   /// What `close_loops` takes of a localized frame.
   static GlobalKeyframe global_keyframe(const Frame& frame, const FrameResult& localized) {
-    return {frame.color, localized.cloud, localized.odometry.T_world_sensor, localized.after_lost,
-            localized.has_pose_in_doubt};
+    return {frame.color,
+            localized.cloud,
+            localized.odometry.T_world_sensor,
+            localized.after_lost,
+            localized.has_pose_in_doubt,
+            localized.session};
   }
 
   const GlobalMap& global_map() const { return loop_closing_.global_map(); }
 
   // To be read in the thread of `map`.
+  const Mapping& mapping() const { return mapping_; }
   const StaticMap& static_map() const { return mapping_.static_map(); }
   const OccupancyMap& occupancy_map() const { return mapping_.occupancy_map(); }
   const DynamicMap& dynamic_map() const { return mapping_.dynamic_map(); }

@@ -138,6 +138,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   if (interrupted_) warn("interrupted, writing the results so far", observer);
   log_->finish(source_->skipped(), source_->dropped(), pipeline, system_);
   warn_if_not_localized(observer);
+  warn_of_sessions_outside(observer);
   if (log_->frames().empty()) {
     throw DataError(options_.data,
                     fmt::format("none of its {} frames could be processed", source_->size()),
@@ -202,21 +203,36 @@ void SlamRun::check_lost() {
 void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   map_.check(processed.result);
   std::optional<MapChanges> map;
-  if (processed.result.keyframe) map = system_.static_map().changes();
+  if (processed.result.keyframe) map = system_.mapping().changes();
   std::shared_ptr<const MapChanges> shown;
   if (view_ && map) shown = std::make_shared<const MapChanges>(*map);
   journal_->add(processed, std::move(map));
   if (recorder_) recorder_->add(processed, system_.static_map());
   log_->add(processed);
   for (const std::string& warning : processed.result.warnings) warn(warning, observer);
-  if (processed.result.relocalized) {
-    warn(fmt::format("frame {}: relocalized", processed.frame.name), observer);
-  }
+  warn_of_losses(processed, observer);
   check_lost();
   if (sink_) sink_(processed, system_);
   observer.on_frame(*log_);
   if (!view_) return;
   view_->show(std::move(processed), log_->frames().back().interval_ms, std::move(shown));
+}
+
+void SlamRun::warn_of_losses(const Processed& processed, RunObserver& observer) {
+  const FrameResult& result = processed.result;
+  const std::string& name = processed.frame.name;
+  if (result.relocalized) warn(fmt::format("frame {}: relocalized", name), observer);
+  if (result.session != std::exchange(session_, result.session)) {
+    warn(fmt::format("frame {}: session {} begins after a long loss: its place in the map is "
+                     "unknown until it sees a known place",
+                     name, result.session),
+         observer);
+    is_outside_ = true;
+  }
+  if (!is_outside_ || !result.T_global_world) return;
+  warn(fmt::format("frame {}: session {} has its place in the map", name, result.session),
+       observer);
+  is_outside_ = false;
 }
 
 void SlamRun::warn_if_not_localized(RunObserver& observer) {
@@ -225,6 +241,15 @@ void SlamRun::warn_if_not_localized(RunObserver& observer) {
   warn(fmt::format("no place of {} was recognized: the results are in a frame of their own",
                    options_.map.string()),
        observer);
+}
+
+void SlamRun::warn_of_sessions_outside(RunObserver& observer) {
+  const auto& places = log_->places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].is_known) continue;
+    warn(fmt::format("session {} has no place in the map: its map and poses are in outside_map", i),
+         observer);
+  }
 }
 
 void SlamRun::end_map() {
@@ -246,7 +271,7 @@ void SlamRun::compare_with_truth(RunObserver& observer) {
   attempt("the map is", [&] {
     const std::optional<TruthCloud> truth = source_->map_truth();
     if (truth) {
-      const MapCloud map = result_map(system_.static_map(), MapFrame::kCamera, log_->correction());
+      const MapCloud map = result_map(system_.mapping(), MapFrame::kCamera, log_->places());
       log_->compare_map(*truth, map.points);
     }
   });
@@ -270,10 +295,9 @@ void SlamRun::write(const std::filesystem::path& folder) {
 
 void SlamRun::finish_recording() {
   if (!recorder_) return;
-  const StampCorrection correction = log_->correction();
   const MapFrame frame = log_->has_image() ? MapFrame::kCamera : MapFrame::kLidar;
-  recorder_->finish(result_map(system_.static_map(), frame, correction),
-                    correction ? log_->corrected_trajectory() : Trajectory());
+  recorder_->finish(result_map(system_.mapping(), frame, log_->places()),
+                    are_corrected(log_->places()) ? log_->corrected_trajectory() : Trajectory());
   recorder_.reset();
 }
 

@@ -75,6 +75,8 @@ class SlamRun {
   void finish_frame(Processed processed, RunObserver& observer);
   void end_map();
   void finish_recording();
+  void warn_of_losses(const Processed& processed, RunObserver& observer);
+  void warn_of_sessions_outside(RunObserver& observer);
   void warn_if_not_localized(RunObserver& observer);
 
   RunOptions options_;
@@ -96,6 +98,8 @@ class SlamRun {
   std::size_t lost_ = 0;                 // frames
   std::atomic<bool> gave_up_ = false;    // read by the reading thread
   std::string failure_;
+  std::uint32_t session_ = 0;  // of the last frame
+  bool is_outside_ = false;    // whether the place of a session after a loss is unknown
 };
 
 }  // namespace mms

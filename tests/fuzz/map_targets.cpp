@@ -21,8 +21,8 @@ KeyframeRecord some_keyframe(int number) {
   return record;
 }
 
-SessionSurfaces some_points() {
-  SessionSurfaces surfaces;
+StampedMap some_points() {
+  StampedMap surfaces;
   for (int i = 0; i < 20; ++i) {
     surfaces.cloud.points.emplace_back(0.1F * static_cast<float>(i), 1.0F, 2.0F);
     surfaces.cloud.normals.emplace_back(0.0F, 0.0F, -1.0F);
@@ -76,7 +76,7 @@ std::vector<std::string> submap_seeds() {
 }
 
 void read_submap_bytes(std::string_view bytes) {
-  SessionSurfaces surfaces;
+  StampedMap surfaces;
   decode_surfaces(compress_zstd(bytes), "submap", surfaces);
   static_cast<void>(merged(surfaces.cloud, 0.02));
 }

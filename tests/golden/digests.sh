@@ -11,9 +11,9 @@ data="${2:-}"
 out="$(mktemp -d)"
 trap 'rm -rf "$out"' EXIT
 
-# Names of JSON keys and columns may change, values may not.
+# Names of JSON keys and columns may change, values may not. The session of a frame came later.
 values_of_json() { sed -E 's/"[A-Za-z0-9_]+"[[:space:]]*://g' "$1"; }
-values_of_table() { tail -n +2 "$1"; }
+values_of_table() { tail -n +2 "$1" | cut -d, -f1-6; }
 
 # Comments say the frame of the points.
 points_of_ply() { LC_ALL=C sed '1,/^end_header$/{/^comment /d}' "$1"; }

@@ -96,7 +96,7 @@ TEST(MapFile, KeepsSurfacesToAFractionOfTheVoxel) {
   const TempFolder folder;
   GlobalMap map = empty_map();
   drive(map, 0, kSteps, Eigen::Isometry3d::Identity());
-  SessionSurfaces saved = some_surfaces(map, 5000, 1);
+  StampedMap saved = some_surfaces(map, 5000, 1);
   for (int i = 0; i < 100; ++i) saved.cloud.normals[static_cast<std::size_t>(50 * i)].setZero();
   {
     MapFile file(folder.path() / "a", Mode::kCreate);
@@ -104,7 +104,7 @@ TEST(MapFile, KeepsSurfacesToAFractionOfTheVoxel) {
     file.set_graph(map.poses(), map.loops());
     file.commit();
   }
-  const SessionSurfaces read = MapFile(folder.path() / "a", Mode::kRead).surfaces(0, refuse);
+  const StampedMap read = MapFile(folder.path() / "a", Mode::kRead).surfaces(0, refuse);
   ASSERT_EQ(read.cloud.size(), saved.cloud.size());
   const float quantum = 0.02F / 32.0F;
   const auto by_position = [](const MapCloud& cloud) {
@@ -292,7 +292,7 @@ int in_process(const Work& work, int kill_after_us = -1) {
 /// What `extend` writes, made before the processes that are killed.
 struct Extension {
   GlobalMap map = empty_map();
-  SessionSurfaces surfaces;
+  StampedMap surfaces;
 
   explicit Extension(const std::filesystem::path& path) {
     map.restore(MapFile(path, Mode::kRead).content(refuse), MapUse::kExtend);

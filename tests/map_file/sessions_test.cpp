@@ -110,7 +110,7 @@ std::vector<Change> changes_of(bool box_first, bool box_later, const std::string
   const TempFolder folder;
   GlobalMapContent content;
   const auto surfaces = [&](bool with_box) {
-    SessionSurfaces result;
+    StampedMap result;
     const auto add = [&](float x, float z) {
       result.cloud.points.emplace_back(x, 0.0F, z);
       result.cloud.normals.emplace_back(0.0F, 0.0F, -1.0F);

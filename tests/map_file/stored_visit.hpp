@@ -41,9 +41,9 @@ inline Eigen::Isometry3d other_world() {
 }
 
 /// Random points, measured at the stamps of the keyframes of the present session.
-inline SessionSurfaces some_surfaces(const GlobalMap& map, std::size_t count, std::uint64_t seed) {
+inline StampedMap some_surfaces(const GlobalMap& map, std::size_t count, std::uint64_t seed) {
   RandomStream random(seed);
-  SessionSurfaces surfaces;
+  StampedMap surfaces;
   for (std::size_t i = 0; i < count; ++i) {
     const auto number = [&] { return random.between(-3.0F, 3.0F); };
     surfaces.cloud.points.emplace_back(number(), number(), number());

@@ -119,6 +119,31 @@ TEST(LoopClosing, FindsAPlaceByItsLooksAfterBeingLost) {
   EXPECT_LT(visit.largest_error(visit.map.poses()), 0.03);
 }
 
+TEST(LoopClosing, ASessionOfTheRunHasAWorldOfItsOwnUntilLoopsJoinIt) {
+  Visit visit;
+  for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());
+  EXPECT_EQ(visit.map.session_of_run(0), 0U);
+  EXPECT_FALSE(visit.map.session_of_run(3));
+  EXPECT_TRUE(visit.map.last_correction());
+  const Eigen::Isometry3d elsewhere(Eigen::Translation3d(40.0, 0.0, 7.0));
+  const auto again = [&](int i) {
+    GlobalKeyframe view = views()[static_cast<std::size_t>(i)];
+    view.session = 3;  // sessions 1 and 2 had no keyframe
+    visit.add(view, elsewhere);
+  };
+  again(2);
+  EXPECT_EQ(visit.map.session_of_run(3), 1U);
+  EXPECT_FALSE(visit.map.session_of_run(2));
+  EXPECT_FALSE(visit.map.share_frame(0, 1));
+  EXPECT_FALSE(visit.map.last_correction()) << "one view is not enough";
+  for (int i = 3; i < 8; ++i) again(i);
+  EXPECT_TRUE(visit.map.share_frame(0, 1));
+  ASSERT_TRUE(visit.map.last_correction());
+  const Eigen::Isometry3d error = visit.map.last_correction()->isometry() * elsewhere;
+  EXPECT_LT(error.translation().norm(), 0.03);
+  EXPECT_EQ(visit.map.earlier_sessions(), 0U);
+}
+
 TEST(LoopClosing, OtherPlacesThatLookAlikeCloseNoLoop) {
   Visit visit;
   for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());

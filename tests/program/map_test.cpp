@@ -71,6 +71,41 @@ TEST(Map, IsSavedLocalizedInExtendedAndExported) {
   EXPECT_GT(read_trajectory_tum(folder.path() / "export/session_1.tum").size(), 3U);
 }
 
+TEST(Map, AfterALossInAnUnknownPlaceTheNewSessionIsWrittenToo) {
+  const TempFolder folder;
+  const Outcome run = run_day(
+      folder, "sim:warehouse_loop?start=17&dark_from=1.5&dark_for=3&hz=10&width=320&duration=9.5",
+      "out", {"--set", "fusion.stride=1", "--save-map", "a.mmsmap", "--keep-journal"});
+  expect_success(run);
+  EXPECT_NE(run.err.find("session 1 begins"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("session 1 has no place in the map"), std::string::npos) << run.err;
+  const nlohmann::json sessions = loops_of(folder, "out")["sessions"];
+  EXPECT_EQ(sessions["begun"], 2);
+  EXPECT_EQ(sessions["in_map"], 1);
+  const std::filesystem::path out = folder.path() / "out";
+  const std::size_t frames = read_trajectory_tum(out / "trajectory.tum").size();
+  const std::size_t in_map = read_trajectory_tum(out / "trajectory_map.tum").size();
+  EXPECT_EQ(frames, 95U);
+  EXPECT_EQ(sessions["frames_outside"], frames - in_map);
+  const Trajectory outside = read_trajectory_tum(out / "outside_map/session_1.tum");
+  EXPECT_GT(outside.size(), 10U);
+  EXPECT_LT(outside.size() + in_map, frames) << "the lost frames have no place";
+  const std::size_t first = read_ply(out / "static_map.ply").points.size();
+  const std::size_t second = read_ply(out / "outside_map/session_1.ply").points.size();
+  EXPECT_GT(second, 10000U);
+
+  const Outcome info = run_mms(folder.path(), {"info", "a.mmsmap"});
+  EXPECT_NE(info.out.find("2 sessions"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("not joined to session 0"), std::string::npos) << info.out;
+  expect_success(run_mms(folder.path(), {"map", "check", "a.mmsmap"}));
+
+  // The journal has the maps of both.
+  std::filesystem::create_directory(folder.path() / "killed");
+  std::filesystem::rename(out / "journal.bin", folder.path() / "killed/journal.bin");
+  expect_success(run_mms(folder.path(), {"convert", "killed"}));
+  EXPECT_EQ(read_ply(folder.path() / "killed/static_map.ply").points.size(), first + second);
+}
+
 TEST(Map, MergeTakesTheMapsInAnyOrder) {
   const TempFolder folder;
   expect_success(run_day(folder, kFirstDay, "first", {"--save-map", "a.mmsmap"}));

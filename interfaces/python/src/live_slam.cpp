@@ -27,6 +27,7 @@ FrameResult LiveSlam::process_locked(const Frame& frame) {
   }
   FrameResult result = system().process(frame);
   trajectory_.push_back({frame.stamp, result.odometry.T_world_sensor});
+  frames_.push_back({result.session, result.is_searching()});
   objects_ = result.objects;
   has_image_ = has_image_ || result.cloud.organised();
   return result;
@@ -39,12 +40,13 @@ void LiveSlam::finish() {
 
 Trajectory LiveSlam::trajectory(bool corrected) {
   const std::scoped_lock lock(mutex_);
-  Trajectory poses = trajectory_;
-  if (!corrected) return poses;
-  const PoseCorrection correction = system().global_map().correction();
-  for (StampedPose& pose : poses) {
-    const Transform<Global, Sensor> moved = correction.at(pose.stamp) * pose.T_world_sensor;
-    if (!correction.empty()) pose.T_world_sensor = Transform<World, Sensor>(moved.isometry());
+  if (!corrected) return trajectory_;
+  const std::vector<SessionPlace> places = session_places(system().global_map(), session_count());
+  Trajectory poses;
+  for (std::size_t i = 0; i < trajectory_.size(); ++i) {
+    const auto& [stamp, T_world_sensor] = trajectory_[i];
+    const auto pose = places[frames_[i].session].corrected(stamp, T_world_sensor);
+    if (pose && !frames_[i].is_searching) poses.push_back({stamp, *pose});
   }
   return poses;
 }
@@ -52,11 +54,9 @@ Trajectory LiveSlam::trajectory(bool corrected) {
 MapCloud LiveSlam::static_map(bool corrected) {
   const std::scoped_lock lock(mutex_);
   const MapFrame frame = has_image_ ? MapFrame::kCamera : MapFrame::kLidar;
-  const PoseCorrection correction =
-      corrected ? system().global_map().correction() : PoseCorrection();
-  if (correction.empty()) return result_map(system().static_map(), frame);
-  return result_map(system().static_map(), frame,
-                    [&](Timestamp stamp) { return correction.at(stamp).isometry(); });
+  if (!corrected) return result_map(system().static_map(), frame);
+  const std::vector<SessionPlace> places = session_places(system().global_map(), session_count());
+  return result_map(system().mapping(), frame, places);
 }
 
 std::vector<TrackedObject> LiveSlam::objects() {

@@ -37,11 +37,12 @@ class LiveSlam {
   void finish();
 
   /// All poses so far.
-  /// @param corrected  by loop closure, in the frame of the global map
+  /// @param corrected  by loop closure, in the frame of the map; without frames whose place in
+  /// it is not known
   Trajectory trajectory(bool corrected);
 
-  /// The static map; of a LiDAR with a normal for every point.
-  /// @param corrected  by loop closure, as result files
+  /// The static map of the present session; of a LiDAR with a normal for every point.
+  /// @param corrected  by loop closure, with all sessions whose place is known, as result files
   MapCloud static_map(bool corrected);
 
   /// The objects of the last frame.
@@ -50,6 +51,7 @@ class LiveSlam {
  private:
   FrameResult process_locked(const Frame& frame);
   SlamSystem& system();
+  std::uint32_t session_count() const { return frames_.empty() ? 1U : frames_.back().session + 1U; }
 
   std::mutex mutex_;
   SystemConfig config_;
@@ -57,6 +59,11 @@ class LiveSlam {
   std::optional<SlamSystem> system_;      ///< made with the noise of the first frame
   Frame frame_;
   Trajectory trajectory_;
+  struct LocalizedFrame {
+    std::uint32_t session = 0;
+    bool is_searching = false;  ///< see `FrameResult`
+  };
+  std::vector<LocalizedFrame> frames_;  ///< of the poses of the trajectory
   std::vector<TrackedObject> objects_;
   bool has_image_ = false;
 };

@@ -195,6 +195,8 @@ void bind_results(py::module_& module) {
           [](const FrameResult& r) -> Eigen::MatrixXd { return r.odometry.information; },
           "6 x 6 float64: translation [1/m^2], rotation [1/rad^2], in the sensor frame.")
       .def_readonly("keyframe", &FrameResult::keyframe, "Whether it carves the static map.")
+      .def_readonly("session", &FrameResult::session,
+                    "Number of the session, from 0. After a long loss the next one begins.")
       .def_readonly("relocalized", &FrameResult::relocalized,
                     "Whether the pose is that of a recognized place.")
       .def_property_readonly(
@@ -203,7 +205,7 @@ void bind_results(py::module_& module) {
             return r.T_global_world ? std::optional(matrix_of(*r.T_global_world)) : std::nullopt;
           },
           "4 x 4 float64: pose of the world frame in that of the map, by the loops so far. None "
-          "until the place in an earlier map is recognized.")
+          "until the place in an earlier map, or of a session after a loss, is recognized.")
       .def_readonly("dynamic_share", &FrameResult::dynamic_share,
                     "Share of the valid points that are dynamic, 0 to 1.")
       .def_readonly("objects", &FrameResult::objects, "List of TrackedObject, by id.")
@@ -296,12 +298,14 @@ void bind_slam(py::module_& module) {
           "trajectory",
           [](Slam& slam, bool corrected) { return slam.live().trajectory(corrected); },
           py::arg("corrected") = false, no_gil,
-          "Trajectory of all frames. corrected: by loop closure, in the frame of the map.")
+          "Trajectory of all frames. corrected: by loop closure, in the frame of the map, without "
+          "frames whose place in it is unknown.")
       .def(
           "static_map",
           [](Slam& slam, bool corrected) { return slam.live().static_map(corrected); },
           py::arg("corrected") = true, no_gil,
-          "MapCloud of what stands still. corrected: by loop closure, as result files are.")
+          "MapCloud of what stands still. corrected: by loop closure, with all sessions whose\n"
+          "place is known, as result files are. Else of the present session.")
       .def(
           "objects", [](Slam& slam) { return slam.live().objects(); }, no_gil,
           "List of TrackedObject of the last frame, by id.");

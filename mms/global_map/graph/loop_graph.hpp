@@ -58,6 +58,9 @@ class LoopGraph {
     return sessions_.share_frame(sessions_.session_of(node), session_);
   }
 
+  /// Whether loops join two sessions that have nodes.
+  bool share_frame(std::uint32_t a, std::uint32_t b) const { return sessions_.share_frame(a, b); }
+
   bool is_fixed(std::size_t node) const { return node < fixed_; }
 
   std::size_t size() const { return path_.size(); }

@@ -18,6 +18,14 @@ struct PointSum {
 
 }  // namespace
 
+void append(MapCloud& map, const MapCloud& other) {
+  map.points.insert(map.points.end(), other.points.begin(), other.points.end());
+  map.colors.insert(map.colors.end(), other.colors.begin(), other.colors.end());
+  map.normals.insert(map.normals.end(), other.normals.begin(), other.normals.end());
+  map.observations.insert(map.observations.end(), other.observations.begin(),
+                          other.observations.end());
+}
+
 MapCloud merged(const MapCloud& map, double voxel_size) {
   const auto inverse_size = static_cast<float>(1.0 / voxel_size);
   tsl::robin_map<VoxelKey, std::size_t, VoxelKeyHash> index;

@@ -19,6 +19,16 @@ struct MapCloud {
   std::size_t size() const { return points.size(); }
 };
 
+/// A static map that can be corrected.
+struct StampedMap {
+  MapCloud cloud;
+  std::vector<Timestamp> stamps;  ///< by point: of the last frame that measured it
+  double voxel_size = 0.0;        ///< [m]
+};
+
+/// Adds the points of another map, whose frame is the same.
+void append(MapCloud& map, const MapCloud& other);
+
 /// The map with one point a voxel: means weighted by the observations, in the order of the first
 /// point of each voxel.
 /// @param voxel_size  side of a voxel [m]

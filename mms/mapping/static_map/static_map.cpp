@@ -238,8 +238,4 @@ std::vector<Timestamp> StaticMap::stamps() const {
   return stamps;
 }
 
-MapCloud StaticMap::cloud(const StampCorrection& correction) const {
-  return merged(moved(cloud(), stamps(), correction), voxel_size());
-}
-
 }  // namespace mms

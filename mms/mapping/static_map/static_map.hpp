@@ -81,10 +81,6 @@ class StaticMap {
   /// takes about a second for 500,000 points.
   MapCloud cloud_with_normals() const;
 
-  /// The same with every voxel moved by the correction of the last frame that measured it. Surfaces
-  /// of several visits that then coincide are merged. Not for a map made by `apply`.
-  MapCloud cloud(const StampCorrection& correction) const;
-
   /// Stamps of the last frames that measured the points of `cloud`. Not for a map made by `apply`.
   std::vector<Timestamp> stamps() const;
 

@@ -1,6 +1,7 @@
 #include "mms/run/record/recorded_run.hpp"
 
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "mms/core/error.hpp"
@@ -93,9 +94,25 @@ SystemConfig read_settings(const fs::path& file) {
   return config;
 }
 
+/// Poses of all frames: in the frame of the map if they are known there, else by the odometry.
+Trajectory read_poses_of_frames(const fs::path& folder) {
+  Trajectory poses = read_trajectory_tum(folder / "trajectory.tum");
+  const fs::path corrected = map_trajectory_file(folder);
+  if (corrected.filename() == "trajectory.tum") return poses;
+  std::map<Timestamp, Transform<World, Sensor>> known;
+  for (const StampedPose& pose : read_trajectory_tum(corrected)) {
+    known.emplace(pose.stamp, pose.T_world_sensor);
+  }
+  for (StampedPose& pose : poses) {
+    const auto found = known.find(pose.stamp);
+    if (found != known.end()) pose.T_world_sensor = found->second;
+  }
+  return poses;
+}
+
 RunFiles read_finished(const fs::path& folder) {
   RunFiles files;
-  files.trajectory = read_trajectory_tum(map_trajectory_file(folder));
+  files.trajectory = read_poses_of_frames(folder);
   const auto read = [&](const char* name, const auto& reader, auto& part) {
     if (!fs::exists(folder / name)) return;
     try {

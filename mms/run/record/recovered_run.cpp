@@ -21,7 +21,12 @@ RecoveredRun recover_run(const std::filesystem::path& journal) {
   RecoveredRun run;
   run.header = reader.header();
   StaticMap map = empty_map(run.header);
+  const auto end_session = [&] {
+    append(run.map, run.organised ? map.cloud() : map.cloud_with_normals());
+    map = empty_map(run.header);
+  };
   while (const std::optional<JournalFrame> frame = reader.next()) {
+    if (frame->status == Status::kInitialized && map.size() > 0) end_session();
     if (frame->map) map.apply(*frame->map);
     const bool has_evidence_again =
         !run.trajectory.empty() && run.trajectory.back().stamp == frame->stamp;
@@ -37,7 +42,7 @@ RecoveredRun recover_run(const std::filesystem::path& journal) {
     throw DataError(run.damage.empty() ? journal.string() : run.damage, "has no complete frame",
                     "the run ended before its first frame was processed");
   }
-  run.map = run.organised ? map.cloud() : map.cloud_with_normals();
+  end_session();
   return run;
 }
 

@@ -14,7 +14,7 @@ struct RecoveredRun {
   JournalHeader header;
   Trajectory trajectory;
   Trajectory keyframes;
-  MapCloud map;
+  MapCloud map;           ///< of all sessions, as they were localized
   Timestamp written;      ///< wall clock of the last frame, since 1970
   bool organised = true;  ///< true for a depth camera (y down), false for a LiDAR (z up)
   std::string damage;     ///< fault at which reading stopped; empty if the journal is complete

@@ -42,10 +42,11 @@ void RunLog::add(const Processed& processed) {
   const std::chrono::duration<double, std::milli> interval = now - last_;
   last_ = now;
   frames_.push_back({processed.frame.name, processed.frame.stamp, processed.frame.index,
-                     result.odometry.T_world_sensor, result.odometry.status, result.keyframe,
-                     result.relocalized, result.dynamic_share, result.overruled_share,
-                     result.cloud.implausible_masks, processed.read_ms, interval.count(),
-                     result.stage_ms, processed.latency_ms});
+                     result.session, result.odometry.T_world_sensor, result.odometry.status,
+                     result.keyframe, result.relocalized, result.is_searching(),
+                     result.dynamic_share, result.overruled_share, result.cloud.implausible_masks,
+                     processed.read_ms, interval.count(), result.stage_ms, processed.latency_ms});
+  places_.resize(result.session + std::size_t{1});
   smoother_.add(processed.frame.stamp, result.objects);
   ObjectFrame& seen = live_objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
   for (const TrackedObject& object : result.objects) seen.objects.push_back(object.box);
@@ -88,10 +89,22 @@ void RunLog::finish(std::size_t skipped, std::size_t dropped, const AsyncPipelin
   }
   metrics_.tracks = system.dynamic_map().confirmed();
   objects_ = smoother_.history();
-  if (correction_.empty()) return;
-  for (ObjectFrame& frame : objects_) {
-    frame = transformed({frame}, correction_.at(frame.stamp).isometry()).front();
+  if (are_corrected(places_)) move_objects();
+}
+
+/// To the frame of the map. Objects that were seen where that is not known are left out.
+void RunLog::move_objects() {
+  ObjectHistory moved;
+  auto frame = frames_.begin();
+  for (const ObjectFrame& seen : objects_) {
+    frame = std::find_if(frame, frames_.end(),
+                         [&](const LoggedFrame& logged) { return logged.stamp == seen.stamp; });
+    if (frame == frames_.end()) break;
+    const SessionPlace& place = places_[frame->session];
+    if (!place.is_known) continue;
+    moved.push_back(transformed({seen}, place.correction.at(seen.stamp).isometry()).front());
   }
+  objects_ = std::move(moved);
 }
 
 void RunLog::sum_up_times() {
@@ -132,16 +145,17 @@ void RunLog::sum_up_accuracy() {
 void RunLog::sum_up_loops(const GlobalMap& map) {
   if (map.records().empty()) return;
   const auto is_own = [&](std::size_t keyframe) {
-    return map.records()[keyframe].session == map.session();
+    return map.records()[keyframe].session >= map.earlier_sessions();
   };
   for (const KeyframeRecord& record : map.records()) loop_stamps_.push_back(record.stamp);
   std::copy_if(map.loops().begin(), map.loops().end(), std::back_inserter(loops_),
                [&](const Loop& loop) { return is_own(loop.query); });
-  correction_ = map.correction();
+  places_ = session_places(map, static_cast<std::uint32_t>(places_.size()));
   LoopMetrics& loops = metrics_.loops.emplace();
+  if (places_.size() > 1) loops.sessions = session_metrics();
   loops.checked = static_cast<std::int64_t>(loops_.size());
   EarlierMapMetrics earlier;
-  earlier.sessions = map.session();
+  earlier.sessions = map.earlier_sessions();
   for (std::size_t i = 0; i < map.records().size(); ++i) {
     ++(is_own(i) ? loops.keyframes : earlier.keyframes);
   }
@@ -151,10 +165,21 @@ void RunLog::sum_up_loops(const GlobalMap& map) {
     if (is_own(loop.candidate) || earlier.localized_s) continue;
     earlier.localized_s = to_seconds(loop_stamps_[loop.query] - frames_.front().stamp);
   }
-  if (map.session() > 0) loops.earlier_map = earlier;
+  if (map.earlier_sessions() > 0) loops.earlier_map = earlier;
   loops.relocalized = std::count_if(frames_.begin(), frames_.end(),
                                     [](const LoggedFrame& frame) { return frame.relocalized; });
   if (metrics_.trajectory) loops.trajectory = evaluate_trajectory(truth_, corrected_trajectory());
+}
+
+SessionMetrics RunLog::session_metrics() const {
+  SessionMetrics metrics;
+  metrics.begun = static_cast<std::int64_t>(places_.size());
+  metrics.in_map = std::count_if(places_.begin(), places_.end(),
+                                 [](const SessionPlace& place) { return place.is_known; });
+  metrics.frames_outside =
+      std::count_if(frames_.begin(), frames_.end(),
+                    [&](const LoggedFrame& frame) { return !corrected_pose(frame); });
+  return metrics;
 }
 
 void RunLog::compare_objects(const ObjectHistory& truth) {
@@ -188,18 +213,28 @@ Trajectory RunLog::trajectory() const {
 }
 
 Trajectory RunLog::corrected_trajectory() const {
-  Trajectory poses = trajectory();
-  if (correction_.empty()) return poses;
-  for (StampedPose& pose : poses) {
-    const Transform<Global, Sensor> corrected = correction_.at(pose.stamp) * pose.T_world_sensor;
-    pose.T_world_sensor = Transform<World, Sensor>(corrected.isometry());
+  Trajectory poses;
+  for (const LoggedFrame& frame : frames_) {
+    const auto pose = corrected_pose(frame);
+    if (pose) poses.push_back({frame.stamp, *pose});
   }
   return poses;
 }
 
-StampCorrection RunLog::correction() const {
-  if (correction_.empty()) return {};
-  return [this](Timestamp stamp) { return correction_.at(stamp).isometry(); };
+Trajectory RunLog::session_trajectory(std::uint32_t session) const {
+  const PoseCorrection& correction = places_[session].correction;
+  Trajectory poses;
+  for (const LoggedFrame& frame : frames_) {
+    if (frame.session != session || frame.is_searching) continue;
+    const auto pose = correction.at(frame.stamp) * frame.T_world_sensor;
+    poses.push_back({frame.stamp, Transform<World, Sensor>(pose.isometry())});
+  }
+  return poses;
+}
+
+std::optional<Transform<World, Sensor>> RunLog::corrected_pose(const LoggedFrame& frame) const {
+  if (frame.is_searching) return std::nullopt;
+  return places_[frame.session].corrected(frame.stamp, frame.T_world_sensor);
 }
 
 Trajectory RunLog::keyframes() const {

@@ -11,6 +11,7 @@
 #include "mms/global_map/global_map.hpp"
 #include "mms/mapping/tracking/object_smoother.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
+#include "mms/pipeline/session_places.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/report/report.hpp"
 #include "mms/simulation/truth/truth_cloud.hpp"
@@ -21,11 +22,13 @@ namespace mms {
 struct LoggedFrame {
   std::string name;
   Timestamp stamp;
-  std::int64_t index = 0;  ///< in the recording
+  std::int64_t index = 0;     ///< in the recording
+  std::uint32_t session = 0;  ///< of the run, see `FrameResult`
   Transform<World, Sensor> T_world_sensor;
   Status status = Status::kInitialized;
   bool keyframe = false;
   bool relocalized = false;
+  bool is_searching = false;  ///< lost, and its place is searched for
   double dynamic_share = 0.0;
   double overruled_share = 0.0;
   int implausible_masks = 0;
@@ -73,14 +76,19 @@ class RunLog {
 
   Trajectory trajectory() const;
   Trajectory keyframes() const;
-  /// Poses of all frames in the global frame; those of `trajectory` without loops.
+  /// Poses in the frame of the map, of the frames whose place in it is known; those of `trajectory`
+  /// without loops and losses.
   Trajectory corrected_trajectory() const;
+  /// Poses of a session in its own frame, corrected by the loops in it.
+  Trajectory session_trajectory(std::uint32_t session) const;
+  /// Pose of a frame in the frame of the map, if it is known.
+  std::optional<Transform<World, Sensor>> corrected_pose(const LoggedFrame& frame) const;
   /// Possible loops that were checked; empty before `finish`.
   const std::vector<Loop>& loops() const { return loops_; }
   /// Stamp of a keyframe of the global map.
   Timestamp stamp_of_keyframe(std::size_t keyframe) const { return loop_stamps_[keyframe]; }
-  /// Correction of the static map to the global frame; empty without loops.
-  StampCorrection correction() const;
+  /// Places of the run's sessions, by their number; of one without loops before `finish`.
+  const std::vector<SessionPlace>& places() const { return places_; }
 
  private:
   void keep_picture(const Processed& processed);
@@ -88,6 +96,8 @@ class RunLog {
   void sum_up_latency(std::size_t dropped, const AsyncPipeline& pipeline);
   void sum_up_accuracy();
   void sum_up_loops(const GlobalMap& map);
+  SessionMetrics session_metrics() const;
+  void move_objects();
 
   Trajectory truth_;
   std::vector<LoggedFrame> frames_;
@@ -98,7 +108,7 @@ class RunLog {
   std::size_t picture_stride_ = 1;
   std::vector<Loop> loops_;
   std::vector<Timestamp> loop_stamps_;  ///< by keyframe of the global map
-  PoseCorrection correction_;
+  std::vector<SessionPlace> places_{1};
   bool has_image_ = false;
   bool compare_masks_ = false;
   RunMetrics metrics_;

@@ -7,9 +7,14 @@
 
 namespace mms {
 
-MapCloud result_map(const StaticMap& map, MapFrame frame, const StampCorrection& correction) {
-  if (correction) return map.cloud(correction);
+MapCloud result_map(const StaticMap& map, MapFrame frame) {
   return frame == MapFrame::kLidar ? map.cloud_with_normals() : map.cloud();
+}
+
+MapCloud result_map(const Mapping& mapping, MapFrame frame,
+                    const std::vector<SessionPlace>& places) {
+  if (are_corrected(places)) return joined_map(mapping.session_maps(), places);
+  return result_map(mapping.static_map(), frame);
 }
 
 std::vector<std::string> ply_comments(MapFrame frame) {

@@ -7,6 +7,8 @@
 #include "mms/core/trajectory.hpp"
 #include "mms/io/cloud/point_cloud_file.hpp"
 #include "mms/mapping/static_map/static_map.hpp"
+#include "mms/pipeline/mapping.hpp"
+#include "mms/pipeline/session_places.hpp"
 
 namespace mms {
 
@@ -16,9 +18,12 @@ enum class MapFrame {
   kLidar,   ///< x forward, y left, z up
 };
 
-/// The map for result files: that of a LiDAR has a normal for every point.
-/// @param correction  moves the map to the global frame; empty for none
-MapCloud result_map(const StaticMap& map, MapFrame frame, const StampCorrection& correction = {});
+/// The map of the present session for result files: that of a LiDAR has a normal for every point.
+MapCloud result_map(const StaticMap& map, MapFrame frame);
+
+/// The map of all sessions of a run whose place is known, in the frame of the map.
+MapCloud result_map(const Mapping& mapping, MapFrame frame,
+                    const std::vector<SessionPlace>& places);
 
 /// Comments of PLY files that say their frame.
 std::vector<std::string> ply_comments(MapFrame frame);

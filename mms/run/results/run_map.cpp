@@ -91,25 +91,36 @@ bool RunMap::save(const SlamSystem& system, const RunLog& log,
                   const MapFile::WarningHandler& warn) {
   if (!written_) return false;
   const GlobalMap& map = system.global_map();
-  if (map.records().empty() || map.records().back().session != map.session()) {
+  if (map.records().empty() || map.records().back().session < map.earlier_sessions()) {
     warn("no map is saved, since no frame became a keyframe");
     written_.reset();
     return false;
   }
+  const std::vector<StampedMap> maps = system.mapping().session_maps();
+  for (std::uint32_t i = 0; i < maps.size(); ++i) {
+    if (!map.session_of_run(i)) continue;
+    MapSession session = session_of(log, i);
+    session.voxel_size = maps[i].voxel_size;
+    if (!map.records().back().is_scan()) session.camera = camera_;
+    written_->add_session(session, maps[i], map.records());
+  }
+  written_->set_graph(map.poses(), map.loops());
+  std::exchange(written_, nullptr)->commit();
+  return true;
+}
+
+/// @param number  of the session, within the run
+MapSession RunMap::session_of(const RunLog& log, std::uint32_t number) const {
   MapSession session;
   session.name = name_;
   session.program = MMS_VERSION;
   session.settings = settings_;
-  session.frames = static_cast<std::int64_t>(log.frames().size());
-  session.begin = log.frames().front().stamp;
-  session.end = log.frames().back().stamp;
-  session.voxel_size = system.static_map().voxel_size();
-  if (!map.records().back().is_scan()) session.camera = camera_;
-  written_->add_session(session, {system.static_map().cloud(), system.static_map().stamps()},
-                        map.records());
-  written_->set_graph(map.poses(), map.loops());
-  std::exchange(written_, nullptr)->commit();
-  return true;
+  for (const LoggedFrame& frame : log.frames()) {
+    if (frame.session != number) continue;
+    if (session.frames++ == 0) session.begin = frame.stamp;
+    session.end = frame.stamp;
+  }
+  return session;
 }
 
 }  // namespace mms

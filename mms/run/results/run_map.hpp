@@ -35,6 +35,8 @@ class RunMap {
   bool save(const SlamSystem& system, const RunLog& log, const MapFile::WarningHandler& warn);
 
  private:
+  MapSession session_of(const RunLog& log, std::uint32_t number) const;
+
   std::filesystem::path path_;  // that is written
   std::string name_;            // of the recording
   std::string settings_;

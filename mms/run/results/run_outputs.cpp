@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <map>
 
 #include "mms/core/error.hpp"
@@ -61,12 +63,15 @@ std::string loops_csv(const RunLog& log) {
 }
 
 std::vector<ReportFrame> report_frames(const RunLog& log) {
-  const Trajectory poses = log.corrected_trajectory();
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const Transform<World, Sensor> unknown(Eigen::Isometry3d(Eigen::Translation3d(kNaN, kNaN, kNaN)));
+  Trajectory poses;
   std::vector<ReportFrame> frames;
   for (const LoggedFrame& frame : log.frames()) {
     std::vector<double> times = {frame.read_ms};
     times.insert(times.end(), frame.stage_ms.begin(), frame.stage_ms.end());
-    frames.push_back({frame.stamp, poses[frames.size()].T_world_sensor, std::nullopt, frame.status,
+    poses.push_back({frame.stamp, log.corrected_pose(frame).value_or(unknown)});
+    frames.push_back({frame.stamp, poses.back().T_world_sensor, std::nullopt, frame.status,
                       frame.dynamic_share, std::move(times)});
   }
   const auto matches = match_by_stamp(log.truth(), poses, TrajectoryErrorOptions{}.max_difference);
@@ -96,7 +101,7 @@ ReportLoops report_loops(const RunLog& log) {
     if (outcome == LoopOutcome::kAccepted || counts[i] == 0) continue;
     result.rejected.emplace_back(to_string(outcome), counts[i]);
   }
-  if (!log.correction()) return result;
+  if (!are_corrected(log.places())) return result;
   for (const LoggedFrame& frame : log.frames()) {
     result.odometry.push_back(frame.T_world_sensor.translation());
   }
@@ -134,19 +139,37 @@ void write_pictures(const std::filesystem::path& folder, const RunReport& report
 /// The occupancy map of the run where no loop corrects it, else that of all keyframes of the map.
 void write_corrected_robot_maps(const std::filesystem::path& folder, const SystemConfig& config,
                                 const SlamSystem& system, const MapCloud& map, const RunLog& log) {
-  if (!log.correction()) {
+  if (!are_corrected(log.places())) {
     write_robot_maps(folder, system.occupancy_map(), system.static_map().cloud(), log.has_image());
     return;
   }
   const GlobalMap& global = system.global_map();
+  const auto frame = session_of_map_frame(global, static_cast<std::uint32_t>(log.places().size()));
   const auto shares_frame = [&](std::uint32_t session) {
-    return session == global.session() ||
-           (global.is_joined(session) && global.is_joined(global.session()));
+    return frame && global.share_frame(session, *frame);
   };
   const OccupancyMap occupancy =
       corrected_occupancy(global.records(), global.poses(), shares_frame, config.occupancy,
                           with_noise(config.static_map.surface, config.noise));
   write_robot_maps(folder, occupancy, map, log.has_image(), MapMarking::kObstacles);
+}
+
+/// Trajectory and map of the sessions whose place in the map is not known, each in its own frame.
+void write_outside_map(const std::filesystem::path& folder, const SlamSystem& system,
+                       const RunLog& log, MapFrame frame) {
+  const std::vector<SessionPlace>& places = log.places();
+  const bool are_known = std::all_of(places.begin(), places.end(),
+                                     [](const SessionPlace& place) { return place.is_known; });
+  if (are_known) return;
+  make_folder(folder);
+  std::vector<StampedMap> maps = system.mapping().session_maps();
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    if (places[i].is_known) continue;
+    const std::string name = fmt::format("session_{}", i);
+    const MapCloud map = places[i].corrected(std::move(maps[i]));
+    write_ply(folder / (name + ".ply"), file_of(map, frame), ply_comments(frame));
+    write_trajectory_tum(folder / (name + ".tum"), log.session_trajectory(i));
+  }
 }
 
 }  // namespace
@@ -155,7 +178,7 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
                    const SystemConfig& config, const SlamSystem& system, const RunLog& log,
                    const std::vector<std::string>& warnings) {
   const MapFrame frame = log.has_image() ? MapFrame::kCamera : MapFrame::kLidar;
-  const MapCloud map = result_map(system.static_map(), frame, log.correction());
+  const MapCloud map = result_map(system.mapping(), frame, log.places());
   write_result_files(folder, log.trajectory(), log.keyframes(), map, frame);
   write_corrected_robot_maps(folder, config, system, map, log);
   write_file(folder / "objects.json", objects_json(log.objects()));
@@ -167,6 +190,7 @@ void write_outputs(const std::filesystem::path& folder, const std::string& data,
     write_trajectory_tum(folder / "trajectory_map.tum", log.corrected_trajectory());
     write_file(folder / "loops.csv", loops_csv(log));
   }
+  write_outside_map(folder / "outside_map", system, log, frame);
   write_file(folder / "timing.csv", timing_csv(log));
   RunReport report = make_report(data, map, with_objects, system.static_map().voxel_size(), log);
   report.version = MMS_VERSION;

@@ -90,7 +90,7 @@ void LiveView::show(Processed processed, double interval_ms,
 }
 
 void LiveView::end(const std::filesystem::path& folder, const RunLog& log) {
-  if (log.correction()) {
+  if (are_corrected(log.places())) {
     show_final_results(folder, *scene_);
   } else {
     show_aligned_truth(log);
