@@ -16,10 +16,14 @@ MAX_DELAY = 1.0  # [s]
 truth = read_poses(sys.argv[1] + "/groundtruth.txt")
 poses = read_poses(sys.argv[2] + "/trajectory.tum")
 dark_from, dark_for, light_for = map(float, sys.argv[3:6])
-known = []  # stamps with a pose
+known = []  # stamps with a pose in the frame of the map
+# A session that no known place begins is in a frame of its own.
+is_in_map = {}
 with open(sys.argv[2] + "/frames.csv", encoding="utf-8") as file:
     for row in csv.DictReader(file):
-        if row["status"] != "lost":
+        session = row["session"]
+        is_in_map.setdefault(session, session == "0" or row["status"] != "initialized")
+        if row["status"] != "lost" and is_in_map[session]:
             known.append(float(row["stamp"]))
 
 delays, wrong, cases = [], 0, 0

@@ -113,7 +113,7 @@ std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
 
 std::vector<Loop> GlobalMap::add(KeyframeRecord record) {
   graph_.add_node(record);
-  const std::vector<Loop> accepted = find_loop(record);
+  const std::vector<Loop> accepted = first_loop_ ? join_session(record) : find_loop(record);
   const bool is_in_map = std::any_of(accepted.begin(), accepted.end(), [&](const Loop& loop) {
     return graph_.is_fixed(loop.candidate);
   });
@@ -124,6 +124,18 @@ std::vector<Loop> GlobalMap::add(KeyframeRecord record) {
   relocalizer_.reset();
   graph_.solve_if_needed(accepted);
   return accepted;
+}
+
+/// Joins a session to the place where a relocalization began it.
+/// @param first  its first keyframe, the next one; its world is the frame of that place
+std::vector<Loop> GlobalMap::join_session(const KeyframeRecord& first) {
+  Loop loop = *std::exchange(first_loop_, std::nullopt);
+  loop.T_candidate_query =
+      graph_.poses()[loop.candidate].inverse() * first.T_world_sensor.isometry();
+  loop.query = records_.size();
+  graph_.add_check(loop);
+  graph_.add_edges({loop});
+  return {loop};
 }
 
 /// Whether a keyframe may be the end of a loop of the present session.
@@ -179,9 +191,15 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record) {
   const std::vector<PlaceCandidate> recognized =
       recognizer_.find(record.keypoints.descriptors,
                        record.is_scan() ? graph_.first_recent(kScanPath) : end, kMaxRecognized);
+  // The first keyframes after a loss are as those of a lost sensor: people may cover the view.
+  const auto may_be_covered = [&](std::size_t candidate) {
+    return !record.is_scan() && !graph_.shares_frame(candidate);
+  };
   for (const PlaceCandidate& candidate : recognized) {
     if (!may_match(candidate.keyframe)) continue;
-    if (passes(verifier_.verify(records_, poses, candidate.keyframe, record))) {
+    if (passes(verifier_.verify(records_, poses, candidate.keyframe, record)) ||
+        (may_be_covered(candidate.keyframe) &&
+         passes(verifier_.verify_lost(records_, poses, candidate.keyframe, record)))) {
       return confirmation_.confirm(graph_, min_inliers);
     }
   }
@@ -201,6 +219,25 @@ std::vector<Eigen::Isometry3d> GlobalMap::poses_in_world() const {
   return poses;
 }
 
+/// @param loop  of the frame, whose candidate is at one of the poses
+Relocalization GlobalMap::relocalization_at(const Loop& loop,
+                                            const std::vector<Eigen::Isometry3d>& poses) {
+  Relocalization result;
+  result.begins_session = !graph_.shares_frame(loop.candidate);
+  const std::vector<Eigen::Isometry3d>& placed = result.begins_session ? graph_.poses() : poses;
+  result.T_world_sensor = Transform<World, Sensor>(placed[loop.candidate] * loop.T_candidate_query);
+  const auto [first, end] = neighbors(records_, loop.candidate);
+  for (std::size_t i = first; i < end; ++i) {
+    result.surroundings.push_back({records_[i].features, placed[i]});
+  }
+  if (!result.begins_session) return result;
+  first_loop_ = loop;
+  if (is_joined(records_[loop.candidate].session)) {
+    result.T_global_world = Transform<Global, World>();
+  }
+  return result;
+}
+
 std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame) {
   if (run_sessions_.empty() || run_sessions_.back() != frame.session) {
     relocalizer_.reset();
@@ -208,19 +245,13 @@ std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame)
   }
   assert(frame.cloud.organised());
   const std::vector<Eigen::Isometry3d> poses = poses_in_world();
-  const auto is_usable = [&](std::size_t keyframe) {
-    return graph_.shares_frame(keyframe) && may_match(keyframe);
-  };
-  const auto loop = relocalizer_.find({records_, poses, recognizer_, verifier_, is_usable},
-                                      record_of(frame), frame.has_pose);
+  const auto is_usable = [&](std::size_t keyframe) { return may_match(keyframe); };
+  const auto shares_frame = [&](std::size_t keyframe) { return graph_.shares_frame(keyframe); };
+  const auto loop =
+      relocalizer_.find({records_, poses, recognizer_, verifier_, is_usable, shares_frame},
+                        record_of(frame), frame.has_pose);
   if (!loop) return std::nullopt;
-  Relocalization result{Transform<World, Sensor>(poses[loop->candidate] * loop->T_candidate_query),
-                        {}};
-  const auto [first, end] = neighbors(records_, loop->candidate);
-  for (std::size_t i = first; i < end; ++i) {
-    result.surroundings.push_back({records_[i].features, poses[i]});
-  }
-  return result;
+  return relocalization_at(*loop, poses);
 }
 
 std::optional<Transform<Global, World>> GlobalMap::last_correction() const {

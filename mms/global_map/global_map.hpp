@@ -69,8 +69,12 @@ enum class MapUse { kExtend, kLocalizeOnly };
 
 /// Pose of a lost frame at a place of the global map.
 struct Relocalization {
-  Transform<World, Sensor> T_world_sensor;   ///< in the frame of the odometry
+  Transform<World, Sensor> T_world_sensor;   ///< in the world of the session
   std::vector<PlacedFeatures> surroundings;  ///< features of the keyframes at that place
+  /// Whether no loop joins the present session to that place: then a new session begins there,
+  /// whose world is the frame of that place.
+  bool begins_session = false;
+  std::optional<Transform<Global, World>> T_global_world;  ///< of the new session, if it is known
 };
 
 /// The global map (beyond the paper, which names global optimization without a method): keyframes,
@@ -98,7 +102,8 @@ class GlobalMap {
   /// Brings the poses up to date with all loops. After the last keyframe.
   void finish() { graph_.finish(); }
 
-  /// Finds the place of a frame whose pose is lost or in doubt, see `Relocalizer`.
+  /// Finds the place of a frame whose pose is lost or in doubt, see `Relocalizer`. Where it begins
+  /// a session, the first keyframe of that must follow.
   /// @returns nothing if it is not sure
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
 
@@ -133,11 +138,13 @@ class GlobalMap {
 
  private:
   KeyframeRecord record_of(const GlobalKeyframe& keyframe) const;
+  Relocalization relocalization_at(const Loop& loop, const std::vector<Eigen::Isometry3d>& poses);
   void describe_scan(const GlobalKeyframe& keyframe, KeyframeRecord& record);
   std::vector<Eigen::Isometry3d> poses_in_world() const;
   bool may_match(std::size_t candidate) const;
   std::vector<std::size_t> nearby(std::size_t end) const;
   std::vector<Loop> find_loop(const KeyframeRecord& record);
+  std::vector<Loop> join_session(const KeyframeRecord& first);
 
   GlobalMapConfig config_;
   FeatureExtractor extractor_;
@@ -151,6 +158,7 @@ class GlobalMap {
   Relocalizer relocalizer_;
   std::uint32_t earlier_sessions_ = 0;
   std::vector<std::uint32_t> run_sessions_;  ///< of the run that have keyframes, ascending
+  std::optional<Loop> first_loop_;           ///< of the session that a relocalization begins
 };
 
 }  // namespace mms

@@ -74,7 +74,8 @@ std::optional<Loop> confirm(const KnownPlaces& places, const KeyframeRecord& fra
   for (std::size_t i = 0; i < places.poses.size(); ++i) {
     const Eigen::Isometry3d relative = places.poses[i].inverse() * pose;
     const double distance = relative.translation().norm() + se3::angle(relative);
-    if (distance < kMaxDoubtDistance && places.is_usable(i)) near.emplace_back(distance, i);
+    const bool may_confirm = places.is_usable(i) && places.shares_frame(i);
+    if (distance < kMaxDoubtDistance && may_confirm) near.emplace_back(distance, i);
   }
   std::sort(near.begin(), near.end());
   near.resize(std::min(near.size(), kMaxNear));

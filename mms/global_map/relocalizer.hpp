@@ -17,10 +17,12 @@ namespace mms {
 /// The keyframes among which the place of a lost frame is searched.
 struct KnownPlaces {
   const std::deque<KeyframeRecord>& records;
-  const std::vector<Eigen::Isometry3d>& poses;  ///< in the world of the present session
+  /// In the world of the present session; those that no loops join to it in a frame of their own.
+  const std::vector<Eigen::Isometry3d>& poses;
   const PlaceRecognizer& recognizer;
   const LoopVerifier& verifier;
   std::function<bool(std::size_t keyframe)> is_usable;
+  std::function<bool(std::size_t keyframe)> shares_frame;  ///< with the present session
 };
 
 /// Finds the place of a lost sensor from frame to frame.

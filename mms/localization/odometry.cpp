@@ -133,7 +133,7 @@ std::optional<Vector6d> Odometry::changed_velocity(const Alignment& alignment) c
   return velocity;
 }
 
-OdometryEstimate Odometry::accept(const Alignment& alignment) {
+OdometryEstimate Odometry::accept(Alignment alignment) {
   const std::optional<FeatureCloud> first = std::exchange(first_scan_, std::nullopt);
   OdometryEstimate estimate =
       alignment.registration ? track(alignment) : initialize(alignment.features);
@@ -147,6 +147,7 @@ OdometryEstimate Odometry::accept(const Alignment& alignment) {
     estimate.T_world_sensor =
         Transform<World, Sensor>(motion_.pose() * se3::exp(*alignment.velocity * seconds));
   }
+  last_features_ = std::move(alignment.features);
   return estimate;
 }
 
@@ -295,19 +296,20 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
     estimate.status = Status::kLost;
     return estimate;
   }
-  const double voxel =
-      config_.voxel_size > 0.0 ? config_.voxel_size : automatic_voxel_size(median_range(features));
-  map_radius_ = config_.map_radius > 0.0 ? config_.map_radius : kMapRadius * voxel;
-  begin_maps(voxel, features);
+  make_maps(features);
+  update_maps(features);
   if (features.intensity.empty() && features.points_offset != Duration::zero()) {
     first_scan_ = features;
   }
   return estimate;
 }
 
-void Odometry::begin_maps(double voxel, const FeatureCloud& features) {
+/// Without content; the features decide on the voxels.
+void Odometry::make_maps(const FeatureCloud& features) {
+  const double voxel =
+      config_.voxel_size > 0.0 ? config_.voxel_size : automatic_voxel_size(median_range(features));
+  map_radius_ = config_.map_radius > 0.0 ? config_.map_radius : kMapRadius * voxel;
   maps_.emplace(voxel, static_cast<std::size_t>(config_.max_voxels));
-  update_maps(features);
 }
 
 /// Two scans give the velocity, which skewed both alike: the first is mapped again, the second
@@ -318,19 +320,22 @@ OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud seco
   deskew(first, velocity);
   deskew(second, velocity);
   motion_.place(first.stamp, origin_ * se3::exp(velocity * to_seconds(first.points_offset)));
-  begin_maps(static_cast<double>(maps_->voxel_size()), first);
+  maps_.emplace(static_cast<double>(maps_->voxel_size()),
+                static_cast<std::size_t>(config_.max_voxels));
+  update_maps(first);
   return track(align_at_pose_time(std::move(second)));
 }
 
 OdometryEstimate Odometry::relocate(Timestamp stamp, const Transform<World, Sensor>& T_world_sensor,
                                     const std::vector<PlacedFeatures>& surroundings) {
   motion_.rest(stamp, T_world_sensor.isometry());
-  if (maps_) {
-    for (const PlacedFeatures& placed : surroundings) {
-      maps_->insert(placed.features, placed.T_world_sensor,
-                    config_.registration.geometric.association);
-    }
+  const bool is_new = !maps_;
+  if (is_new) make_maps(last_features_);
+  for (const PlacedFeatures& placed : surroundings) {
+    maps_->insert(placed.features, placed.T_world_sensor,
+                  config_.registration.geometric.association);
   }
+  update_maps(last_features_);
   lost_ = false;
   OdometryEstimate estimate;
   estimate.stamp = stamp;

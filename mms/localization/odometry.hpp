@@ -52,9 +52,10 @@ class Odometry {
 
   /// Takes an alignment of the next frame: moves the sensor and updates the local maps.
   /// Never throws for bad frames: see Status.
-  OdometryEstimate accept(const Alignment& alignment);
+  OdometryEstimate accept(Alignment alignment);
 
-  /// Continues at a place where the sensor was recognized after it was lost.
+  /// Continues at a place where the sensor was recognized after it was lost; after `restart`, new
+  /// local maps begin there with the last frame.
   /// @param surroundings  added to the local maps, which may not reach there
   /// @returns the estimate of that frame, with status kRecovered
   OdometryEstimate relocate(Timestamp stamp, const Transform<World, Sensor>& T_world_sensor,
@@ -103,7 +104,7 @@ class Odometry {
   Alignment align_at_pose_time(FeatureCloud features) const;
   OdometryEstimate track(const Alignment& alignment);
   OdometryEstimate begin_in_motion(FeatureCloud first, FeatureCloud second);
-  void begin_maps(double voxel, const FeatureCloud& features);
+  void make_maps(const FeatureCloud& features);
   RegistrationResult register_best(const FeatureCloud& features) const;
   RegistrationResult register_sensed(const FeatureCloud& features,
                                      const PosePrediction& prediction) const;
@@ -116,6 +117,7 @@ class Odometry {
 
   OdometryConfig config_;
   std::optional<LocalMaps> maps_;  ///< made from the first frame, whose range sets the voxels
+  FeatureCloud last_features_;     ///< of the last frame, at the time of its pose
   std::optional<FeatureCloud> first_scan_;  ///< as measured, until the second one
   ReferenceKeyframes keyframes_;
   DepthNoise noise_;

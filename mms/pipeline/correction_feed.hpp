@@ -22,9 +22,10 @@ class CorrectionFeed {
   /// Whether to wait for results that are late, so that they do not depend on the computer.
   void set_waiting(bool waits) { waits_ = waits; }
 
-  /// Nothing is known any more: frames of a new session follow.
-  void reset() {
-    current_.reset();
+  /// Frames of a new session follow.
+  /// @param first  for those before any result
+  void reset(const MapCorrection& first) {
+    current_ = first;
     coming_.clear();
   }
 

@@ -105,7 +105,13 @@ FrameResult Localization::localize(PerceivedFrame frame) {
 
 FrameResult Localization::relocate(FrameResult lost, const Relocalization& place) {
   assert(thread_.is_owner());
-  if (lost_frames_ == 0 && agree(lost.odometry, place)) {
+  if (place.begins_session) {
+    begin_session();
+    lost.session = session_number_;
+    lost.T_global_world = place.T_global_world;
+    corrections_.reset(place.T_global_world);
+  }
+  if (!place.begins_session && lost_frames_ == 0 && agree(lost.odometry, place)) {
     lost.odometry.status = Status::kRecovered;
   } else {
     lost.odometry =
@@ -137,7 +143,7 @@ void Localization::begin_session() {
   ++session_number_;
   odometry_.restart();
   session_ = Session(config_);
-  corrections_.reset();
+  corrections_.reset(std::nullopt);
   searches_place_ = true;
   search_begin_.reset();
   lost_for_ = Duration::zero();

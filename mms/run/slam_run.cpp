@@ -220,19 +220,25 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
 
 void SlamRun::warn_of_losses(const Processed& processed, RunObserver& observer) {
   const FrameResult& result = processed.result;
-  const std::string& name = processed.frame.name;
-  if (result.relocalized) warn(fmt::format("frame {}: relocalized", name), observer);
-  if (result.session != std::exchange(session_, result.session)) {
-    warn(fmt::format("frame {}: session {} begins after a long loss: its place in the map is "
-                     "unknown until it sees a known place",
-                     name, result.session),
-         observer);
-    is_outside_ = true;
+  const auto tell = [&](const std::string& what) {
+    warn(fmt::format("frame {}: {}", processed.frame.name, what), observer);
+  };
+  const bool begins = result.session != std::exchange(session_, result.session);
+  is_outside_ |= begins;
+  if (begins && result.relocalized) {
+    tell(fmt::format("relocalized at a place of an earlier session; session {} begins there",
+                     result.session));
+  } else if (begins) {
+    tell(
+        fmt::format("session {} begins after a long loss: its place in the map is unknown until "
+                    "it sees a known place",
+                    result.session));
+  } else if (result.relocalized) {
+    tell("relocalized");
   }
   if (!is_outside_ || !result.T_global_world) return;
-  warn(fmt::format("frame {}: session {} has its place in the map", name, result.session),
-       observer);
   is_outside_ = false;
+  if (!begins) tell(fmt::format("session {} has its place in the map", result.session));
 }
 
 void SlamRun::warn_if_not_localized(RunObserver& observer) {

@@ -15,7 +15,7 @@
 namespace mms {
 namespace {
 
-constexpr int kNone = -1;         // darkness
+constexpr int kNoLight = -1;      // darkness
 constexpr std::size_t kDark = 5;  // its frames
 constexpr std::size_t kBegin =
     28 + kDark + 29;  // the session's first frame: the 30th in the light, 3 s
@@ -23,7 +23,7 @@ constexpr std::size_t kBegin =
 /// A run over images at given places of a path, ten of them a second. The path has a corner: what
 /// is seen before it is not seen after it.
 struct Carried {
-  std::vector<int> places;  ///< by frame: image of the path; kNone is dark
+  std::vector<int> places;  ///< by frame: image of the path; kNoLight is dark
   std::vector<FrameResult> results;
   std::unique_ptr<SlamSystem> system;
 
@@ -40,12 +40,18 @@ struct Carried {
   }
 };
 
-/// @param is_back  whether the sensor comes back to the places of the first session
-Carried carried_away(int threads, bool is_back) {
+/// How the sensor comes back to the places of the first session.
+enum class Return { kNone, kDrives, kIsCarried };
+
+Carried carried_away(int threads, Return back) {
   Carried run;
   for (int i = 212; i < 240; ++i) run.places.push_back(i);
-  run.places.insert(run.places.end(), kDark, kNone);
-  for (int i = 165; i < (is_back ? 236 : 203); ++i) run.places.push_back(i);
+  run.places.insert(run.places.end(), kDark, kNoLight);
+  for (int i = 165; i < (back == Return::kDrives ? 236 : 203); ++i) run.places.push_back(i);
+  if (back == Return::kIsCarried) {
+    run.places.insert(run.places.end(), kDark, kNoLight);
+    for (int i = 216; i < 230; ++i) run.places.push_back(i);
+  }
   SceneConfig scene_config = mms::scene_config("warehouse_loop");
   scene_config.width = 320;
   scene_config.hz = 10.0;
@@ -61,7 +67,7 @@ Carried carried_away(int threads, bool is_back) {
             if (next == run.places.size()) return std::nullopt;
             const int place = run.places[next];
             Frame frame = scene.render(std::max(place, 0)).frame;
-            if (place == kNone) {
+            if (place == kNoLight) {
               std::fill(frame.depth.pixels().begin(), frame.depth.pixels().end(), 0.0F);
               std::fill(frame.color.pixels().begin(), frame.color.pixels().end(), Rgb{});
             }
@@ -75,7 +81,7 @@ Carried carried_away(int threads, bool is_back) {
 }
 
 TEST(Session, BeginsWhereALostSensorSeesEnoughForSecondsButNoKnownPlace) {
-  const Carried run = carried_away(1, false);
+  const Carried run = carried_away(1, Return::kNone);
   const std::size_t begin = run.session_begin();
   ASSERT_EQ(begin, kBegin);
   for (std::size_t i = 28; i < begin; ++i) {
@@ -103,7 +109,7 @@ TEST(Session, BeginsWhereALostSensorSeesEnoughForSecondsButNoKnownPlace) {
 
 /// With one thread.
 const Carried& carried_away_and_back() {
-  static const Carried kRun = carried_away(1, true);
+  static const Carried kRun = carried_away(1, Return::kDrives);
   return kRun;
 }
 
@@ -128,9 +134,31 @@ TEST(Session, IsJoinedToTheMapWhereItSeesAKnownPlace) {
   EXPECT_GT(joined.size(), maps[0].cloud.size());
 }
 
+TEST(Session, BeginsAtAPlaceOfAnEarlierSessionWhereALostSensorIsRelocalized) {
+  const Carried run = carried_away(1, Return::kIsCarried);
+  const FrameResult& last = run.results.back();
+  ASSERT_EQ(last.session, 2U);
+  const auto first = std::find_if(run.results.begin(), run.results.end(),
+                                  [](const FrameResult& result) { return result.session == 2; });
+  EXPECT_TRUE(first->relocalized);
+  EXPECT_TRUE(first->global_keyframe);
+  for (auto result = first; result != run.results.end(); ++result) {
+    ASSERT_TRUE(result->T_global_world) << "its place is known from the start";
+    EXPECT_NE(result->odometry.status, Status::kLost);
+    const int place = run.places[static_cast<std::size_t>(result - run.results.begin())];
+    EXPECT_LT((result->odometry.T_world_sensor.translation() - run.first_position_at(place)).norm(),
+              0.05)
+        << "its world is the frame of the map";
+  }
+  const std::vector<SessionPlace> places = session_places(run.system->global_map(), 3);
+  EXPECT_TRUE(places[0].is_known);
+  EXPECT_FALSE(places[1].is_known);
+  EXPECT_TRUE(places[2].is_known);
+}
+
 TEST(Session, IsTheSameForAnyNumberOfThreads) {
   const Carried& one = carried_away_and_back();
-  const Carried two = carried_away(2, true);
+  const Carried two = carried_away(2, Return::kDrives);
   ASSERT_EQ(one.results.size(), two.results.size());
   for (std::size_t i = 0; i < one.results.size(); ++i) {
     EXPECT_EQ(one.results[i].session, two.results[i].session);
