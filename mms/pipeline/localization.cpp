@@ -107,6 +107,7 @@ FrameResult Localization::relocate(FrameResult lost, const Relocalization& place
   assert(thread_.is_owner());
   if (place.begins_session) {
     begin_session();
+    searches_place_ = !place.T_global_world;
     lost.session = session_number_;
     lost.T_global_world = place.T_global_world;
     corrections_.reset(place.T_global_world);

@@ -107,6 +107,37 @@ TEST(Odometry, RecoversAfterLoss) {
   EXPECT_GT(step(12), 0.0);
 }
 
+TEST(Odometry, RestartBeginsNewMapsAtThePredictedPose) {
+  Odometry odometry({}, {});
+  for (int ms = 0; ms <= 200; ms += 50) odometry.estimate(features_at(ms));
+  const OdometryEstimate lost = odometry.estimate(no_features_at(250));
+  ASSERT_EQ(lost.status, Status::kLost);
+  odometry.restart();
+  EXPECT_FALSE(odometry.can_begin_with(no_features_at(300)));
+  ASSERT_TRUE(odometry.can_begin_with(features_at(300)));
+  const OdometryEstimate first = odometry.estimate(features_at(300));
+  EXPECT_EQ(first.status, Status::kInitialized);
+  EXPECT_EQ(first.T_world_sensor.isometry().matrix(), lost.T_world_sensor.isometry().matrix());
+  // The way since then is right, whatever the place is.
+  const OdometryEstimate last = odometry.estimate(features_at(350));
+  EXPECT_EQ(last.status, Status::kTracking);
+  const Eigen::Isometry3d way = (first.T_world_sensor.inverse() * last.T_world_sensor).isometry();
+  EXPECT_LT(position_error(way, truth_at(first.stamp).inverse() * truth_at(last.stamp)), 1e-3);
+}
+
+TEST(Odometry, RelocatesAfterARestartWithTheLastFrame) {
+  Odometry odometry({}, {});
+  for (int ms = 0; ms <= 200; ms += 50) odometry.estimate(features_at(ms));
+  odometry.restart();
+  const Transform<World, Sensor> elsewhere(motion(5.0, 0.0, -3.0, 0.0, 0.7, 0.0));
+  const OdometryEstimate placed = odometry.relocate(Timestamp(200 * kMillisecond), elsewhere, {});
+  EXPECT_EQ(placed.status, Status::kRecovered);
+  const OdometryEstimate next = odometry.estimate(features_at(250));
+  EXPECT_EQ(next.status, Status::kTracking);
+  const Eigen::Isometry3d way = (elsewhere.inverse() * next.T_world_sensor).isometry();
+  EXPECT_LT(position_error(way, truth_at(placed.stamp).inverse() * truth_at(next.stamp)), 1e-3);
+}
+
 TEST(Odometry, PredictsPoseShortlyAfterLoss) {
   Odometry odometry({}, {});
   for (int ms = 0; ms <= 500; ms += 50) odometry.estimate(features_at(ms));
