@@ -191,15 +191,16 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record) {
   const std::vector<PlaceCandidate> recognized =
       recognizer_.find(record.keypoints.descriptors,
                        record.is_scan() ? graph_.first_recent(kScanPath) : end, kMaxRecognized);
-  // The first keyframes after a loss are as those of a lost sensor: people may cover the view.
-  const auto may_be_covered = [&](std::size_t candidate) {
-    return !record.is_scan() && !graph_.shares_frame(candidate);
-  };
   for (const PlaceCandidate& candidate : recognized) {
-    if (!may_match(candidate.keyframe)) continue;
-    if (passes(verifier_.verify(records_, poses, candidate.keyframe, record)) ||
-        (may_be_covered(candidate.keyframe) &&
-         passes(verifier_.verify_lost(records_, poses, candidate.keyframe, record)))) {
+    const std::size_t i = candidate.keyframe;
+    if (!may_match(i)) continue;
+    // Another session: after a loss, people may cover the view. Within a run nothing was moved, so
+    // that places which only look alike contradict.
+    const bool is_joining = !record.is_scan() && !graph_.shares_frame(i);
+    const bool is_of_run = !run_sessions_.empty() && records_[i].session >= earlier_sessions_;
+    const bool is_strict = is_joining && is_of_run;
+    if ((!is_strict && passes(verifier_.verify(records_, poses, i, record))) ||
+        (is_joining && passes(verifier_.verify_lost(records_, poses, i, record)))) {
       return confirmation_.confirm(graph_, min_inliers);
     }
   }

@@ -84,6 +84,9 @@ class LoopVerifier {
   void check_lost(const std::deque<KeyframeRecord>& records,
                   const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
                   double min_overlap, double min_pairs, Loop& loop) const;
+  int pairs_at(const std::deque<KeyframeRecord>& records,
+               const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
+               const Loop& loop) const;
   double contradiction_around(const std::deque<KeyframeRecord>& records,
                               const std::vector<Eigen::Isometry3d>& poses, std::size_t keyframe,
                               const KeyframeView& view, const Eigen::Isometry3d& pose) const;
