@@ -194,13 +194,12 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record) {
   for (const PlaceCandidate& candidate : recognized) {
     const std::size_t i = candidate.keyframe;
     if (!may_match(i)) continue;
-    // Another session: after a loss, people may cover the view. Within a run nothing was moved, so
-    // that places which only look alike contradict.
-    const bool is_joining = !record.is_scan() && !graph_.shares_frame(i);
-    const bool is_of_run = !run_sessions_.empty() && records_[i].session >= earlier_sessions_;
-    const bool is_strict = is_joining && is_of_run;
-    if ((!is_strict && passes(verifier_.verify(records_, poses, i, record))) ||
-        (is_joining && passes(verifier_.verify_lost(records_, poses, i, record)))) {
+    // Another session of the run: after a loss, people may cover the view, and nothing was moved
+    // since, so that places which only look alike contradict.
+    const bool is_after_loss = !record.is_scan() && !graph_.shares_frame(i) &&
+                               !run_sessions_.empty() && records_[i].session >= earlier_sessions_;
+    if (passes(is_after_loss ? verifier_.verify_lost(records_, poses, i, record)
+                             : verifier_.verify(records_, poses, i, record))) {
       return confirmation_.confirm(graph_, min_inliers);
     }
   }
