@@ -86,10 +86,10 @@ void convert_recording(const RecordingConversion& conversion) {
                    {.map_truth = false, .topics = conversion.topics, .camera = conversion.camera});
   refuse_existing(output, conversion.overwrite);
   const fs::path partial = partial_name(output);
+  const InterruptGuard interrupt;
   auto recorder = open_recorder(partial, conversion.compressed);
   RateProgress progress("frame");
   source->on_warning([&](const std::string& message) { progress.warn(message); });
-  const InterruptGuard interrupt;
   int done = 0;
   while (!InterruptGuard::requested()) {
     const std::optional<Frame> frame = source->next();
@@ -102,6 +102,7 @@ void convert_recording(const RecordingConversion& conversion) {
     recorder.reset();
     std::error_code ignored;
     fs::remove(partial, ignored);  // an empty folder
+    if (InterruptGuard::requested()) throw Interrupted("nothing is written");
     throw DataError(conversion.input, "none of its frames could be read");
   }
   recorder->finish(source->ground_truth());

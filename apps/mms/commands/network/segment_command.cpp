@@ -151,9 +151,9 @@ void segment(const SegmentArguments& arguments) {
   const auto source =
       open_source(arguments, [&](const std::string& message) { progress.warn(message); });
   const std::unique_ptr<Detector> detector = make_detector(config);
+  const InterruptGuard interrupt;
   SegmentOutputs outputs(arguments.output, detector->classes(), config.objects.score,
                          arguments.json_only, arguments.overwrite);
-  const InterruptGuard interrupt;
   const auto total = static_cast<int>(std::min(source->size(), arguments.limit));
   PictureTimes times;
   while (outputs.pictures() < arguments.limit && !InterruptGuard::requested()) {
@@ -167,6 +167,7 @@ void segment(const SegmentArguments& arguments) {
   }
   progress.finish();
   if (outputs.pictures() == 0) {
+    if (InterruptGuard::requested()) throw Interrupted("no image is segmented");
     throw DataError(arguments.data, "none of its images could be read", "see the warnings above");
   }
   outputs.finish();
