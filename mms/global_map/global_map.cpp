@@ -73,7 +73,7 @@ KeyframeRecord GlobalMap::record_of(const GlobalKeyframe& keyframe) const {
   record.features.intensity = {};
   if (!keyframe.cloud.organised()) return record;
   record.keypoints = extract_keypoints(keyframe.color, keyframe.cloud, noise_);
-  record.view = make_keyframe_view(keyframe.cloud);
+  record.view = make_keyframe_view(keyframe.color, keyframe.cloud);
   return record;
 }
 

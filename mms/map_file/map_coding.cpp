@@ -214,6 +214,7 @@ std::string encode_keyframe(const KeyframeRecord& keyframe) {
   append(bytes, keyframe.view.camera);
   append(bytes, keyframe.view.depth_mm);
   append(bytes, keyframe.view.is_static);
+  if (!keyframe.view.gray.empty()) append(bytes, keyframe.view.gray);
   if (keyframe.is_scan()) append(bytes, keyframe.scan);
   return compress_zstd(bytes);
 }
@@ -234,7 +235,10 @@ void decode_keyframe(std::string_view compressed, const std::string& where,
   keyframe.view.camera = take_camera(reader);
   keyframe.view.depth_mm = take_image<std::uint16_t>(reader, keyframe.view.camera);
   keyframe.view.is_static = take_image<std::uint8_t>(reader, keyframe.view.camera);
-  if (reader.left() > 0) keyframe.scan = take_scan(reader);
+  const bool has_view = !keyframe.view.depth_mm.empty();
+  if (has_view && reader.left() > 0)
+    keyframe.view.gray = take_image<std::uint8_t>(reader, keyframe.view.camera);
+  if (!has_view && reader.left() > 0) keyframe.scan = take_scan(reader);
   check_end(reader);
   const auto position = [](const auto& feature) { return feature.point; };
   for (const auto* points : {&keypoints.points, &keyframe.scan.points}) {

@@ -58,10 +58,10 @@ void check_header(const fs::path& path) {
   if (!header.is_map()) {
     throw DataError(path.string(), "is no map of mms", "mms run DATA --save-map FILE makes one");
   }
-  if (header.version() != kMapVersion) {
+  if (header.version() < kOldestMapVersion || header.version() > kMapVersion) {
     throw DataError(path.string(),
-                    fmt::format("is a map of version {}, this program reads version {}",
-                                header.version(), kMapVersion),
+                    fmt::format("is a map of version {}, this program reads versions {} to {}",
+                                header.version(), kOldestMapVersion, kMapVersion),
                     "use the program that made it, see mms --version");
   }
 }
@@ -191,8 +191,7 @@ MapFile::MapFile(const fs::path& path, Mode mode) : path_(path) {
   if (mode == Mode::kCreate) {
     write_partial();
     database_ = std::make_unique<SqliteDatabase>(written_->path(), Access::kCreate);
-    database_->execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};{}",
-                                   kMapApplication, kMapVersion, kMapSchema));
+    database_->execute(fmt::format("PRAGMA application_id = {};{}", kMapApplication, kMapSchema));
     return;
   }
   database_ = open_existing(path, mode == Mode::kRead ? Access::kRead : Access::kWrite);
@@ -431,7 +430,7 @@ void MapFile::set_graph(const std::vector<Eigen::Isometry3d>& poses,
 }
 
 void MapFile::commit() {
-  database_->execute("COMMIT");
+  database_->execute(fmt::format("PRAGMA user_version = {}; COMMIT", kMapVersion));
   database_.reset();
   if (!written_) return;
   std::error_code error;

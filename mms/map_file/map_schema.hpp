@@ -8,8 +8,11 @@ namespace mms {
 /// The file's `application_id`: "MMSM".
 inline constexpr std::int64_t kMapApplication = 0x4D4D534D;
 
-/// The file's `user_version`; readers refuse others.
-inline constexpr std::int64_t kMapVersion = 1;
+/// The file's `user_version`; readers refuse later ones.
+inline constexpr std::int64_t kMapVersion = 2;
+
+/// Views of keyframes have no grey values in it.
+inline constexpr std::int64_t kOldestMapVersion = 1;
 
 /// Tables of a map file, see docs/map_file.md.
 inline constexpr std::string_view kMapSchema = R"(

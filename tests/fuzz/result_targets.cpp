@@ -56,8 +56,9 @@ Seeds run_table_seeds() {
   std::string times = "1.000000000";
   for (std::size_t i = 0; i < 3 + kStageCount; ++i) times += ",1.500";
   return {times + "\n",
-          "stamp,earlier_stamp,outcome,inliers,overlap,contradiction,sigma,tx,ty,tz,qx,qy,qz,qw\n"
-          "1.200000000,1.000000000,accepted,40,0.900,0.0100,0.0100,0,0,0,0,0,0,1\n"};
+          "stamp,earlier_stamp,outcome,inliers,overlap,contradiction,dissimilarity,sigma,"
+          "tx,ty,tz,qx,qy,qz,qw\n"
+          "1.200000000,1.000000000,accepted,40,0.900,0.0100,0.020,0.0100,0,0,0,0,0,0,1\n"};
 }
 
 /// The folder of a run with the bytes as one of its tables, then as the other one.

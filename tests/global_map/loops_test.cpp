@@ -10,6 +10,7 @@
 #include "mms/geometry/se3.hpp"
 #include "mms/global_map/corrected_occupancy.hpp"
 #include "mms/global_map/keyframes/keyframe_view.hpp"
+#include "mms/global_map/keyframes/view_texture.hpp"
 #include "mms/global_map/loops/keypoint_matching.hpp"
 #include "mms/global_map/loops/place_matching.hpp"
 #include "mms/global_map/loops/point_alignment.hpp"
@@ -166,8 +167,8 @@ Eigen::Isometry3d moved(double x, double z) {
 }
 
 TEST(KeyframeView, ViewsOfOneSceneAgree) {
-  const KeyframeView a = make_keyframe_view(room(moved(0.0, 0.0), true));
-  const KeyframeView b = make_keyframe_view(room(moved(0.3, 0.2), true));
+  const KeyframeView a = make_keyframe_view({}, room(moved(0.0, 0.0), true));
+  const KeyframeView b = make_keyframe_view({}, room(moved(0.3, 0.2), true));
   EXPECT_EQ(a.depth_mm.width(), 80);
   const ViewAgreement agreement = compare_views(a, b, moved(0.3, 0.2), DepthNoise{});
   EXPECT_GT(agreement.overlap, 0.8);
@@ -175,15 +176,15 @@ TEST(KeyframeView, ViewsOfOneSceneAgree) {
 }
 
 TEST(KeyframeView, AMissingBoxContradicts) {
-  const KeyframeView with = make_keyframe_view(room(moved(0.0, 0.0), true));
-  const KeyframeView without = make_keyframe_view(room(moved(0.3, 0.2), false));
+  const KeyframeView with = make_keyframe_view({}, room(moved(0.0, 0.0), true));
+  const KeyframeView without = make_keyframe_view({}, room(moved(0.3, 0.2), false));
   EXPECT_GT(compare_views(without, with, moved(0.3, 0.2).inverse(), DepthNoise{}).contradiction,
             0.1);
   EXPECT_LT(compare_views(with, without, moved(0.3, 0.2), DepthNoise{}).overlap, 0.8);
 }
 
 TEST(KeyframeView, AWrongPoseContradicts) {
-  const KeyframeView a = make_keyframe_view(room(moved(0.0, 0.0), true));
+  const KeyframeView a = make_keyframe_view({}, room(moved(0.0, 0.0), true));
   EXPECT_GT(compare_views(a, a, moved(0.0, -0.4), DepthNoise{}).contradiction, 0.5);
 }
 
@@ -192,8 +193,8 @@ TEST(KeyframeView, DynamicPointsAreNotCompared) {
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.points[i].z() < 3.0F) cloud.labels[i] = PointLabel::kDynamic;
   }
-  const KeyframeView with = make_keyframe_view(cloud);
-  const KeyframeView without = make_keyframe_view(room(moved(0.0, 0.0), false));
+  const KeyframeView with = make_keyframe_view({}, cloud);
+  const KeyframeView without = make_keyframe_view({}, room(moved(0.0, 0.0), false));
   EXPECT_LT(compare_views(without, with, moved(0.0, 0.0), DepthNoise{}).contradiction, 0.01);
 }
 
@@ -205,11 +206,11 @@ KeyframeView covered_room(double share) {
     cloud.points[i] *= 1.0F / cloud.points[i].z();
     cloud.labels[i] = PointLabel::kDynamic;
   }
-  return make_keyframe_view(cloud);
+  return make_keyframe_view({}, cloud);
 }
 
 TEST(KeyframeView, PointsBehindPeopleDoNotCountAsMissing) {
-  const KeyframeView open = make_keyframe_view(room(moved(0.0, 0.0), true));
+  const KeyframeView open = make_keyframe_view({}, room(moved(0.0, 0.0), true));
   const auto overlap = [&](const KeyframeView& a, const KeyframeView& b) {
     return compare_views(a, b, moved(0.0, 0.0), DepthNoise{}).overlap;
   };
@@ -219,12 +220,60 @@ TEST(KeyframeView, PointsBehindPeopleDoNotCountAsMissing) {
   EXPECT_LT(overlap(covered_room(0.96), open), 0.2);
 }
 
+/// An image of the room, whose surfaces have a pattern of their own or another one.
+Image<Rgb> image_of(const LabeledCloud& room, const Eigen::Isometry3d& T_world_camera,
+                    double phase) {
+  Image<Rgb> image(room.width, room.height);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const Eigen::Vector3d at = T_world_camera * room.points[i].cast<double>();
+    const double wave = std::sin(11.0 * at.x() + phase * at.y()) + std::sin(13.0 * at.y() - phase);
+    const auto gray = static_cast<std::uint8_t>(120.0 + 6.0 * wave);
+    image[i] = {gray, gray, gray};
+  }
+  return image;
+}
+
+/// A view of the room with a pattern.
+KeyframeView textured_view(const Eigen::Isometry3d& T_world_camera, double phase) {
+  const LabeledCloud cloud = room(T_world_camera, true);
+  return make_keyframe_view(image_of(cloud, T_world_camera, phase), cloud);
+}
+
+TEST(ViewTexture, EqualSurfacesWithOtherTextureDiffer) {
+  const Eigen::Isometry3d pose = moved(0.3, 0.2);
+  const auto compared = [&](double phase) {
+    return compare_textures(textured_view(moved(0.0, 0.0), 1.0), textured_view(pose, phase), pose,
+                            DepthNoise{});
+  };
+  EXPECT_GT(compared(1.0).patches, 300U);
+  EXPECT_LT(compared(1.0).dissimilarity(), 0.02);
+  EXPECT_GT(compared(4.0).dissimilarity(), 0.3);
+}
+
+TEST(ViewTexture, AWrongPoseDiffers) {
+  const KeyframeView view = textured_view(moved(0.0, 0.0), 1.0);
+  EXPECT_EQ(compare_textures(view, view, moved(0.0, 0.0), DepthNoise{}).different, 0U);
+  EXPECT_GT(compare_textures(view, view, moved(0.25, 0.0), DepthNoise{}).dissimilarity(), 0.3);
+}
+
+TEST(ViewTexture, ViewsWithoutImageOrTextureDoNotDiffer) {
+  const Eigen::Isometry3d pose = moved(0.0, 0.0);
+  const KeyframeView textured = textured_view(pose, 1.0);
+  const KeyframeView without = make_keyframe_view({}, room(pose, true));
+  EXPECT_EQ(compare_textures(textured, without, pose, DepthNoise{}).patches, 0U);
+  EXPECT_EQ(compare_textures(without, textured, pose, DepthNoise{}).dissimilarity(), 0.0);
+  const LabeledCloud cloud = room(pose, true);
+  const Image<Rgb> plain(cloud.width, cloud.height);
+  EXPECT_EQ(
+      compare_textures(make_keyframe_view(plain, cloud), textured, pose, DepthNoise{}).patches, 0U);
+}
+
 TEST(CorrectedOccupancy, HasTheViewsOfJoinedSessionsAtTheirCorrectedPoses) {
   std::deque<KeyframeRecord> records(3);
   for (std::size_t i = 0; i < records.size(); ++i) {
     records[i].session = i < 2 ? 0 : 1;
     records[i].features.planes.resize(1);
-    records[i].view = make_keyframe_view(room(moved(0.3, 0.2), true));
+    records[i].view = make_keyframe_view({}, room(moved(0.3, 0.2), true));
     records[i].T_world_sensor = Transform<World, Sensor>(moved(9.0, 9.0));  // drifted
   }
   const std::vector<Eigen::Isometry3d> poses = {moved(0.3, 0.2), moved(0.3, 0.2), moved(50.0, 0.0)};

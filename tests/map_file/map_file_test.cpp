@@ -83,6 +83,8 @@ TEST(MapFile, KeepsEverything) {
     EXPECT_EQ(read.features.planes.back().normal, saved.features.planes.back().normal);
     EXPECT_EQ(read.view.depth_mm.pixels(), saved.view.depth_mm.pixels());
     EXPECT_EQ(read.view.camera, saved.view.camera);
+    EXPECT_FALSE(read.view.gray.empty());
+    EXPECT_EQ(read.view.gray.pixels(), saved.view.gray.pixels());
     EXPECT_LT((content.poses[i].matrix() - map.poses()[i].matrix()).norm(), 1e-12);
   }
   ASSERT_EQ(content.loops.size(), map.loops().size());
@@ -213,6 +215,35 @@ TEST(MapFile, OtherFilesAreRefusedByName) {
   bytes[63] = 9;
   write_bytes(folder.path() / "c", bytes);
   EXPECT_NE(message_of(folder.path() / "c", Mode::kRead).find("version 9"), std::string::npos);
+}
+
+/// Views of version 1 have no grey values.
+TEST(MapFile, AMapOfAnEarlierVersionIsReadAndExtended) {
+  const TempFolder folder;
+  const std::filesystem::path path = folder.path() / "a";
+  GlobalMap map = empty_map();
+  drive(map, 0, kSteps, Eigen::Isometry3d::Identity());
+  std::deque<KeyframeRecord> records = map.records();
+  for (KeyframeRecord& record : records) record.view.gray = {};
+  {
+    MapFile file(path, Mode::kCreate);
+    file.add_session(some_session("first"), some_surfaces(map, 10, 1), records);
+    file.set_graph(map.poses(), map.loops());
+    file.commit();
+  }
+  std::string bytes = read_bytes(path);
+  bytes[63] = 1;
+  write_bytes(path, bytes);
+  {
+    MapFile file(path, Mode::kExtend);
+    const GlobalMapContent content = file.content(refuse);
+    ASSERT_EQ(content.records.size(), records.size());
+    EXPECT_TRUE(content.records.back().view.gray.empty());
+    EXPECT_EQ(content.records.back().view.depth_mm.pixels(), records.back().view.depth_mm.pixels());
+    file.set_graph(content.poses, content.loops);
+    file.commit();
+  }
+  EXPECT_EQ(read_bytes(path)[63], 2);
 }
 
 TEST(MapFile, ABrokenKeyframeIsNamedAndTheRestIsRead) {

@@ -21,20 +21,24 @@ inline SceneConfig aisle(int seed) {
 
 inline constexpr int kSteps = 20;  // frames from one end of the path to the other
 
-/// Perceived frames, with the true masks.
-inline std::vector<GlobalKeyframe> views_of(int seed) {
-  SimulatedScene scene(aisle(seed));
+/// Perceived frames from one up to another, with the true masks.
+inline std::vector<GlobalKeyframe> views_of(const SceneConfig& scene_config, int first, int end) {
+  SimulatedScene scene(scene_config);
   SystemConfig config;
   config.fusion.stride = 1;  // the images are half the usual size
   Perception perception(config, std::make_unique<MaskSegmenter>());
   std::vector<GlobalKeyframe> views;
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = first; i < end; ++i) {
     const SimulatedFrame simulated = scene.render(i);
     const PerceivedFrame perceived =
         perception.perceive(simulated.frame, perception.segment(simulated.frame));
     views.push_back({simulated.frame.color, perceived.cloud, scene.truth(i).T_world_sensor, false});
   }
   return views;
+}
+
+inline std::vector<GlobalKeyframe> views_of(int seed) {
+  return views_of(aisle(seed), 0, kSteps);
 }
 
 inline const std::vector<GlobalKeyframe>& views() {

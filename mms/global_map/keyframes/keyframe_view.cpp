@@ -58,9 +58,36 @@ bool is_hidden(const KeyframeView& view, const CameraModel& camera, const Eigen:
   return view.is_static(x, y) == 0 && 0.001 * view.depth_mm(x, y) < p.z();
 }
 
+/// Mean grey value of the part of the image below each pixel of a view.
+/// @param stride  columns and rows of the cloud's grid per pixel
+Image<std::uint8_t> gray_below(const Image<Rgb>& color, const LabeledCloud& cloud, int stride,
+                               const CameraIntrinsics& camera) {
+  Image<std::uint8_t> gray(camera.width, camera.height);
+  const double scale_x = static_cast<double>(color.width()) / cloud.width;
+  const double scale_y = static_cast<double>(color.height()) / cloud.height;
+  const auto end_of = [&](int pixel, double scale) {
+    return static_cast<int>(std::lround((pixel + 1) * stride * scale));
+  };
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      int sum = 0;
+      int count = 0;
+      for (int v = end_of(y - 1, scale_y); v < std::min(end_of(y, scale_y), color.height()); ++v) {
+        for (int u = end_of(x - 1, scale_x); u < std::min(end_of(x, scale_x), color.width()); ++u) {
+          const Rgb& pixel = color(u, v);
+          sum += 77 * pixel.r + 150 * pixel.g + 29 * pixel.b;
+          ++count;
+        }
+      }
+      if (count > 0) gray(x, y) = static_cast<std::uint8_t>(sum / count / 256);
+    }
+  }
+  return gray;
+}
+
 }  // namespace
 
-KeyframeView make_keyframe_view(const LabeledCloud& cloud) {
+KeyframeView make_keyframe_view(const Image<Rgb>& color, const LabeledCloud& cloud) {
   KeyframeView view;
   const int stride = std::max(1, cloud.width / kViewWidth);
   view.camera = downscaled(cloud.camera, stride);
@@ -79,6 +106,7 @@ KeyframeView make_keyframe_view(const LabeledCloud& cloud) {
       view.is_static(x, y) = cloud.labels[i] == PointLabel::kStatic && !masked ? 1 : 0;
     }
   }
+  if (!color.empty()) view.gray = gray_below(color, cloud, stride, view.camera);
   return view;
 }
 

@@ -11,18 +11,20 @@
 
 namespace mms {
 
-/// Small depth image of a keyframe.
+/// Small depth image of a keyframe, and a grey image below it.
 struct KeyframeView {
   CameraIntrinsics camera;        ///< of the image
   Image<std::uint16_t> depth_mm;  ///< 0 without a return
   Image<std::uint8_t> is_static;  ///< non-zero at static points
+  Image<std::uint8_t> gray;       ///< grey values; empty without an image
 
   /// As a cloud without colors.
   LabeledCloud cloud() const;
 };
 
-/// @param cloud  organized
-KeyframeView make_keyframe_view(const LabeledCloud& cloud);
+/// @param color  image of the frame; may be empty
+/// @param cloud  organized; its grid covers the image
+KeyframeView make_keyframe_view(const Image<Rgb>& color, const LabeledCloud& cloud);
 
 /// How the static points of one view agree with the depth of another.
 struct ViewAgreement {

@@ -19,18 +19,20 @@ enum class LoopOutcome : std::uint8_t {
   kNotRegistered,  ///< the static features do not fit
   kLittleOverlap,  ///< the views share too few surfaces
   kContradiction,  ///< points of one view are in free space of the other
+  kOtherTexture,   ///< the weak texture of shared surfaces differs
   kUnlikely,       ///< the odometry excludes the relative pose
   kUnconfirmed,    ///< no neighboring keyframe has a loop that agrees
   kInconsistent,   ///< the other edges of the pose graph exclude it
 };
 
 /// [-]: the number of them. Source: `LoopOutcome`.
-inline constexpr int kLoopOutcomes = 10;
+inline constexpr int kLoopOutcomes = 11;
 
 constexpr std::string_view to_string(LoopOutcome outcome) {
   constexpr std::array<std::string_view, kLoopOutcomes> kNames = {
-      "accepted",       "few matches",   "few inliers", "not spread",  "not registered",
-      "little overlap", "contradiction", "unlikely",    "unconfirmed", "inconsistent"};
+      "accepted",       "few matches",    "few inliers",   "not spread",
+      "not registered", "little overlap", "contradiction", "other texture",
+      "unlikely",       "unconfirmed",    "inconsistent"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
@@ -44,6 +46,7 @@ struct Loop {
   int inliers = 0;             ///< pairs of keypoints; 0 for a candidate nearby
   double overlap = 0.0;        ///< the smaller one of both views
   double contradiction = 0.0;  ///< the larger one of both views
+  double dissimilarity = 0.0;  ///< of the weak texture of shared surfaces
 
   /// Standard deviation of the position in its least certain direction [m], as if the rotation was
   /// known; 0 before it is estimated.

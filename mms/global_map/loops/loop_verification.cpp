@@ -7,6 +7,7 @@
 #include <set>
 
 #include "mms/geometry/principal_axes.hpp"
+#include "mms/global_map/keyframes/view_texture.hpp"
 #include "mms/global_map/loops/floor_alignment.hpp"
 #include "mms/global_map/loops/keypoint_matching.hpp"
 #include "mms/global_map/loops/place_matching.hpp"
@@ -296,8 +297,25 @@ bool LoopVerifier::is_same_place(const std::deque<KeyframeRecord>& records,
                                  const std::vector<Eigen::Isometry3d>& poses,
                                  const KeyframeRecord& query, double min_overlap,
                                  Loop& loop) const {
-  return register_features(records, poses, query, loop) &&
-         compare(records[loop.candidate], query, min_overlap, loop);
+  if (!register_features(records, poses, query, loop)) return false;
+  if (!compare(records[loop.candidate], query, min_overlap, loop)) return false;
+  loop.dissimilarity = dissimilarity_around(records, poses, loop.candidate, query.view,
+                                            poses[loop.candidate] * loop.T_candidate_query);
+  loop.outcome = LoopOutcome::kOtherTexture;
+  return loop.dissimilarity <= config_.max_dissimilarity;
+}
+
+/// Dissimilarity of a view and those of the keyframes around one.
+double LoopVerifier::dissimilarity_around(const std::deque<KeyframeRecord>& records,
+                                          const std::vector<Eigen::Isometry3d>& poses,
+                                          std::size_t keyframe, const KeyframeView& view,
+                                          const Eigen::Isometry3d& pose) const {
+  const auto [first, end] = neighbors(records, keyframe, kViewsAround);
+  TextureComparison sum;
+  for (std::size_t i = first; i < end; ++i) {
+    sum += compare_textures(records[i].view, view, poses[i].inverse() * pose, noise_);
+  }
+  return sum.dissimilarity();
 }
 
 bool LoopVerifier::align(const KeyframeRecord& a, const KeyframeRecord& b, Loop& loop) const {

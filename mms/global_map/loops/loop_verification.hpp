@@ -18,6 +18,7 @@ struct LoopConfig {
   int min_scan_inliers = 10;
   double min_overlap = 0.2;
   double max_contradiction = 0.02;
+  double max_dissimilarity = 0.15;
 
   void visit(ConfigVisitor& v) {
     v.integer({"min_inliers", "", "pairs of keypoints that must agree with the relative pose"},
@@ -30,6 +31,9 @@ struct LoopConfig {
     v.number({"max_contradiction", "",
               "largest share of points in view that lie in free space of the other view"},
              max_contradiction, {0.0, 1.0});
+    v.number({"max_dissimilarity", "",
+              "largest share of weakly textured patches of both views that do not correlate"},
+             max_dissimilarity, {0.0, 1.0});
   }
 };
 
@@ -96,6 +100,9 @@ class LoopVerifier {
   bool is_same_place(const std::deque<KeyframeRecord>& records,
                      const std::vector<Eigen::Isometry3d>& poses, const KeyframeRecord& query,
                      double min_overlap, Loop& loop) const;
+  double dissimilarity_around(const std::deque<KeyframeRecord>& records,
+                              const std::vector<Eigen::Isometry3d>& poses, std::size_t keyframe,
+                              const KeyframeView& view, const Eigen::Isometry3d& pose) const;
   bool compare(const KeyframeRecord& a, const KeyframeRecord& b, double min_overlap,
                Loop& loop) const;
 

@@ -49,9 +49,10 @@ std::map<Timestamp, FrameRecord> read_frames(const fs::path& file) {
   return frames;
 }
 
-/// Rows of loops.csv; an outcome has one word or two.
+/// Rows of loops.csv; an outcome has one word or two. Those of earlier versions have no
+/// `dissimilarity`.
 std::vector<LoopRecord> read_loops(const fs::path& file) {
-  constexpr std::size_t kColumnsAfter = 11;  // the outcome
+  constexpr std::size_t kColumnsAfter = 11;  // the outcome, at least
   const TextTable table(file);
   std::vector<LoopRecord> loops;
   for (const TextLine& line : table.lines()) {
@@ -63,7 +64,7 @@ std::vector<LoopRecord> read_loops(const fs::path& file) {
       throw DataError(table.where(line), "is not a row of loops.csv");
     }
     LoopRecord loop{*earlier, *later, std::string(fields[2])};
-    for (std::size_t i = 3; i + kColumnsAfter < fields.size(); ++i) {
+    for (std::size_t i = 3; i < fields.size() && !parse_double(fields[i]); ++i) {
       loop.outcome.append(" ").append(fields[i]);
     }
     loops.push_back(std::move(loop));

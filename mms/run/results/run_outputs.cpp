@@ -47,17 +47,18 @@ std::string timing_csv(const RunLog& log) {
 
 std::string loops_csv(const RunLog& log) {
   std::string text =
-      "stamp,earlier_stamp,outcome,inliers,overlap,contradiction,sigma,tx,ty,tz,qx,qy,qz,qw\n";
+      "stamp,earlier_stamp,outcome,inliers,overlap,contradiction,dissimilarity,sigma,tx,ty,tz,qx,"
+      "qy,qz,qw\n";
   for (const Loop& loop : log.loops()) {
     const Eigen::Vector3d t = loop.T_candidate_query.translation();
     const Eigen::Quaterniond q(loop.T_candidate_query.linear());
-    fmt::format_to(
-        std::back_inserter(text),
-        "{},{},{},{},{:.3f},{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n",
-        log.stamp_of_keyframe(loop.query).to_string(),
-        log.stamp_of_keyframe(loop.candidate).to_string(), to_string(loop.outcome), loop.inliers,
-        loop.overlap, loop.contradiction, loop.sigma(), t.x(), t.y(), t.z(), q.x(), q.y(), q.z(),
-        q.w());
+    fmt::format_to(std::back_inserter(text),
+                   "{},{},{},{},{:.3f},{:.4f},{:.3f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:."
+                   "6f},{:.6f}\n",
+                   log.stamp_of_keyframe(loop.query).to_string(),
+                   log.stamp_of_keyframe(loop.candidate).to_string(), to_string(loop.outcome),
+                   loop.inliers, loop.overlap, loop.contradiction, loop.dissimilarity, loop.sigma(),
+                   t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
   }
   return text;
 }
