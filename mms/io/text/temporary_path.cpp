@@ -13,6 +13,8 @@ namespace {
 
 // Paths beyond this number are not removed by signals; a run has fewer than ten at a time.
 std::array<std::atomic<char*>, 64> temporary_paths{};
+// Of these, those that a signal removed. They are not freed: handlers must not.
+std::array<std::atomic<char*>, 64> removed_paths{};
 static_assert(std::atomic<char*>::is_always_lock_free, "signal handlers must not lock");
 
 }  // namespace
@@ -47,13 +49,14 @@ void TemporaryPath::release() {
 }
 
 void remove_temporary_paths() noexcept {
-  std::array<const char*, temporary_paths.size()> taken{};
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    taken[i] = temporary_paths[i].exchange(nullptr);
-    if (taken[i] != nullptr) unlink(taken[i]);
+  for (std::size_t i = 0; i < temporary_paths.size(); ++i) {
+    char* path = temporary_paths[i].exchange(nullptr);
+    if (path == nullptr) continue;
+    unlink(path);
+    removed_paths[i] = path;
   }
-  for (const char* path : taken) {
-    if (path != nullptr) rmdir(path);
+  for (const std::atomic<char*>& removed : removed_paths) {
+    if (const char* path = removed; path != nullptr) rmdir(path);
   }
 }
 
