@@ -110,6 +110,7 @@ class Odometry {
                                      const PosePrediction& prediction) const;
   RegistrationResult register_predicted(const FeatureCloud& features,
                                         const PosePrediction& prediction) const;
+  RegistrationResult register_turned(const FeatureCloud& features, RegistrationResult best) const;
   RegistrationResult register_near(const FeatureCloud& features, const PosePrediction& prediction,
                                    const RegistrationConfig& config) const;
   bool is_valid(const FeatureCloud& features, const RegistrationResult& result) const;

@@ -107,6 +107,27 @@ TEST(SlamSystem, TracksTheCameraAmongPeople) {
   EXPECT_GT(most_dynamic, 0.2);
 }
 
+/// Up to 6 degrees from frame to frame, in changing directions: the last velocity misleads.
+TEST(SlamSystem, TracksFastTurnsAtALowFrameRate) {
+  SceneConfig config = scene_config("static");
+  config.trajectory = CameraTrajectory::kShaken;
+  config.hz = 5.0;
+  config.width = 320;
+  config.seed = 2;
+  config.turn_rate = 30.0;
+  SimulatedScene shaken(config);
+  SystemConfig system_config;
+  system_config.fusion.stride = 1;
+  SlamSystem system(system_config, std::make_unique<NoneSegmenter>());
+  for (int i = 0; i < 30; ++i) {
+    const FrameResult result = system.process(shaken.render(i).frame);
+    EXPECT_NE(result.odometry.status, Status::kLost) << i;
+    const Eigen::Isometry3d error =
+        (shaken.truth(i).T_world_sensor.inverse() * result.odometry.T_world_sensor).isometry();
+    EXPECT_LT(error.translation().norm(), 0.2) << i;
+  }
+}
+
 TEST(SlamSystem, TracksTheCameraWithFaultyMasks) {
   const Played imperfect = play(FusionMode::kMultimodal, false);
   const double exact = played(FusionMode::kMultimodal).ate_rmse;
