@@ -18,11 +18,11 @@ constexpr int kStep = 2;
 /// [-]: pixels of a patch on shared surfaces, at least. Source: initial choice, 60 %.
 constexpr float kMinPixels = 29.0F;
 
-/// [grey level]: least standard deviation of a patch. Source: noise of a camera, averaged over a
+/// [grey levels]: least standard deviation of a patch. Source: noise of a camera, averaged over a
 /// pixel of a view.
 constexpr float kMinContrast = 2.0F;
 
-/// [grey level]: largest one. Source: structures that repeat, as posts and labels on equal boxes,
+/// [grey levels]: largest one. Source: structures that repeat, as posts and labels on equal boxes,
 /// have more; in racks of one kind their patches agree at wrong places.
 constexpr float kMaxContrast = 8.0F;
 

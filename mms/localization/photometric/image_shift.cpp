@@ -25,7 +25,7 @@ constexpr double kMinCorrelation = 0.3;
 /// [-]: largest correlation that is distinguished from 1. Source: equal images have 1.
 constexpr double kMaxCorrelation = 0.999;
 
-/// [grey level^2]: variance below which an image has nothing to compare. Source: its resolution.
+/// [grey levels^2]: variance below which an image has nothing to compare. Source: its resolution.
 constexpr double kMinVariance = 1.0;
 
 /// Means of the static pixels of blocks; NaN without any.
