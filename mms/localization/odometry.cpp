@@ -66,6 +66,10 @@ constexpr std::size_t kMaxTurnGuesses = 2;
 /// there. Source: with 2.5 degrees, an earlier version was off by 20 cm in `desk_crowd` at 5 Hz.
 constexpr double kMinTurnChange = 2.0 * std::numbers::pi / 180.0;
 
+/// [-]: as `kMinInlierGain`, for a turn with which fewer pixels agree. Source: in `desk_crowd`
+/// right turns had 1.13 and more; a wrong one, under false masks in `lab_crowd`, had 1.07.
+constexpr double kMinTurnGain = 1.1;
+
 bool is_scan(const FeatureCloud& features) {
   return features.intensity.empty() && features.points_offset > Duration::zero();
 }
@@ -236,8 +240,9 @@ RegistrationResult Odometry::register_turned(const FeatureCloud& features,
     guess.linear() = last.linear() * turn;
     if (se3::angle(guess.inverse() * best.T_world_sensor) < kMinTurnChange) continue;
     RegistrationResult other = register_near(features, {guess}, config_.registration);
-    const bool agrees_better =
-        other.geometric.inliers() > kMinInlierGain * best.geometric.inliers();
+    const double gain =
+        other.intensity_inliers < best.intensity_inliers ? kMinTurnGain : kMinInlierGain;
+    const bool agrees_better = other.geometric.inliers() > gain * best.geometric.inliers();
     if (agrees_better && is_valid(features, other)) best = std::move(other);
   }
   return best;
