@@ -91,18 +91,16 @@ void convert_recording(const RecordingConversion& conversion) {
   RateProgress progress("frame");
   source->on_warning([&](const std::string& message) { progress.warn(message); });
   int done = 0;
-  while (!InterruptGuard::requested()) {
-    const std::optional<Frame> frame = source->next();
-    if (!frame) break;
+  while (const std::optional<Frame> frame = source->next()) {
     recorder->add(*frame);
     progress.show(++done, static_cast<int>(source->size()));
+    if (InterruptGuard::requested()) break;  // a partial recording has a frame
   }
   progress.finish();
   if (done == 0) {
     recorder.reset();
     std::error_code ignored;
     fs::remove(partial, ignored);  // an empty folder
-    if (InterruptGuard::requested()) throw Interrupted("nothing is written");
     throw DataError(conversion.input, "none of its frames could be read");
   }
   recorder->finish(source->ground_truth());
