@@ -185,7 +185,7 @@ TEST_F(Camera, FaultsAreOneSentence) {
   ::unsetenv("MMS_TEST_CAMERA_FAULT");
   expect_error(localize("camera:openni2:1", "live"), "the only camera has the index 0");
   expect_error(localize("camera:openni2:usb", "live"), "no camera has this URI");
-  expect_error(localize("camera:v4l2", "live"), "is no camera that is known");
+  expect_error(localize("camera:kinect", "live"), "is no camera that is known");
   expect_error(localize("camera:openni2", "live", {"--depth-scale", "1000"}), "--depth-scale");
   expect_error(run({"info", "camera:openni2"}), "is a camera, not a recording");
   expect_usage_error(localize("camera:openni2", "live", {"--masks", "."}), "--masks");

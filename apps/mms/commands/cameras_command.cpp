@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/mms/console/warnings.hpp"
 #include "mms/dataset/camera/camera_device.hpp"
 
 namespace mms {
@@ -15,9 +16,8 @@ namespace {
 
 void print_cameras_json(const std::vector<CameraInfo>& cameras) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const CameraInfo& camera = cameras[i];
-    list.push_back({{"address", fmt::format("camera:openni2:{}", i)},
+  for (const CameraInfo& camera : cameras) {
+    list.push_back({{"address", camera.address},
                     {"name", camera.name},
                     {"vendor", camera.vendor},
                     {"uri", camera.uri},
@@ -28,12 +28,11 @@ void print_cameras_json(const std::vector<CameraInfo>& cameras) {
 }
 
 void print_cameras(const std::vector<CameraInfo>& cameras) {
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const CameraInfo& camera = cameras[i];
-    fmt::print("camera:openni2:{}  {} {}\n  uri    {}\n", i, camera.vendor, camera.name,
-               camera.uri);
+  for (const CameraInfo& camera : cameras) {
+    fmt::print("{}  {}{}{}\n  uri    {}\n", camera.address, camera.vendor,
+               camera.vendor.empty() ? "" : " ", camera.name, camera.uri);
     for (const std::string& mode : camera.modes) fmt::print("  mode   {}\n", mode);
-    if (!camera.fault.empty()) fmt::print("  fault  cannot be opened: {}\n", camera.fault);
+    if (!camera.fault.empty()) fmt::print("  fault  {}\n", camera.fault);
   }
   if (!cameras.empty()) return;
   fmt::print(
@@ -45,12 +44,13 @@ void print_cameras(const std::vector<CameraInfo>& cameras) {
 
 void add_cameras_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("cameras", "List the depth cameras that are plugged in (OpenNI2)");
+      app.add_subcommand("cameras", "List the depth cameras that are plugged in (OpenNI2, V4L2)");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "print one JSON list");
   command->callback([json] {
-    const std::vector<CameraInfo> cameras = list_cameras();
-    *json ? print_cameras_json(cameras) : print_cameras(cameras);
+    const CameraList list = list_cameras();
+    print_warnings(list.faults);
+    *json ? print_cameras_json(list.cameras) : print_cameras(list.cameras);
   });
 }
 

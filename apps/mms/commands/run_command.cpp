@@ -58,7 +58,8 @@ void add_run_command(CLI::App& app) {
   command
       ->add_option("DATA", options->data,
                    "recording (folder, .bag, .mcap, .db3, .pcap or .oni), a camera: "
-                   "camera:openni2[:URI], or a simulation: sim:warehouse_loop[?seed=N&frames=N]")
+                   "camera:openni2[:URI] or camera:v4l2[:URI], or a simulation: "
+                   "sim:warehouse_loop[?seed=N&frames=N]")
       ->capture_default_str();
   const auto sequence = std::make_shared<std::string>();
   add_sequence_option(*command, *sequence);

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "mms/core/error.hpp"
-#include "mms/geometry/depth_registration.hpp"
 #include "mms/io/config/calibration_formats.hpp"
 
 namespace mms {
@@ -23,41 +22,45 @@ std::string side_text(const CameraIntrinsics& camera) {
 
 }  // namespace
 
-CameraCalibration camera_calibration(const CameraDevice& device, const std::string& what,
-                                     const CameraOptions& options) {
-  if (options.depth_scale) {
-    throw DataError("--depth-scale", "is for recordings", "the camera says its own");
-  }
-  const CameraIntrinsics of_device = device.intrinsics();
-  CameraCalibration result;
-  Calibration& calibration = result.calibration;
-  std::string origin = "its field of view";
+Calibration given_calibration(const CameraOptions& options) {
+  Calibration calibration;
   if (!options.file.empty()) {
     calibration = read_any_calibration(options.file).calibration;
-    // The device registers its depth images.
-    calibration = *registered_calibration(std::make_shared<const Calibration>(calibration));
-    origin = options.file.filename().string();
+    if (!calibration.camera && !options.intrinsics) {
+      throw DataError(options.file.string(), "has no camera", "add fx fy cx cy width height");
+    }
   }
   if (options.intrinsics) {
     const auto& k = *options.intrinsics;
-    calibration.camera = {k[0], k[1], k[2], k[3], of_device.width, of_device.height, {}};
-    origin = "--intrinsics";
+    const CameraIntrinsics size = calibration.camera.value_or(
+        CameraIntrinsics{.width = kCameraWidth, .height = kCameraHeight});
+    calibration.camera = {k[0], k[1], k[2], k[3], size.width, size.height, {}};
   }
-  if (!calibration.camera) {
-    if (!options.file.empty()) {
-      throw DataError(options.file.string(), "has no camera", "add fx fy cx cy width height");
-    }
-    calibration.camera = of_device;
+  if (options.depth_scale) calibration.depth_scale = *options.depth_scale;
+  return calibration;
+}
+
+CameraCalibration camera_calibration(const CameraDevice& device, const std::string& what,
+                                     const CameraOptions& options, const Calibration& given) {
+  if (options.depth_scale && device.depth_scale()) {
+    throw DataError("--depth-scale", "is for recordings and V4L2", "this camera says its own");
   }
-  const CameraIntrinsics& camera = *calibration.camera;
-  if (camera.width != of_device.width || camera.height != of_device.height) {
+  CameraCalibration result{given, "its field of view"};
+  Calibration& calibration = result.calibration;
+  if (!options.file.empty()) result.origin = options.file.filename().string();
+  if (options.intrinsics) result.origin = "--intrinsics";
+  if (device.registers_depth()) calibration.depth_camera.reset();
+  const std::optional<CameraIntrinsics> of_device = device.intrinsics();
+  if (!calibration.camera) calibration.camera = of_device;
+  const CameraIntrinsics& camera = calibration.camera.value();
+  if (of_device && side_text(camera) != side_text(*of_device)) {
     throw DataError(options.file.string(), "is for images of " + side_text(camera) +
                                                " pixels, those of " + what + " have " +
-                                               side_text(of_device));
+                                               side_text(*of_device));
   }
   check_camera(camera, what + ": camera");
-  calibration.depth_scale = device.depth_scale();
-  result.origin = "intrinsics from " + origin + " (" + intrinsics_text(camera) + ")";
+  if (const auto scale = device.depth_scale()) calibration.depth_scale = *scale;
+  result.origin = "intrinsics from " + result.origin + " (" + intrinsics_text(camera) + ")";
   return result;
 }
 

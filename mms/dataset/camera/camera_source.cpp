@@ -17,8 +17,9 @@ CameraSource::CameraSource(const std::string& address, LiveCameraOptions options
     : LiveSource(kCameraQueue),
       address_(address),
       options_(std::move(options)),
-      device_(open_camera(address)),
-      calibration_(camera_calibration(*device_, address, options_.calibration)),
+      given_calibration_(given_calibration(options_.calibration)),
+      device_(open_camera(address, given_calibration_)),
+      calibration_(camera_calibration(*device_, address, options_.calibration, given_calibration_)),
       shared_(std::make_shared<const Calibration>(calibration_.calibration)) {
   if (!options_.record.empty()) {
     recorder_ = std::make_unique<RecordingThread>(
@@ -43,6 +44,7 @@ void CameraSource::capture() {
   try {
     FrameAssembler assembler(FrameAssembler::Sensor::kDepth);
     assembler.set_camera(*shared_->camera);
+    if (shared_->depth_camera) assembler.set_depth_camera(*shared_->depth_camera);
     while (!ended_) {
       if (options_.stop && options_.stop()) return close();
       const CameraDevice::Event event = device_->read(assembler, kImageWait);
@@ -87,6 +89,12 @@ std::vector<std::string> CameraSource::describe() const {
   std::vector<std::string> lines = {
       "layout: live camera", "sensor: " + device_->name() + ", " + std::to_string(camera.width) +
                                  "x" + std::to_string(camera.height) + ", " + calibration_.origin};
+  if (!device_->registers_depth()) {
+    lines.push_back(calibration_.calibration.depth_camera
+                        ? "depth: registered to the color images"
+                        : "depth: taken as registered to the color images (no depth_camera in "
+                          "the calibration)");
+  }
   if (recorder_) lines.push_back("recording: " + options_.record.string());
   return lines;
 }

@@ -24,7 +24,8 @@ struct LiveCameraOptions {
 /// after the frames that have arrived.
 class CameraSource final : public LiveSource {
  public:
-  /// @throws DataError as `open_camera` and `camera_calibration`; FileError for the folder.
+  /// @throws DataError as `given_calibration`, `open_camera` and `camera_calibration`; FileError
+  /// for the folder.
   CameraSource(const std::string& address, LiveCameraOptions options);
   ~CameraSource() override;
 
@@ -42,6 +43,7 @@ class CameraSource final : public LiveSource {
 
   std::string address_;
   LiveCameraOptions options_;
+  Calibration given_calibration_;
   std::unique_ptr<CameraDevice> device_;
   CameraCalibration calibration_;
   std::unique_ptr<RecordingThread> recorder_;  ///< null for none
@@ -49,7 +51,7 @@ class CameraSource final : public LiveSource {
   std::atomic<bool> ended_ = false;
 
   // Of the camera's thread:
-  std::shared_ptr<const Calibration> shared_;
+  std::shared_ptr<const Calibration> shared_;  ///< of the images as they arrive
   std::optional<Timestamp> last_stamp_;
   Clock::time_point last_frame_ = Clock::now();  ///< or warning that there is none
 

@@ -5,6 +5,7 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/camera/camera_calibration.hpp"
 #include "mms/dataset/camera/oni_records.hpp"
+#include "mms/dataset/camera/openni2_device.hpp"
 
 namespace mms {
 namespace {
@@ -16,7 +17,8 @@ class OniSource final : public FrameSource {
   OniSource(const std::filesystem::path& path, const SourceOptions& options)
       : path_(path.string()),
         device_(open_oni(path)),
-        calibration_(camera_calibration(*device_, path_, options.camera)),
+        calibration_(
+            camera_calibration(*device_, path_, options.camera, given_calibration(options.camera))),
         shared_(std::make_shared<const Calibration>(calibration_.calibration)),
         assembler_(FrameAssembler::Sensor::kDepth) {
     assembler_.set_camera(*shared_->camera);

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "mms/core/error.hpp"
-#include "mms/dataset/camera/camera_device.hpp"
-#include "mms/io/text/numbers.hpp"
+#include "mms/dataset/camera/camera_choice.hpp"
+#include "mms/dataset/camera/openni2_device.hpp"
 
 namespace mms {
 namespace {
@@ -18,10 +18,7 @@ using openni::PixelFormat;
 using openni::VideoMode;
 using openni::VideoStream;
 
-constexpr int kCameraWidth = 640;   // [px]
-constexpr int kCameraHeight = 480;  // [px]
-constexpr int kCameraRate = 30;     // preferred [Hz]
-constexpr std::string_view kOpenNi2Address = "camera:openni2";
+constexpr int kCameraRate = 30;  // preferred [Hz]
 constexpr const char* kOpeningHint =
     "another program may use it, or its USB device may not be permitted; see docs/cameras.md";
 
@@ -105,36 +102,17 @@ void add_modes(openni::Device& device, openni::SensorType type, const std::strin
 }
 
 /// The URI of the camera that an address names.
-std::string uri_of(const std::string& address) {
-  const bool known =
-      address.starts_with(kOpenNi2Address) &&
-      (address.size() == kOpenNi2Address.size() || address[kOpenNi2Address.size()] == ':');
-  if (!known) {
-    throw DataError(address, "is no camera that is known",
-                    "camera:openni2, camera:openni2:INDEX or camera:openni2:URI; mms cameras lists "
-                    "those that are plugged in");
-  }
+std::string uri_of(const std::string& address, const std::string& which) {
   openni::Array<openni::DeviceInfo> found;
   OpenNI::enumerateDevices(&found);
-  if (found.getSize() == 0) {
+  std::vector<std::string> uris;
+  for (int i = 0; i < found.getSize(); ++i) uris.emplace_back(found[i].getUri());
+  if (uris.empty()) {
     throw DataError(address, "no camera was found",
                     "plug it in; drivers of other makers belong into OpenNI2/Drivers, see "
                     "docs/cameras.md");
   }
-  const std::string which = address.substr(std::min(kOpenNi2Address.size() + 1, address.size()));
-  if (which.empty()) return found[0].getUri();
-  if (const auto index = parse_integer(which)) {
-    if (*index >= 0 && *index < found.getSize()) return found[static_cast<int>(*index)].getUri();
-    const std::string last = std::to_string(found.getSize() - 1);
-    throw DataError(address,
-                    found.getSize() == 1 ? "the only camera has the index 0"
-                                         : "the indices of the cameras are 0 to " + last,
-                    "mms cameras lists them");
-  }
-  for (int i = 0; i < found.getSize(); ++i) {
-    if (found[i].getUri() == which) return which;
-  }
-  throw DataError(address, "no camera has this URI", "mms cameras lists them");
+  return uris[chosen_camera(address, which, uris)];
 }
 
 /// Puts the columns in reverse order.
@@ -223,23 +201,24 @@ class OpenNi2Device final : public CameraDevice, private OpenNI::DeviceDisconnec
     return vendor + (vendor.empty() ? "" : " ") + info.getName();
   }
 
-  CameraIntrinsics intrinsics() const override {
+  std::optional<CameraIntrinsics> intrinsics() const override {
     const VideoMode mode = color_.video.getVideoMode();
     const int width = mode.getResolutionX();
     const int height = mode.getResolutionY();
     const auto focal_length = [](int side, double angle) {
       return 0.5 * side / std::tan(0.5 * angle);
     };
-    return {focal_length(width, color_.video.getHorizontalFieldOfView()),
-            focal_length(height, color_.video.getVerticalFieldOfView()),
-            0.5 * (width - 1),
-            0.5 * (height - 1),
-            width,
-            height,
-            {}};
+    return CameraIntrinsics{focal_length(width, color_.video.getHorizontalFieldOfView()),
+                            focal_length(height, color_.video.getVerticalFieldOfView()),
+                            0.5 * (width - 1),
+                            0.5 * (height - 1),
+                            width,
+                            height,
+                            {}};
   }
 
-  double depth_scale() const override {
+  bool registers_depth() const override { return true; }
+  std::optional<double> depth_scale() const override {
     return units_per_meter(depth_.video.getVideoMode().getPixelFormat());
   }
   std::size_t size() const override { return static_cast<std::size_t>(color_.images); }
@@ -374,29 +353,35 @@ class OpenNi2Device final : public CameraDevice, private OpenNI::DeviceDisconnec
 
 }  // namespace
 
-std::vector<CameraInfo> list_cameras() {
+std::vector<CameraInfo> list_openni2_cameras() {
   const OpenNiLibrary library;
   openni::Array<openni::DeviceInfo> found;
   OpenNI::enumerateDevices(&found);
   std::vector<CameraInfo> cameras;
   for (int i = 0; i < found.getSize(); ++i) {
-    CameraInfo info{found[i].getName(), found[i].getVendor(), found[i].getUri(), {}, {}};
+    CameraInfo info{std::string(kOpenNi2Address) + ":" + std::to_string(i),
+                    found[i].getName(),
+                    found[i].getVendor(),
+                    found[i].getUri(),
+                    {},
+                    {}};
     openni::Device device;
     if (device.open(found[i].getUri()) == openni::STATUS_OK) {
       add_modes(device, openni::SENSOR_COLOR, "color", info);
       add_modes(device, openni::SENSOR_DEPTH, "depth", info);
       device.close();
     } else {
-      info.fault = openni_fault();
+      info.fault = "cannot be opened: " + openni_fault();
     }
     cameras.push_back(std::move(info));
   }
   return cameras;
 }
 
-std::unique_ptr<CameraDevice> open_camera(const std::string& address) {
+std::unique_ptr<CameraDevice> open_openni2_camera(const std::string& address,
+                                                  const std::string& which) {
   const OpenNiLibrary library;  // devices found are kept while it runs
-  return std::make_unique<OpenNi2Device>(address, uri_of(address));
+  return std::make_unique<OpenNi2Device>(address, uri_of(address, which));
 }
 
 std::unique_ptr<CameraDevice> open_oni(const std::filesystem::path& path) {

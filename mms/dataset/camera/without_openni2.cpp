@@ -1,5 +1,5 @@
 #include "mms/core/error.hpp"
-#include "mms/dataset/camera/camera_device.hpp"
+#include "mms/dataset/camera/openni2_device.hpp"
 
 // Replaces openni2_device.cpp if OpenNI2 is missing.
 
@@ -13,11 +13,11 @@ namespace {
 
 }  // namespace
 
-std::vector<CameraInfo> list_cameras() {
-  fail_without_openni2("mms cameras");
+std::vector<CameraInfo> list_openni2_cameras() {
+  fail_without_openni2(std::string(kOpenNi2Address));
 }
 
-std::unique_ptr<CameraDevice> open_camera(const std::string& address) {
+std::unique_ptr<CameraDevice> open_openni2_camera(const std::string& address, const std::string&) {
   fail_without_openni2(address);
 }
 

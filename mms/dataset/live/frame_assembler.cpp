@@ -18,8 +18,7 @@ Duration time_between(Timestamp a, Timestamp b) {
 }
 
 template <class T>
-void check_registered(const Image<T>& image, const Calibration& calibration, const char* what) {
-  const CameraIntrinsics& camera = *calibration.camera;
+void check_live_size(const Image<T>& image, const CameraIntrinsics& camera, const char* what) {
   if (image.width() == camera.width && image.height() == camera.height) return;
   throw DataError(what,
                   "is " + std::to_string(image.width()) + "x" + std::to_string(image.height()) +
@@ -48,6 +47,11 @@ void FrameAssembler::Stream<T>::add(Timestamp stamp, T data) {
 void FrameAssembler::set_camera(const CameraIntrinsics& camera) {
   if (calibration_.camera && *calibration_.camera == camera) return;
   calibration_.camera = camera;
+  shared_.reset();
+}
+
+void FrameAssembler::set_depth_camera(const DepthCamera& camera) {
+  calibration_.depth_camera = camera;
   shared_.reset();
 }
 
@@ -118,8 +122,11 @@ std::optional<Frame> FrameAssembler::next_depth_frame() {
       ++unmatched_;
       continue;
     }
-    check_registered(color, calibration_, "color image");
-    check_registered(depth->data, calibration_, "depth image");
+    check_live_size(color, *calibration_.camera, "color image");
+    check_live_size(
+        depth->data,
+        calibration_.depth_camera ? calibration_.depth_camera->camera : *calibration_.camera,
+        "depth image");
     Frame frame = frame_at(stamp);
     frame.color = std::move(color);
     frame.depth = std::move(depth->data);
@@ -141,7 +148,7 @@ std::optional<Frame> FrameAssembler::next_cloud_frame() {
   cloud_.waiting.pop_front();
   if (!camera) return frame;
   if (auto color = take_nearest(stamp, color_, kScanReach)) {
-    check_registered(color->data, calibration_, "color image");
+    check_live_size(color->data, *calibration_.camera, "color image");
     frame.color = std::move(color->data);
   } else {
     ++unmatched_;

@@ -21,6 +21,9 @@ class FrameAssembler {
   explicit FrameAssembler(Sensor sensor) : sensor_(sensor) {}
 
   void set_camera(const CameraIntrinsics& camera);
+  /// Of depth images that are not registered. The frames have it in their calibration, until
+  /// `LiveSource` registers them.
+  void set_depth_camera(const DepthCamera& camera);
   void set_extrinsics(const Transform<Camera, Lidar>& T_camera_lidar);
   bool extrinsics_known() const { return extrinsics_known_; }
 

@@ -7,13 +7,24 @@ namespace mms {
 bool LiveSource::wait(WarningHandler report) {
   on_warning(std::move(report));
   first_ = queue_.pop();
-  if (first_) calibration_ = first_->calibration;
+  if (first_) calibration_ = registered_calibration(first_->calibration);
   return first_.has_value();
 }
 
 std::optional<Frame> LiveSource::next() {
-  if (first_) return std::exchange(first_, std::nullopt);
-  return queue_.pop();
+  std::optional<Frame> frame = first_ ? std::exchange(first_, std::nullopt) : queue_.pop();
+  if (frame && frame->calibration->depth_camera) register_depth(*frame);
+  return frame;
+}
+
+void LiveSource::register_depth(Frame& frame) {
+  if (raw_calibration_ != frame.calibration) {
+    raw_calibration_ = frame.calibration;
+    registration_ = make_registration(*raw_calibration_);
+    calibration_ = registered_calibration(raw_calibration_);
+  }
+  frame.depth = registration_->apply(frame.depth);
+  frame.calibration = calibration_;
 }
 
 void LiveSource::skip(std::size_t count) {

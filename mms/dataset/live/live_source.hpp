@@ -9,11 +9,13 @@
 
 #include "mms/dataset/live/frame_queue.hpp"
 #include "mms/dataset/source/frame_source.hpp"
+#include "mms/geometry/depth_registration.hpp"
 
 namespace mms {
 
 /// Common part of sensors whose frames arrive in a thread of their own. When the queue is full, the
-/// oldest frame is dropped; the first time there is a warning.
+/// oldest frame is dropped; the first time there is a warning. Depth images with a `depth_camera`
+/// are registered when the run takes them.
 class LiveSource : public FrameSource {
  public:
   /// Waits for the first frame, with which the calibration is known.
@@ -52,6 +54,8 @@ class LiveSource : public FrameSource {
   void close() { queue_.close(); }
 
  private:
+  void register_depth(Frame& frame);
+
   FrameQueue queue_;
   Trajectory no_truth_;
   bool said_dropped_ = false;  // of the thread of the sensor
@@ -59,6 +63,8 @@ class LiveSource : public FrameSource {
   // Of the thread of the run:
   std::optional<Frame> first_;
   std::shared_ptr<const Calibration> calibration_;
+  std::shared_ptr<const Calibration> raw_calibration_;  ///< of `registration_`
+  std::optional<DepthRegistration> registration_;
 
   std::mutex handler_mutex_;  ///< guards the handler
   WarningHandler handler_;
