@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "mms/geometry/se3.hpp"
 #include "mms/localization/motion/motion_compensation.hpp"
-#include "mms/localization/photometric/image_shift.hpp"
+#include "mms/localization/registration_choice.hpp"
 
 namespace mms {
 namespace {
-
-/// [-]: factor by which dropping the prediction must increase the inliers to be accepted.
-/// Source: 5 % exceeds the chance variation sqrt(n) of n > 400 inliers.
-constexpr double kMinInlierGain = 1.05;
 
 /// [voxels]: automatic radius of the local maps.
 /// Source: eight times the median range (`automatic_voxel_size`), farther than most frames see.
@@ -28,20 +23,6 @@ constexpr double kTrimInterval = 0.1;
 /// Source: scene `fast`, whose ATE was 13.5 cm and 5 frames lost without this bound.
 constexpr double kMaxExpectedTurnRate = 0.5;
 
-/// [-]: share of the information along a disagreement, at a pose that wheels or gyroscope predict,
-/// from which on they are right.
-/// Source: initial choice; at the wrong pose the surfaces across the disagreement do not fit.
-constexpr double kMinSupport = 0.25;
-
-/// [-]: standard deviations of constant velocity by which a measured motion may differ from it.
-/// Source: initial choice; 30 % of slip at 1 m/s are nearly three at the rate of a camera, braking
-/// at 2 m/s^2 is one.
-constexpr double kMaxJump = 2.0;
-
-/// [-]: factor of the standard deviations of a prediction that is tried in place of the data.
-/// Source: initial choice; small enough to keep the pose, large enough to let it fit the surfaces.
-constexpr double kPinned = 0.1;
-
 /// [m]: standard deviation of the prediction up to which a lost sensor's pose is expected.
 /// Source: a third of the 0.15 m by which a moving point lies in free space: three sigma.
 constexpr double kMaxExpectedSigma = 0.05;
@@ -54,50 +35,11 @@ constexpr double kMinDisplacement = 0.03;
 /// to turn by 70 degrees/s.
 constexpr int kMaxDeskewings = 4;
 
-/// [-]: share of inliers from which on no other turn is tried. Source: with 0.7, `desk_crowd` at
-/// 7.5 Hz was off by 3.8 cm, with 0.8 by 1.6 cm; on other recordings most frames have more.
-constexpr double kGoodFit = 0.8;
-
-/// [-]: turns by the images that are tried. Source: with one, `desk_crowd` at 3 to 5 Hz was off by
-/// 26 to 30 cm in three of four parts, with two by 2 to 10 cm; a third one changed nothing.
-constexpr std::size_t kMaxTurnGuesses = 2;
-
-/// [rad]: angle to the result below which a turn is not tried, since registration converges from
-/// there. Source: with 2.5 degrees, an earlier version was off by 20 cm in `desk_crowd` at 5 Hz.
-constexpr double kMinTurnChange = 2.0 * std::numbers::pi / 180.0;
-
-/// [-]: as `kMinInlierGain`, for a turn with which fewer pixels agree. Source: in `desk_crowd`
-/// right turns had 1.13 and more; a wrong one, under false masks in `lab_crowd`, had 1.07.
-constexpr double kMinTurnGain = 1.1;
-
 bool is_scan(const FeatureCloud& features) {
   return features.intensity.empty() && features.points_offset > Duration::zero();
 }
 
-/// Whether wheels or gyroscope say that the motion changed more than vehicles and people change it.
-bool is_jump(const PosePrediction& sensed, const PosePrediction& extrapolated) {
-  const Eigen::Isometry3d change = extrapolated.T_world_sensor.inverse() * sensed.T_world_sensor;
-  return change.translation().norm() > kMaxJump * extrapolated.translation_sigma ||
-         se3::angle(change) > kMaxJump * extrapolated.rotation_sigma;
-}
-
 }  // namespace
-
-void OdometryConfig::visit(ConfigVisitor& v) {
-  v.number({"voxel_size", "m", "edge of the local maps' voxels; 0 chooses it from the first frame"},
-           voxel_size, {0.0, 10.0});
-  v.number({"map_radius", "m", "local maps reach this far; 0 is 200 voxels"}, map_radius,
-           {0.0, 1000.0});
-  v.integer({"max_voxels", "", "bound on the voxels of a local map"}, max_voxels,
-            {1000, 10'000'000});
-  v.integer({"min_inliers", "", "a frame with fewer inlying residuals is lost"}, min_inliers,
-            {6, 100000});
-  v.number({"min_inlier_share", "", "a frame with a smaller share of inliers is lost"},
-           min_inlier_share, {0.0, 1.0});
-  v.group({"motion", "", "how the sensor moves between frames"}, motion);
-  v.group({"registration", "", "robust Gauss-Newton of a frame against the local maps"},
-          registration);
-}
 
 Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
     : config_(config),
@@ -172,8 +114,15 @@ OdometryEstimate Odometry::accept(Alignment alignment) {
 Odometry::Alignment Odometry::align_at_pose_time(FeatureCloud features) const {
   Alignment alignment{features.stamp, std::move(features), {}, false};
   if (!maps_) return alignment;
-  alignment.registration = register_best(alignment.features);
-  alignment.is_valid = is_valid(alignment.features, *alignment.registration);
+  const RegistrationChoice choice({.features = alignment.features,
+                                   .last_features = last_features_,
+                                   .maps = *maps_,
+                                   .keyframes = keyframes_,
+                                   .motion = motion_,
+                                   .config = config_,
+                                   .noise = noise_});
+  alignment.registration = choice.best();
+  alignment.is_valid = choice.is_valid(*alignment.registration);
   return alignment;
 }
 
@@ -217,103 +166,6 @@ OdometryEstimate Odometry::track(const Alignment& alignment) {
   }
   lost_ = estimate.status == Status::kLost;
   return estimate;
-}
-
-RegistrationResult Odometry::register_best(const FeatureCloud& features) const {
-  const PosePrediction prediction = motion_.predict(features.stamp);
-  if (prediction.is_sensed) return register_sensed(features, prediction);
-  return register_turned(features, register_predicted(features, prediction));
-}
-
-/// Where a turn that the last velocity does not predict may have misled the registration, it begins
-/// again from rotations that the images give.
-/// @param best  as predicted
-RegistrationResult Odometry::register_turned(const FeatureCloud& features,
-                                             RegistrationResult best) const {
-  const auto offered = static_cast<double>(features.edges.size() + features.planes.size());
-  const bool has_images = !features.intensity.empty() && !last_features_.intensity.empty();
-  if (!has_images || best.geometric.inliers() >= kGoodFit * offered) return best;
-  const Isometry last = motion_.pose();
-  for (const Eigen::Matrix3d& turn : rotations_by_shift(
-           last_features_.intensity.back(), features.intensity.back(), kMaxTurnGuesses)) {
-    Isometry guess = last;
-    guess.linear() = last.linear() * turn;
-    if (se3::angle(guess.inverse() * best.T_world_sensor) < kMinTurnChange) continue;
-    RegistrationResult other = register_near(features, {guess}, config_.registration);
-    const double gain =
-        other.intensity_inliers < best.intensity_inliers ? kMinTurnGain : kMinInlierGain;
-    const bool agrees_better = other.geometric.inliers() > gain * best.geometric.inliers();
-    if (agrees_better && is_valid(features, other)) best = std::move(other);
-  }
-  return best;
-}
-
-/// Where wheels or gyroscope jump (slip), data alone give the pose if they can. Else the sensors
-/// predict so well that people get less weight from the start. Where the result contradicts them,
-/// either they are wrong (slip), or the data are (people that move with the sensor). The surfaces
-/// decide that constrain the pose along the disagreement: if enough of them fit at the predicted
-/// pose, it is right.
-RegistrationResult Odometry::register_sensed(const FeatureCloud& features,
-                                             const PosePrediction& prediction) const {
-  RegistrationConfig near = config_.registration;
-  const double error = prediction.translation_sigma +
-                       prediction.rotation_sigma * static_cast<double>(median_range(features));
-  near.geometric.initial_scale =
-      std::min(near.geometric.initial_scale, error / static_cast<double>(maps_->voxel_size()));
-  const PosePrediction extrapolated = motion_.extrapolate(features.stamp);
-  if (is_jump(prediction, extrapolated)) {
-    RegistrationResult alone = register_predicted(features, extrapolated);
-    if (is_valid(features, alone) && alone.degenerate_directions == 0) return alone;
-  }
-  const RegistrationResult led = register_near(features, prediction, near);
-  const bool agrees = !motion_.contradiction(features.stamp, led.T_world_sensor);
-  if (is_valid(features, led) && agrees) return led;
-  const RegistrationResult free = register_predicted(features, extrapolated);
-  const bool fits_better = free.geometric.inliers() > led.geometric.inliers();
-  const bool is_led = is_valid(features, led) && (!is_valid(features, free) || !fits_better);
-  const RegistrationResult& best = is_led ? led : free;
-  const auto contradiction = motion_.contradiction(features.stamp, best.T_world_sensor);
-  if (!contradiction) return best;
-  PosePrediction pinned = *contradiction;
-  pinned.translation_sigma *= kPinned;
-  pinned.rotation_sigma *= kPinned;
-  near.geometric.initial_scale = 0.0;
-  const RegistrationResult kept = register_near(features, pinned, near);
-  Vector6d along = se3::log(kept.T_world_sensor.inverse() * best.T_world_sensor);
-  const double support = along.dot(kept.information * along);
-  const double other = along.dot(best.information * along);
-  const bool is_right = is_valid(features, kept) && support > kMinSupport * other;
-  return is_right ? kept : best;
-}
-
-/// The annealed scale gives people as much weight as the static scene at first: if the result is
-/// not valid, registration runs again without it. Data that contradict the prediction lose their
-/// weight and look degenerate: if they determine the pose without the prediction, and with more
-/// inliers, the sensor was pushed, and that result is taken.
-RegistrationResult Odometry::register_predicted(const FeatureCloud& features,
-                                                const PosePrediction& prediction) const {
-  RegistrationResult best = register_near(features, prediction, config_.registration);
-  if (!is_valid(features, best)) {
-    RegistrationConfig strict = config_.registration;
-    strict.geometric.initial_scale = 0.0;
-    const RegistrationResult other = register_near(features, prediction, strict);
-    if (other.geometric.inliers() >= best.geometric.inliers()) best = other;
-  }
-  if (best.degenerate_directions > 0 && prediction.is_informative()) {
-    const RegistrationResult alone =
-        register_near(features, {prediction.T_world_sensor}, config_.registration);
-    const bool agrees_better =
-        alone.geometric.inliers() > kMinInlierGain * best.geometric.inliers();
-    if (alone.degenerate_directions == 0 && agrees_better) best = alone;
-  }
-  return best;
-}
-
-RegistrationResult Odometry::register_near(const FeatureCloud& features,
-                                           const PosePrediction& prediction,
-                                           const RegistrationConfig& config) const {
-  return register_frame(features, {*maps_, keyframes_.nearest(prediction.T_world_sensor)},
-                        prediction, config, noise_);
 }
 
 void Odometry::restart() {
@@ -393,15 +245,6 @@ std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) cons
   const bool is_lost = lost_ && !(prediction.translation_sigma < kMaxExpectedSigma);
   if (is_lost) return std::nullopt;
   return Transform<World, Sensor>(prediction.T_world_sensor);
-}
-
-bool Odometry::is_valid(const FeatureCloud& features, const RegistrationResult& result) const {
-  const int inliers = result.geometric.inliers();
-  const auto offered = static_cast<double>(features.edges.size() + features.planes.size());
-  if (inliers + result.intensity_inliers < config_.min_inliers) return false;
-  if (inliers < config_.min_inlier_share * offered) return false;
-  if (!result.T_world_sensor.matrix().allFinite()) return false;
-  return motion_.is_feasible(features.stamp, result.T_world_sensor);
 }
 
 void Odometry::update_maps(const FeatureCloud& features) {

@@ -5,26 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "mms/core/config_visitor.hpp"
 #include "mms/core/odometry_estimate.hpp"
 #include "mms/localization/features/feature_cloud.hpp"
 #include "mms/localization/motion/motion_model.hpp"
+#include "mms/localization/odometry_config.hpp"
 #include "mms/localization/photometric/reference_keyframes.hpp"
 #include "mms/localization/registration/registration.hpp"
 
 namespace mms {
-
-struct OdometryConfig {
-  RegistrationConfig registration;
-  MotionConfig motion;
-  double voxel_size = 0.0;
-  double map_radius = 0.0;
-  int max_voxels = 200000;
-  int min_inliers = 60;
-  double min_inlier_share = 0.25;
-
-  void visit(ConfigVisitor& v);
-};
 
 /// Features of an earlier frame at their place.
 struct PlacedFeatures {
@@ -105,15 +93,6 @@ class Odometry {
   OdometryEstimate track(const Alignment& alignment);
   OdometryEstimate begin_in_motion(FeatureCloud first, FeatureCloud second);
   void make_maps(const FeatureCloud& features);
-  RegistrationResult register_best(const FeatureCloud& features) const;
-  RegistrationResult register_sensed(const FeatureCloud& features,
-                                     const PosePrediction& prediction) const;
-  RegistrationResult register_predicted(const FeatureCloud& features,
-                                        const PosePrediction& prediction) const;
-  RegistrationResult register_turned(const FeatureCloud& features, RegistrationResult best) const;
-  RegistrationResult register_near(const FeatureCloud& features, const PosePrediction& prediction,
-                                   const RegistrationConfig& config) const;
-  bool is_valid(const FeatureCloud& features, const RegistrationResult& result) const;
   void update_maps(const FeatureCloud& features);
 
   OdometryConfig config_;
