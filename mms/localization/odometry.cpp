@@ -35,6 +35,10 @@ constexpr double kMinDisplacement = 0.03;
 /// to turn by 70 degrees/s.
 constexpr int kMaxDeskewings = 4;
 
+/// [-]: share of a frame in the usual spread of the photometric residuals.
+/// Source: initial choice; ten frames are long against a fault, short against changes of the view.
+constexpr double kSigmaUpdate = 0.1;
+
 bool is_scan(const FeatureCloud& features) {
   return features.intensity.empty() && features.points_offset > Duration::zero();
 }
@@ -120,7 +124,8 @@ Odometry::Alignment Odometry::align_at_pose_time(FeatureCloud features) const {
                                    .keyframes = keyframes_,
                                    .motion = motion_,
                                    .config = config_,
-                                   .noise = noise_});
+                                   .noise = noise_,
+                                   .usual_intensity_sigma = usual_intensity_sigma_});
   alignment.registration = choice.best();
   alignment.is_valid = choice.is_valid(*alignment.registration);
   return alignment;
@@ -158,6 +163,10 @@ OdometryEstimate Odometry::track(const Alignment& alignment) {
     estimate.status = lost_                              ? Status::kRecovered
                       : result.degenerate_directions > 0 ? Status::kDegenerate
                                                          : Status::kTracking;
+    if (result.intensity_sigma > 0.0) {
+      const double share = usual_intensity_sigma_ > 0.0 ? kSigmaUpdate : 1.0;
+      usual_intensity_sigma_ += share * (result.intensity_sigma - usual_intensity_sigma_);
+    }
     motion_.measure(features.stamp, result.T_world_sensor, result.degenerate_directions == 0);
     update_maps(features);
   } else {

@@ -105,6 +105,7 @@ class Odometry {
   MotionModel motion_;
   Isometry origin_ = Isometry::Identity();  ///< pose of the frame that the local maps began with
   Isometry trimmed_at_ = Isometry::Identity();
+  double usual_intensity_sigma_ = 0.0;  ///< running mean of `intensity_sigma` [grey levels]
   bool lost_ = false;
   std::optional<Vector6d> unexpected_velocity_;
 };

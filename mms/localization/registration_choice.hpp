@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "mms/localization/features/feature_cloud.hpp"
 #include "mms/localization/motion/motion_model.hpp"
 #include "mms/localization/odometry_config.hpp"
@@ -20,6 +22,7 @@ class RegistrationChoice {
     const MotionModel& motion;
     const OdometryConfig& config;
     const DepthNoise& noise;
+    double usual_intensity_sigma;  ///< of frames before [grey levels]; 0: unknown
   };
 
   explicit RegistrationChoice(const Inputs& inputs)
@@ -29,7 +32,8 @@ class RegistrationChoice {
         keyframes_(inputs.keyframes),
         motion_(inputs.motion),
         config_(inputs.config),
-        noise_(inputs.noise) {}
+        noise_(inputs.noise),
+        usual_intensity_sigma_(inputs.usual_intensity_sigma) {}
 
   RegistrationResult best() const;
 
@@ -40,6 +44,8 @@ class RegistrationChoice {
   RegistrationResult register_sensed(const PosePrediction& prediction) const;
   RegistrationResult register_predicted(const PosePrediction& prediction) const;
   RegistrationResult register_turned(RegistrationResult best) const;
+  std::vector<Eigen::Isometry3d> turn_guesses(bool at_predicted_place) const;
+  bool looks_right(const RegistrationResult& result) const;
   RegistrationResult register_near(const PosePrediction& prediction,
                                    const RegistrationConfig& config) const;
 
@@ -50,6 +56,7 @@ class RegistrationChoice {
   const MotionModel& motion_;
   const OdometryConfig& config_;
   const DepthNoise& noise_;
+  double usual_intensity_sigma_;
 };
 
 }  // namespace mms

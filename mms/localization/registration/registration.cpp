@@ -26,6 +26,12 @@ constexpr double kScaleDecay = 0.5;
 /// Source: initial choice; a step that small changes the robust weights by a few percent.
 constexpr double kConvergedStep = 0.1;
 
+/// [px]: motion of the image at a level of the pyramid below which a step has no effect.
+/// Source: a tenth of what the interpolation resolves. With the bound by the annealed scale alone,
+/// the coarsest level ended after one step where the sensor began to turn: off by 25 cm in front of
+/// a wall (`long_aisles`, seed 4).
+constexpr double kConvergedPixels = 0.05;
+
 /// Residuals of a photometric term within kInlierSigmas; t-weights are never zero.
 int count_inliers(const PhotometricEquations& equations, double sigma) {
   const auto limit =
@@ -125,10 +131,14 @@ class GaussNewton {
   void iterate(int level, int max_iterations) {
     result_.converged = false;
     // While the annealed scale is larger than the noise, a step far below it has no effect.
-    const double converged_translation =
-        std::max(config_.converged_translation, kConvergedStep * annealed_scale_);
-    const double converged_rotation = std::max(
-        config_.converged_rotation, kConvergedStep * annealed_scale_ / std::max(scale_, 1.0));
+    double small_step = kConvergedStep * annealed_scale_;  // of points [m]
+    if (level >= 0) {
+      const double focal = features_.intensity[static_cast<std::size_t>(level)].camera.fx;
+      small_step = std::min(small_step, kConvergedPixels * scale_ / focal);
+    }
+    const double converged_translation = std::max(config_.converged_translation, small_step);
+    const double converged_rotation =
+        std::max(config_.converged_rotation, small_step / std::max(scale_, 1.0));
     for (int i = 0; i < max_iterations && !result_.converged; ++i) {
       const NormalEquations equations = linearize(level);
       const Step step = next_step(equations);
@@ -173,6 +183,8 @@ class GaussNewton {
 
   void add_photometric(std::size_t level, NormalEquations& sum) {
     result_.intensity_inliers = 0;
+    double sigmas = 0.0;
+    int visible = 0;  // keyframes
     for (std::size_t k = 0; k < target_.keyframes.size(); ++k) {
       const IntensityKeyframe& keyframe = *target_.keyframes[k];
       if (level >= keyframe.levels.size()) continue;
@@ -182,7 +194,11 @@ class GaussNewton {
       sum += photometric.equations;
       result_.intensity_inliers += count_inliers(photometric, states_[k].sigma);
       states_[k] = photometric.next(states_[k], config_.photometric.min_sigma);
+      if (photometric.visible == 0) continue;
+      sigmas += states_[k].sigma;
+      ++visible;
     }
+    result_.intensity_sigma = visible > 0 ? sigmas / visible : 0.0;
   }
 
   const FeatureCloud& features_;

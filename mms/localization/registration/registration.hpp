@@ -33,6 +33,9 @@ struct RegistrationResult {
   Matrix6d information = Matrix6d::Zero();  ///< of the data alone
   GeometricEquations geometric;             ///< of the last iteration
   int intensity_inliers = 0;
+  /// Standard deviation of the photometric residuals, mean of the keyframes [grey levels]; 0: no
+  /// residuals. It adapts to the data: several times the usual one means that the pose is wrong.
+  double intensity_sigma = 0.0;
   int iterations = 0;
   int degenerate_directions = 0;  ///< that the data alone do not determine
   bool converged = false;
