@@ -82,6 +82,11 @@ class Odometry {
   /// predict.
   std::optional<Transform<World, Sensor>> expected(Timestamp stamp) const;
 
+  /// The same for images of which all features are known. Where the last turns differ, so that the
+  /// next one may, it is the pose that fits these features, if nearly all of them fit: then hardly
+  /// anything moves.
+  std::optional<Transform<World, Sensor>> expected(const FeatureCloud& features) const;
+
  private:
   using Isometry = Eigen::Isometry3d;
 
@@ -105,6 +110,7 @@ class Odometry {
   MotionModel motion_;
   Isometry origin_ = Isometry::Identity();  ///< pose of the frame that the local maps began with
   Isometry trimmed_at_ = Isometry::Identity();
+  double turn_change_ = 0.0;            ///< from the turn before the last to the last one [rad]
   double usual_intensity_sigma_ = 0.0;  ///< running mean of `intensity_sigma` [grey levels]
   bool lost_ = false;
   std::optional<Vector6d> unexpected_velocity_;

@@ -193,7 +193,7 @@ bool Localization::is_search_keyframe(const OdometryEstimate& odometry) {
 }
 
 void Localization::exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const {
-  const auto expected = odometry_.expected(cloud.stamp);
+  const auto expected = odometry_.expected(features);
   if (!expected) return;
   const Image<std::uint8_t> moved = session_.motion_segmentation.relabel(cloud, *expected);
   if (!moved.empty()) exclude(moved, cloud, features);
