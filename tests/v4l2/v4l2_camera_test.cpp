@@ -210,6 +210,15 @@ TEST_F(V4l2Camera, LeavesDamagedImagesOut) {
   }
 }
 
+TEST_F(V4l2Camera, LeavesOutImageWhoseSizeIsWrong) {
+  write_images(true);
+  const Bytes small = encode_jpeg(Image<Rgb>(320, 240));
+  temp_.write("images/color/9", std::string(small.begin(), small.end()));
+  expect_success(localize_live("live"));
+  EXPECT_EQ(metrics("live")["frames"], kFrames - 1);
+  EXPECT_EQ(metrics("live")["realtime"]["frames_dropped"], 1);
+}
+
 TEST_F(V4l2Camera, GoesOnWithoutFramesUntilInterrupted) {
   write_images(false);
   set_fault("silent");

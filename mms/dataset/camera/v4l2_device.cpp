@@ -170,7 +170,8 @@ class V4l2Device final : public CameraDevice {
           stream->node->take([&](const V4l2Node::RawImage& image) { add(*stream, image, frames); });
       const bool error = (event & (POLLERR | POLLHUP | POLLNVAL)) != 0;
       if (taken == V4l2Node::Taken::kImage) any = true;
-      if (taken == V4l2Node::Taken::kUnplugged || (taken == V4l2Node::Taken::kNothing && error)) {
+      // A driver with a fault goes on with errors, without images.
+      if (taken == V4l2Node::Taken::kUnplugged || (taken != V4l2Node::Taken::kImage && error)) {
         unplugged = true;
       }
     }
@@ -221,7 +222,11 @@ class V4l2Device final : public CameraDevice {
   bool convert(std::uint32_t format, const V4l2Node::RawImage& image, FrameAssembler& frames) {
     if (format == V4L2_PIX_FMT_MJPEG) {
       try {
-        frames.add_color(image.stamp, decode_color(image.bytes, what_));
+        Image<Rgb> color = decode_color(image.bytes, what_);
+        if (color.width() != image.layout.width || color.height() != image.layout.height) {
+          return false;
+        }
+        frames.add_color(image.stamp, std::move(color));
         return true;
       } catch (const DataError&) {
         return false;
