@@ -37,6 +37,7 @@ EMPTY_HOLDOUT = 500
 PICTURES = (".jpg", ".jpeg", ".png")
 COCO_LABELS = "insigh1+Interactive_ABCs_with_American_Sign_Language_using_Yolov5"
 COCO_LABELS_COMMIT = "a10d74895"
+VOC_LABELS = "shihanghoney97+YOLO-SK"
 
 
 # ---------------------------------------------------------------- repositories
@@ -53,7 +54,7 @@ class Repository:
         if commit != "HEAD" and not bare:
             bare = [folder / ".git"]
         self._git = None
-        self._folder = folder
+        self.folder = folder
         if bare:
             self._start_git(bare[0], commit)
         else:
@@ -78,7 +79,7 @@ class Repository:
     def read(self, name):
         """The bytes of a file, or None if there are none."""
         if self._git is None:
-            path = self._folder / name
+            path = self.folder / name
             return path.read_bytes() if path.is_file() else None
         if name not in self._blobs:
             return None
@@ -94,7 +95,7 @@ class Repository:
     def json(self, name):
         data = self.read(name)
         if data is None:
-            raise FileNotFoundError(f"{self._folder.name}: no file {name}")
+            raise FileNotFoundError(f"{self.folder.name}: no file {name}")
         return json.loads(data)
 
     def below(self, folder, endings):
@@ -250,8 +251,11 @@ def yolo_line(line, width, height):
     return int(index), [(x - w / 2) * width, (y - h / 2) * height, w * width, h * height], []
 
 
-def yolo_txt(repo, report, folder, classes, label_of, label_repo=None):
-    """Pictures with text files of one object a line, relative to the image's size."""
+def yolo_txt(repo, report, folder, classes, label_of, label_repo=None, unlabelled=True):
+    """Pictures with text files of one object a line, relative to the image's size.
+
+    unlabelled: whether a picture without such a file is an error, else it is not taken.
+    """
 
     def objects_of(name, text, width, height):
         objects = []
@@ -272,6 +276,8 @@ def yolo_txt(repo, report, folder, classes, label_of, label_repo=None):
 
     for name in repo.below(folder, PICTURES):
         label = (label_repo or repo).read(label_of(name))
+        if label is None and not unlabelled:
+            continue
         if label is None:
             report.images += 1
             report.bad_image(name, "has no label file")
@@ -432,6 +438,16 @@ def person_json(file, folder, classes=None):
     )
 
 
+def pascal_voc(repo, report, _):
+    """Pictures of PASCAL VOC, of which another repository has the boxes."""
+    labels = Repository(repo.folder.parent / VOC_LABELS)
+    yield from yolo_txt(
+        repo, report, "images/", [0] * 3 + [PERSON] + [0] * 16,
+        lambda name: f"data/labels/train/{Path(name).stem}.txt", labels, unlabelled=False,
+    )
+    labels.close()
+
+
 TRAINING = [
     Source(
         "coco_mini", "Obmutescence+COCO-MINI",
@@ -553,6 +569,25 @@ TRAINING = [
             repo, report, "dataset/train_data/", [AGV], beside("\0", "\0")
         ),
         partial=("person",),
+    ),
+    Source(
+        "animals", "mateusrafael4+Atividade_programacao_pose_estimation", pascal_voc,
+        keep_empty=True,
+    ),
+    Source(  # boxes of people in wheelchairs contain these
+        "wheelchair", "lexra+wheelchair",
+        lambda repo, report, _: yolo_txt(
+            repo, report, "datasets/", [PERSON, PERSON], beside("\0", "\0"), unlabelled=False
+        ),
+    ),
+    Source(
+        "coco_people",
+        "michallaufer+Robust-Human-Detection-and-Pose-Estimation-"
+        "Under-Surveillance-Camera-Degradation",
+        lambda repo, report, labels: yolo_txt(
+            repo, report, "data/yolo_pose/images/train/", [PERSON] + [0] * 79, coco_label, labels
+        ),
+        coco=True,
     ),
 ]
 
