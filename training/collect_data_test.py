@@ -117,6 +117,20 @@ class Formats(Sources):
         self.assertEqual(polygon["segmentation"], [[20, 15, 40, 15, 40, 45]])
         self.assertEqual(polygon["area"], 300)
 
+    def test_pictures_with_boxes_in_another_repository(self):
+        for seed, name in enumerate(["2008_000008", "2008_000009", "ca1"]):
+            self.at("mateusrafael4+Atividade_programacao_pose_estimation", f"images/{name}.jpg",
+                    noise(80 + seed))
+        for name, text in {"2008_000008": "3 0.5 0.5 0.25 0.5", "2008_000009": "4 0 0 1 1"}.items():
+            self.at(collect.VOC_LABELS, f"data/labels/train/{name}.txt", text)
+        self.collect()
+        self.assertEqual(
+            [image["origin"] for image in self.result()["images"]],
+            ["images/2008_000008.jpg", "images/2008_000009.jpg"],
+        )
+        person, = self.result()["annotations"]
+        self.assertEqual(person["bbox"], [30, 15, 20, 30])
+
     def test_large_images_are_scaled_with_their_annotations(self):
         self.forklift(1, "0 0.5 0.5 0.25 0.5\n", noise(1, 896, 448))
         self.collect()
@@ -302,20 +316,6 @@ class NeverTrainedOn(Sources):
         image, = self.result()["images"]
         self.assertEqual(image["origin"], "101_ObjectCategories/ant/1.jpg")
         self.assertEqual(self.result()["annotations"], [])
-
-    def test_pictures_with_boxes_in_another_repository(self):
-        for seed, name in enumerate(["2008_000008", "2008_000009", "ca1"]):
-            self.at("mateusrafael4+Atividade_programacao_pose_estimation", f"images/{name}.jpg",
-                    noise(80 + seed))
-        for name, text in {"2008_000008": "3 0.5 0.5 0.25 0.5", "2008_000009": "4 0 0 1 1"}.items():
-            self.at(collect.VOC_LABELS, f"data/labels/train/{name}.txt", text)
-        self.collect()
-        self.assertEqual(
-            [image["origin"] for image in self.result()["images"]],
-            ["images/2008_000008.jpg", "images/2008_000009.jpg"],
-        )
-        person, = self.result()["annotations"]
-        self.assertEqual(person["bbox"], [30, 15, 20, 30])
 
 
 class BadInput(Sources):
