@@ -20,7 +20,7 @@ std::array<int, BackboneImpl::kStages> blocks_of(int depth) {
 
 }  // namespace
 
-torch::Tensor normalised_conv(BackboneConv& conv, nn::BatchNorm2d& norm, const torch::Tensor& x) {
+torch::Tensor normalised_conv(BackboneConv& conv, BatchNorm& norm, const torch::Tensor& x) {
   const torch::Tensor y = conv(x);
   return conv->folded() ? y : norm(y);
 }
@@ -35,24 +35,24 @@ ResidualBlockImpl::ResidualBlockImpl(const Shape& shape) : shape_(shape) {
   const ConvShape second = {
       .in = planes, .out = planes, .stride = shape.bottleneck ? shape.stride : 1};
   conv1_ = register_module("conv1", BackboneConv(first, aws));
-  bn1_ = register_module("bn1", nn::BatchNorm2d(planes));
+  bn1_ = register_module("bn1", BatchNorm(planes));
   if (shape.sac == SacMode::kNone) {
     conv2_ = register_module("conv2", BackboneConv(second, aws));
   } else {
     switchable2_ =
         register_module("conv2", SwitchableConv(second, shape.sac == SacMode::kDeformable));
   }
-  bn2_ = register_module("bn2", nn::BatchNorm2d(planes));
+  bn2_ = register_module("bn2", BatchNorm(planes));
   if (shape.bottleneck) {
     conv3_ = register_module(
         "conv3", BackboneConv(ConvShape{.in = planes, .out = shape.out(), .kernel = 1}, aws));
-    bn3_ = register_module("bn3", nn::BatchNorm2d(shape.out()));
+    bn3_ = register_module("bn3", BatchNorm(shape.out()));
   }
   if (shape.stride != 1 || shape.in != shape.out()) {
     const ConvShape skip = {
         .in = shape.in, .out = shape.out(), .kernel = 1, .stride = shape.stride};
     skip_conv_ = BackboneConv(skip, aws);
-    skip_norm_ = nn::BatchNorm2d(shape.out());
+    skip_norm_ = BatchNorm(shape.out());
     register_module("downsample", nn::Sequential(skip_conv_, skip_norm_));
   }
   if (shape.feedback > 0) {
@@ -91,7 +91,7 @@ BackboneImpl::BackboneImpl(const BackboneConfig& config, std::int64_t feedback) 
   conv1_ = register_module(
       "conv1", BackboneConv(ConvShape{.in = 3, .out = kStemChannels, .kernel = 7, .stride = 2},
                             standardised));
-  bn1_ = register_module("bn1", nn::BatchNorm2d(kStemChannels));
+  bn1_ = register_module("bn1", BatchNorm(kStemChannels));
   const std::array<std::int64_t, kStages> planes = {64, 128, 256, config.last_planes};
   std::int64_t in = kStemChannels;
   for (int number = 1; number <= kStages; ++number) {

@@ -10,8 +10,7 @@
 namespace mms::network {
 
 /// Convolution and norm, unless the norm is folded.
-torch::Tensor normalised_conv(BackboneConv& conv, torch::nn::BatchNorm2d& norm,
-                              const torch::Tensor& x);
+torch::Tensor normalised_conv(BackboneConv& conv, BatchNorm& norm, const torch::Tensor& x);
 
 /// A residual block; plain (two 3x3) or bottleneck (1x1, 3x3, 1x1). With SAC its second
 /// convolution is switchable.
@@ -43,11 +42,11 @@ class ResidualBlockImpl : public torch::nn::Module {
   BackboneConv conv2_{nullptr};  ///< null if `switchable2_` is used
   SwitchableConv switchable2_{nullptr};
   BackboneConv conv3_{nullptr};  ///< of bottlenecks
-  torch::nn::BatchNorm2d bn1_{nullptr};
-  torch::nn::BatchNorm2d bn2_{nullptr};
-  torch::nn::BatchNorm2d bn3_{nullptr};
+  BatchNorm bn1_{nullptr};
+  BatchNorm bn2_{nullptr};
+  BatchNorm bn3_{nullptr};
   BackboneConv skip_conv_{nullptr};  ///< of `downsample`, if present
-  torch::nn::BatchNorm2d skip_norm_{nullptr};
+  BatchNorm skip_norm_{nullptr};
   torch::nn::Conv2d rfp_conv_{nullptr};
 };
 TORCH_MODULE(ResidualBlock);
@@ -81,7 +80,7 @@ class BackboneImpl : public torch::nn::Module {
   torch::nn::Sequential& stage(int number) { return stages_[static_cast<std::size_t>(number - 1)]; }
 
   BackboneConv conv1_{nullptr};
-  torch::nn::BatchNorm2d bn1_{nullptr};
+  BatchNorm bn1_{nullptr};
   std::array<torch::nn::Sequential, kStages> stages_{nullptr, nullptr, nullptr, nullptr};
   std::array<std::int64_t, kStages> channels_{};
   int statistics_kept_ = 0;

@@ -51,10 +51,10 @@ torch::Tensor standardise_weight(const torch::Tensor& weight, const torch::Tenso
 }
 
 std::pair<torch::Tensor, torch::Tensor> folded_weight(const torch::Tensor& weight,
-                                                      nn::BatchNorm2dImpl& norm) {
+                                                      const BatchNormImpl& norm) {
   const torch::NoGradGuard no_grad;
-  const torch::Tensor scale = norm.weight / (norm.running_var + norm.options.eps()).sqrt();
-  return {weight * scale.view({-1, 1, 1, 1}), norm.bias - norm.running_mean * scale};
+  const auto [scale, shift] = norm.scale_and_shift();
+  return {weight * scale.view({-1, 1, 1, 1}), shift};
 }
 
 nn::Conv2d biased_conv(const ConvShape& shape, std::int64_t dilation) {
@@ -81,7 +81,7 @@ torch::Tensor BackboneConvImpl::effective_weight() const {
   return gamma_.defined() ? standardise_weight(weight_, gamma_, beta_) : weight_;
 }
 
-void BackboneConvImpl::fold(nn::BatchNorm2dImpl& norm) {
+void BackboneConvImpl::fold(const BatchNormImpl& norm) {
   const auto [weight, bias] = folded_weight(effective_weight(), norm);
   weight_.set_data(weight);
   gamma_ = torch::Tensor();
@@ -159,7 +159,7 @@ HeadUnitImpl::HeadUnitImpl(const ConvShape& shape, HeadNorm norm) {
                                                  .bias(false)));
   nn::init::kaiming_normal_(conv_->weight, 0.0, torch::kFanOut, torch::kReLU);
   if (norm == HeadNorm::kBatch) {
-    batch_norm_ = register_module("bn", nn::BatchNorm2d(shape.out));
+    batch_norm_ = register_module("bn", BatchNorm(shape.out));
   } else {
     const std::int64_t groups = std::gcd(kGroups, shape.out);
     group_norm_ = register_module("gn", nn::GroupNorm(groups, shape.out));

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <torch/nn/modules/batchnorm.h>
 #include <torch/nn/modules/conv.h>
 #include <torch/nn/modules/normalization.h>
 
 #include <utility>
 
+#include "mms/segmentation/network/batch_norm.hpp"
 #include "mms/segmentation/solo/network_config.hpp"
 
 namespace mms::network {
@@ -32,7 +32,7 @@ class BackboneConvImpl : public torch::nn::Module {
   torch::Tensor effective_weight() const;
   /// Folds the following batch norm into weight and bias, for inference; the norm must be skipped
   /// afterwards.
-  void fold(torch::nn::BatchNorm2dImpl& norm);
+  void fold(const BatchNormImpl& norm);
   bool folded() const { return bias_.defined(); }
 
  private:
@@ -85,7 +85,7 @@ class HeadUnitImpl : public torch::nn::Module {
  private:
   torch::nn::Conv2d conv_{nullptr};
   torch::nn::GroupNorm group_norm_{nullptr};
-  torch::nn::BatchNorm2d batch_norm_{nullptr};
+  BatchNorm batch_norm_{nullptr};
 };
 TORCH_MODULE(HeadUnit);
 
@@ -102,7 +102,7 @@ TORCH_MODULE(PlainUnit);
 
 /// Weight and bias of a convolution with the following batch norm.
 std::pair<torch::Tensor, torch::Tensor> folded_weight(const torch::Tensor& weight,
-                                                      torch::nn::BatchNorm2dImpl& norm);
+                                                      const BatchNormImpl& norm);
 
 /// Convolution with bias that keeps the size, for any dilation.
 torch::nn::Conv2d biased_conv(const ConvShape& shape, std::int64_t dilation = 1);
