@@ -217,7 +217,7 @@ IncludeRules make_rules() {
        {"source", "live", "recorder", "bag", "folder", "lidar", "numbered", "simulated", "tum",
         "video", "capture", "camera", "plausibility", ""}},
       {"evaluation", {"scores", "trajectory", "map", "segmentation", "tracking", ""}},
-      {"training", {"data", "run"}},
+      {"training", {"data", "processes", "run"}},
       {"server", {"scene", "viewer", "http"}},
       {"run", {"record", "segmenter", "results", "view", ""}},
       {"apps", {"console", "paper", "batch", "commands", "commands/eval", "commands/network", ""}},

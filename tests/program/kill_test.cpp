@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
-#include <thread>
-
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/files.hpp"
@@ -25,17 +22,6 @@ Words run_words(const std::string& out, const Words& more = {}) {
   Words words = {"run", "data", "--segmenter", "masks", "-o", out};
   words.insert(words.end(), more.begin(), more.end());
   return words;
-}
-
-/// Waits, up to a minute, until `done()`.
-template <class Condition>
-bool wait_until(const Condition& done) {
-  using namespace std::chrono_literals;
-  for (int i = 0; i < 30000; ++i) {
-    if (done()) return true;
-    std::this_thread::sleep_for(2ms);
-  }
-  return false;
 }
 
 std::uintmax_t size_of(const fs::path& file) {

@@ -2,8 +2,10 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace mms::testing {
@@ -46,6 +48,17 @@ void expect_error(const Outcome& outcome, const std::string& part);
 
 /// Expects exit code 2 and one line "mms: ..." that contains `part`.
 void expect_usage_error(const Outcome& outcome, const std::string& part);
+
+/// Waits, up to a minute, until `done()`; false if it never is.
+template <class Condition>
+bool wait_until(const Condition& done) {
+  using namespace std::chrono_literals;
+  for (int i = 0; i < 30000; ++i) {
+    if (done()) return true;
+    std::this_thread::sleep_for(2ms);
+  }
+  return false;
+}
 
 /// Number of lines of stderr that contain `part`.
 int lines_with(const Outcome& outcome, const std::string& part);

@@ -1,4 +1,11 @@
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <memory>
 
 #include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
@@ -80,6 +87,100 @@ schedule: {images: 2, batch: 2}
   expect_success(run_mms(folder.path(), {"train", "-c", "train.yaml", "-o", "out"}));
   const Outcome outcome = run_mms(folder.path(), {"info", "out/weights.safetensors"});
   expect_in("variant: solov2+detectors", outcome.out);
+}
+
+/// Sets environment variables for programs that are started during its lifetime.
+class Variables {
+ public:
+  explicit Variables(std::map<std::string, std::string> values) : values_(std::move(values)) {
+    for (const auto& [name, value] : values_) setenv(name.c_str(), value.c_str(), 1);
+  }
+  ~Variables() {
+    for (const auto& [name, value] : values_) unsetenv(name.c_str());
+  }
+  Variables(const Variables&) = delete;
+  Variables& operator=(const Variables&) = delete;
+
+ private:
+  std::map<std::string, std::string> values_;
+};
+
+/// Two processes on this machine with the variables of torchrun.
+std::array<std::unique_ptr<RunningMms>, 2> two_trainings(const fs::path& folder, int port) {
+  std::array<std::unique_ptr<RunningMms>, 2> both;
+  for (std::size_t rank = 0; rank < 2; ++rank) {
+    const Variables variables({{"WORLD_SIZE", "2"},
+                               {"RANK", std::to_string(rank)},
+                               {"MASTER_ADDR", "127.0.0.1"},
+                               {"MASTER_PORT", std::to_string(port)}});
+    const fs::path own = folder / std::to_string(rank);  // for what it prints
+    fs::create_directories(own);
+    both[rank] = std::make_unique<RunningMms>(
+        own,
+        std::vector<std::string>{"train", "-c", "../train.yaml", "-o", "../out", "--threads", "1"});
+  }
+  return both;
+}
+
+constexpr int kFirstPort = 20000;  // below those that systems give to clients
+constexpr int kPorts = 9000;
+
+int port_of_test() {
+  static int calls = 0;
+  return kFirstPort + (getpid() + ++calls * 1009) % kPorts;
+}
+
+TEST(Train, TwoProcessesTrainTogether) {
+  if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  expect_success(
+      run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
+  std::string text = kConfig;
+  for (std::size_t at = 0; (at = text.find(" data/", at)) != std::string::npos; at += 4) {
+    text.replace(at, 6, " ../data/");
+  }
+  folder.write("train.yaml", text);
+  const auto both = two_trainings(folder.path(), port_of_test());
+  const Outcome first = both[0]->wait();
+  const Outcome second = both[1]->wait();
+  expect_success(first);
+  expect_success(second);
+  expect_in("weights: ../out/weights.safetensors", first.out);
+  EXPECT_EQ(second.out, "");
+  EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/weights.safetensors"));
+}
+
+/// A process is killed: the other one says so, and the training continues from the checkpoint.
+TEST(Train, ContinuesAfterAProcessIsKilled) {
+  if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  expect_success(
+      run_mms(folder.path(), {"simulate", "training-set", "-o", "data", "--images", "4"}));
+  folder.write("train.yaml", R"(
+network: {long_side: 128, short_side: 96}
+data: [{annotations: ../data/annotations.json}]
+half_precision: false
+checkpoint_every: 2
+schedule: {images: 100000, batch: 2}
+)");
+  const auto both = two_trainings(folder.path(), port_of_test());
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder.path() / "out/checkpoint.pt"); }));
+  both[1]->send(SIGKILL);
+  const Outcome first = both[0]->wait();
+  EXPECT_EQ(first.exit_code, 1);
+  expect_in("mms: process 0 of 2: another process has ended or cannot be reached", first.err);
+  expect_in("the last checkpoint is whole", first.err);
+  EXPECT_EQ(both[1]->wait().exit_code, 128 + SIGKILL);
+  const fs::path place = folder.path() / "0";
+  RunningMms again(place, {"train", "-c", "../train.yaml", "-o", "../out", "--threads", "1"});
+  ASSERT_TRUE(wait_until([&] {
+    return fs::exists(place / ".stderr") &&
+           read_file(place / ".stderr").find("loss") != std::string::npos;
+  }));
+  again.send(SIGINT);
+  const Outcome outcome = again.wait();
+  EXPECT_EQ(outcome.exit_code, 130);
+  expect_in("interrupted: the same command continues from the last checkpoint", outcome.err);
 }
 
 TEST(Train, ErrorsAreOneLine) {

@@ -41,22 +41,25 @@ bool uses_cuda(const TrainingConfig& config) {
   return config.use_cuda && torch::cuda::is_available();
 }
 
-Batch make_batch(const SampleStore& store, const TrainingConfig& config, int number) {
+Batch make_batch(const SampleStore& store, const TrainingConfig& config, int number,
+                 const BatchPart& part) {
   const auto seed =
       hash_of(static_cast<std::uint64_t>(config.seed), static_cast<std::uint64_t>(number));
   RandomStream random(seed);
   const Canvas canvas = canvas_of(config, random);
-  const auto count = static_cast<std::size_t>(config.schedule.batch);
+  const int images = config.schedule.batch / part.parts;
+  const auto first = static_cast<std::size_t>(part.number * images);
+  const auto count = static_cast<std::size_t>(images);
   Batch batch;
   batch.targets.resize(count);
   // Pinned memory is copied to a GPU in the background.
-  batch.images = torch::zeros({config.schedule.batch, 3, canvas.height, canvas.width},
+  batch.images = torch::zeros({images, 3, canvas.height, canvas.width},
                               torch::TensorOptions().pinned_memory(uses_cuda(config)));
   float* planes = batch.images.data_ptr<float>();
   const std::size_t image_size =
       3 * static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
   parallel_chunks(count, 1, [&](std::size_t i, std::size_t) {
-    RandomStream own(hash_of(seed, i + 1));
+    RandomStream own(hash_of(seed, first + i + 1));
     const Sample sample = augmented(store, config, canvas, own);
     normalise(sample.image, sample.width, sample.height, canvas.width, canvas.height,
               planes + i * image_size);

@@ -18,7 +18,15 @@ struct Batch {
 /// Whether a GPU is available and enabled.
 bool uses_cuda(const TrainingConfig& config);
 
-/// Draws, augments and annotates the images of one step. Determined by the number.
-Batch make_batch(const SampleStore& store, const TrainingConfig& config, int number);
+/// The images of each batch that a process has: the part of this number out of `parts` equal ones.
+struct BatchPart {
+  int number = 0;  ///< from 0
+  int parts = 1;   ///< a divisor of the batch's size
+};
+
+/// Draws, augments and annotates the images of one step. Determined by the number; the parts
+/// together are the same images for any number of parts.
+Batch make_batch(const SampleStore& store, const TrainingConfig& config, int number,
+                 const BatchPart& part = {});
 
 }  // namespace mms

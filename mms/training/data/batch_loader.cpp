@@ -9,9 +9,11 @@ constexpr std::size_t kQueueCapacity = 4;  // prepared batches
 
 }  // namespace
 
-BatchLoader::BatchLoader(const SampleStore& store, const TrainingConfig& config, int first, int end)
-    : queue_(kQueueCapacity),
-      thread_([this, &store, config, first, end] { prepare(store, config, first, end); }) {}
+BatchLoader::BatchLoader(const SampleStore& store, const TrainingConfig& config, int first, int end,
+                         const BatchPart& part)
+    : queue_(kQueueCapacity), thread_([this, &store, config, first, end, part] {
+        prepare(store, config, first, end, part);
+      }) {}
 
 BatchLoader::~BatchLoader() {
   queue_.close();
@@ -19,13 +21,14 @@ BatchLoader::~BatchLoader() {
 }
 
 void BatchLoader::prepare(const SampleStore& store, const TrainingConfig& config, int first,
-                          int end) {
+                          int end, const BatchPart& part) {
   try {
     const int threads =
         config.loader_threads > 0 ? config.loader_threads : tbb::task_arena::automatic;
     tbb::task_arena arena(threads);
     for (int number = first; number < end; ++number) {
-      if (!queue_.push(arena.execute([&] { return make_batch(store, config, number); }))) return;
+      if (!queue_.push(arena.execute([&] { return make_batch(store, config, number, part); })))
+        return;
     }
   } catch (...) {
     fault_ = std::current_exception();

@@ -12,7 +12,9 @@ namespace mms {
 class BatchLoader {
  public:
   /// @param first, end numbers of the batches, [first, end)
-  BatchLoader(const SampleStore& store, const TrainingConfig& config, int first, int end);
+  /// @param part       what to prepare of each
+  BatchLoader(const SampleStore& store, const TrainingConfig& config, int first, int end,
+              const BatchPart& part = {});
   ~BatchLoader();
   BatchLoader(const BatchLoader&) = delete;
   BatchLoader& operator=(const BatchLoader&) = delete;
@@ -21,7 +23,8 @@ class BatchLoader {
   std::optional<Batch> next();
 
  private:
-  void prepare(const SampleStore& store, const TrainingConfig& config, int first, int end);
+  void prepare(const SampleStore& store, const TrainingConfig& config, int first, int end,
+               const BatchPart& part);
 
   BoundedQueue<Batch> queue_;
   std::exception_ptr fault_;

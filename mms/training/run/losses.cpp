@@ -41,7 +41,8 @@ torch::Tensor complete_classes(const std::vector<ImageTargets>& targets, std::in
 }
 
 /// Cells on a crowd do not count, nor background cells for a class with objects not annotated.
-torch::Tensor category_loss(const torch::Tensor& logits, const std::vector<ImageTargets>& targets) {
+torch::Tensor category_loss(const torch::Tensor& logits, const std::vector<ImageTargets>& targets,
+                            const network::ProcessSum& sum) {
   const torch::Tensor wanted = category_targets(targets).to(logits.device());
   const torch::Tensor positive = wanted >= 0;
   const torch::Tensor one_hot =
@@ -50,7 +51,8 @@ torch::Tensor category_loss(const torch::Tensor& logits, const std::vector<Image
   const torch::Tensor counted =
       (wanted != ImageTargets::kIgnored).unsqueeze(2) * torch::maximum(complete, one_hot);
   const torch::Tensor loss = focal_loss(logits, one_hot.to(torch::kFloat)) * counted;
-  return loss.sum() / (positive.sum() + 1);
+  const torch::Tensor cells = positive.sum();
+  return loss.sum() / ((sum ? sum(cells) : cells) + 1);
 }
 
 /// At most `kMaxPairs`, evenly spaced.
@@ -227,15 +229,18 @@ torch::Tensor focal_loss(const torch::Tensor& logits, const torch::Tensor& targe
 }
 
 SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTargets>& targets,
-                   const torch::Tensor& images) {
+                   const torch::Tensor& images, const network::ProcessSum& sum) {
   SoloLoss loss;
-  loss.category = category_loss(cells_of(output.categories), targets);
+  loss.category = category_loss(cells_of(output.categories), targets, sum);
   const torch::Tensor kernels = cells_of(output.kernels);
   const torch::Tensor features = output.mask_features.to(torch::kFloat);
   const BatchPairs pairs = pairs_of(targets, kernels.size(1));
+  const torch::Tensor own = torch::tensor(static_cast<std::int64_t>(pairs.cells.size()));
+  const torch::Tensor count = sum ? sum(own) : own;
   // Without objects the loss is 0, but remains a function of the network.
-  loss.mask = pairs.cells.empty() ? 0 * (features.sum() + kernels.sum())
-                                  : mask_losses(kernels, features, targets, pairs, images).mean();
+  loss.mask = pairs.cells.empty()
+                  ? 0 * (features.sum() + kernels.sum())
+                  : mask_losses(kernels, features, targets, pairs, images).sum() / count;
   return loss;
 }
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "mms/segmentation/network/batch_norm.hpp"
 #include "mms/segmentation/network/solo_head.hpp"
 #include "mms/training/data/target_assignment.hpp"
 
@@ -25,7 +26,8 @@ torch::Tensor focal_loss(const torch::Tensor& logits, const torch::Tensor& targe
 torch::Tensor box_loss(const torch::Tensor& probability, const torch::Tensor& box,
                        const torch::Tensor& images, const std::vector<std::int64_t>& image_of);
 
-/// Unweighted parts of SOLOv2's loss for a batch.
+/// Unweighted parts of SOLOv2's loss for a batch, or for the part of it that a process has: the
+/// parts of all processes add up to the loss of the batch.
 struct SoloLoss {
   torch::Tensor category;  ///< focal loss, summed over the cells, divided by the number of positive
                            ///< ones plus 1
@@ -34,7 +36,8 @@ struct SoloLoss {
 
 /// @param targets  one per image
 /// @param images   (B, 3, height, width), normalized, on the device of the output
+/// @param sum      counts cells and pairs of all processes; empty: of this process alone
 SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTargets>& targets,
-                   const torch::Tensor& images);
+                   const torch::Tensor& images, const network::ProcessSum& sum = {});
 
 }  // namespace mms

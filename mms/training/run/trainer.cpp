@@ -20,11 +20,13 @@ namespace {
 
 constexpr const char* kStepsKey = "steps";
 
-torch::Device choose_device(const TrainingConfig& config) {
+/// The processes of a machine use its GPUs in turn.
+torch::Device choose_device(const TrainingConfig& config, const ProcessGroup& group) {
   if (!uses_cuda(config)) return torch::kCPU;
   // All batches have one of two shapes, so that a search for the fastest convolutions pays.
   at::globalContext().setBenchmarkCuDNN(true);
-  return torch::kCUDA;
+  const int number = group.place().local_rank % static_cast<int>(torch::cuda::device_count());
+  return torch::Device(torch::kCUDA, static_cast<torch::DeviceIndex>(number));
 }
 
 void prepare_backbones(network::SoloNetwork& network, const ScheduleConfig& schedule) {
@@ -76,15 +78,17 @@ void set_learning_rate(torch::optim::Optimizer& optimizer, const ScheduleConfig&
 
 }  // namespace
 
-Trainer::Trainer(const TrainingConfig& config)
+Trainer::Trainer(const TrainingConfig& config, ProcessGroup& group)
     : config_(config),
-      device_(choose_device(config)),
+      group_(group),
+      device_(choose_device(config, group)),
       network_(config.network),
       average_(config.network) {
   prepare_backbones(network_, config.schedule);
   network_->to(device_);
   average_->to(device_);
   network::put_channels_last(*network_);
+  if (group.size() > 1) network::share_statistics(*network_, group.as_sum());
   average_->eval();
   network::load_weights(*average_, network::to_weights(*network_), "a copy of the network");
   optimizer_ = make_optimizer(network_, config.schedule);
@@ -106,14 +110,33 @@ torch::Tensor Trainer::step(const Batch& batch) {
     const network::MixedPrecision precision(config_.half_precision, device_.type());
     output = network_->forward(images);
   }
-  const SoloLoss parts = solo_loss(output, batch.targets, images);
+  const SoloLoss parts = solo_loss(output, batch.targets, images, group_.as_sum());
   const torch::Tensor loss = parts.category + config_.schedule.mask_weight * parts.mask;
   loss.backward();
+  add_gradients();
   clip_gradients();
   optimizer_->step();
   update_average();
   ++steps_;
   return torch::stack({loss.detach(), parts.category.detach(), parts.mask.detach()});
+}
+
+/// Of all processes, in one message.
+void Trainer::add_gradients() {
+  if (group_.size() == 1) return;
+  const torch::NoGradGuard no_grad;
+  std::vector<torch::Tensor> own;
+  std::vector<std::int64_t> sizes;
+  for (const torch::Tensor& p : network_->parameters()) {
+    if (!p.grad().defined()) continue;
+    own.push_back(p.grad().reshape(-1));
+    sizes.push_back(p.numel());
+  }
+  const auto totals = group_.sum(torch::cat(own)).split_with_sizes(sizes);
+  auto total = totals.begin();
+  for (const torch::Tensor& p : network_->parameters()) {
+    if (p.grad().defined()) p.grad().copy_((total++)->view_as(p.grad()));
+  }
 }
 
 /// As torch's clip_grad_norm_, which would wait for the GPU.
@@ -140,7 +163,7 @@ void Trainer::update_average() {
   }
 }
 
-void Trainer::save(const std::filesystem::path& path) {
+void Trainer::write(std::ostream& stream) {
   torch::serialize::OutputArchive archive;
   torch::serialize::OutputArchive network;
   torch::serialize::OutputArchive average;
@@ -152,14 +175,30 @@ void Trainer::save(const std::filesystem::path& path) {
   archive.write("average", average);
   archive.write("optimizer", optimizer);
   archive.write(kStepsKey, torch::tensor(static_cast<std::int64_t>(steps_)));
+  archive.save_to(stream);
+}
+
+void Trainer::save(const std::filesystem::path& path) {
   AtomicFile file(path);
-  archive.save_to(file.stream());
+  write(file.stream());
   file.commit();
 }
 
 void Trainer::load(const std::filesystem::path& path) {
+  std::istringstream stream(read_file(path));
+  read(stream, path.string());
+}
+
+void Trainer::share_state() {
+  if (group_.size() == 1) return;
+  std::ostringstream own;
+  if (group_.is_first()) write(own);
+  std::istringstream first(group_.broadcast(own.str()));
+  read(first, "the first process");
+}
+
+void Trainer::read(std::istream& stream, const std::string& where) {
   try {
-    std::istringstream stream(read_file(path));
     torch::serialize::InputArchive archive;
     torch::serialize::InputArchive network;
     torch::serialize::InputArchive average;
@@ -175,7 +214,7 @@ void Trainer::load(const std::filesystem::path& path) {
     archive.read(kStepsKey, steps);
     steps_ = static_cast<int>(steps.item<std::int64_t>());
   } catch (const c10::Error& error) {
-    throw DataError(path.string(), "is not a checkpoint of this network",
+    throw DataError(where, "is not a checkpoint of this network",
                     std::string("torch says: ") + error.what_without_backtrace());
   }
   network::put_channels_last(*network_);

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <set>
-#include <thread>
 #include <utility>
 
 #include "mms/core/error.hpp"
@@ -28,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kStepsPerPoint = 25;  // of the loss curve
 
-void check(const TrainingConfig& config) {
+void check(const TrainingConfig& config, const ProcessPlace& place) {
   if (config.data.empty()) {
     throw ConfigError("data", "is empty", "add at least one set of images");
   }
@@ -37,27 +36,11 @@ void check(const TrainingConfig& config) {
                                              ", expected " + std::to_string(kObjectClassCount) +
                                              ": person and agv");
   }
-}
-
-int threads_or_cores(int threads) {
-  return threads > 0 ? threads
-                     : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
-LossPoint mean_of(const std::vector<torch::Tensor>& losses) {
-  const torch::Tensor mean = torch::stack(losses).mean(0).to(torch::kCPU, torch::kDouble);
-  LossPoint point;
-  point.loss = mean[0].item<double>();
-  point.category_loss = mean[1].item<double>();
-  point.mask_loss = mean[2].item<double>();
-  return point;
-}
-
-/// @param losses  of the steps since the last check
-void check_finite(const std::vector<torch::Tensor>& losses, int step) {
-  if (losses.empty() || std::isfinite(mean_of(losses).loss)) return;
-  throw DataError("step " + std::to_string(step), "the loss is not finite",
-                  "lower schedule.learning_rate; the last checkpoint is unchanged");
+  if (config.schedule.batch % place.size != 0) {
+    throw ConfigError("schedule.batch", "is " + std::to_string(config.schedule.batch) +
+                                            ", expected a multiple of the number of processes, " +
+                                            std::to_string(place.size));
+  }
 }
 
 }  // namespace
@@ -70,21 +53,30 @@ std::vector<std::string> training_classes() {
   return names;
 }
 
-TrainingRun::TrainingRun(const TrainingConfig& config, const fs::path& folder, int threads)
+TrainingRun::TrainingRun(const TrainingConfig& config, const fs::path& folder, int threads,
+                         const ProcessPlace& place)
     : config_(config),
       folder_(folder),
       config_text_(dump_config(config)),
-      trainer_([&] {
-        check(config);
-        at::set_num_threads(threads_or_cores(threads));
-        torch::manual_seed(static_cast<std::uint64_t>(config.seed));
-        return Trainer(config);
+      group_([&] {
+        check(config, place);
+        return ProcessGroup(place);
       }()),
-      lock_(folder) {
-  for (const TrainingData& set : config.validation) {
-    validation_.emplace_back(set, training_classes(), config.validation_images, validation_faults_);
+      trainer_([&] {
+        at::set_num_threads(threads > 0 ? threads : cores_of(place));
+        torch::manual_seed(static_cast<std::uint64_t>(config.seed));
+        return Trainer(config, group_);
+      }()) {
+  if (group_.is_first()) {
+    lock_.emplace(folder);
+    for (const TrainingData& set : config.validation) {
+      validation_.emplace_back(set, training_classes(), config.validation_images,
+                               validation_faults_);
+    }
+    start_or_resume();
   }
-  start_or_resume();
+  share_start();
+  first_image_ = images_seen();
 }
 
 void TrainingRun::on_event(std::function<bool(const TrainingEvent&)> callback) {
@@ -106,7 +98,22 @@ void TrainingRun::start_or_resume() {
     initialise();
     write_file(settings, config_text_);
   }
-  first_image_ = images_seen();
+}
+
+void TrainingRun::share_start() {
+  if (group_.broadcast(config_text_) != config_text_) {
+    throw ConfigError("the settings", "are not those of the first process",
+                      "start all processes with the same file");
+  }
+  trainer_.share_state();
+}
+
+void TrainingRun::check_same_data(std::size_t images) {
+  const std::string own = std::to_string(images);
+  const std::string first = group_.broadcast(own);
+  if (first == own) return;
+  throw DataError("data", "this process can use " + own + " images, the first one " + first,
+                  "give all processes the same files");
 }
 
 void TrainingRun::initialise() {
@@ -135,6 +142,28 @@ bool TrainingRun::tell(const TrainingEvent& event) {
   return !callback_ || callback_(event);
 }
 
+/// Whether this is true in all processes.
+bool TrainingRun::all_of(bool here) {
+  return group_.sum(torch::tensor(here ? 0 : 1)).item<int>() == 0;
+}
+
+/// Of the steps since the last point.
+LossPoint TrainingRun::mean_of_recent() {
+  const torch::Tensor mean =
+      group_.sum(torch::stack(recent_).mean(0).to(torch::kCPU, torch::kDouble));
+  LossPoint point;
+  point.loss = mean[0].item<double>();
+  point.category_loss = mean[1].item<double>();
+  point.mask_loss = mean[2].item<double>();
+  return point;
+}
+
+void TrainingRun::check_finite() {
+  if (recent_.empty() || std::isfinite(mean_of_recent().loss)) return;
+  throw DataError("step " + std::to_string(trainer_.steps()), "the loss is not finite",
+                  "lower schedule.learning_rate; the last checkpoint is unchanged");
+}
+
 void TrainingRun::tell_left_out(const CocoFaults& of_training) {
   TrainingEvent event;
   event.kind = TrainingEvent::Kind::kLeftOut;
@@ -159,10 +188,12 @@ bool TrainingRun::train() {
       config_.data, training_classes(), config_.cache_side, [this](int done, int total) {
         tell({.kind = TrainingEvent::Kind::kLoading, .done = done, .total = total, .fresh = done});
       });
-  tell_left_out(store.faults());
+  if (group_.is_first()) tell_left_out(store.faults());
+  check_same_data(store.size());
   clock_ = std::chrono::steady_clock::now();
   const int last = total_steps(config_.schedule);
-  BatchLoader loader(store, config_, trainer_.steps(), last);
+  BatchLoader loader(store, config_, trainer_.steps(), last,
+                     {.number = group_.place().rank, .parts = group_.size()});
   while (const std::optional<Batch> batch = loader.next()) {
     if (!after_step(trainer_.step(*batch))) {
       checkpoint();
@@ -184,21 +215,21 @@ bool TrainingRun::after_step(const torch::Tensor& losses) {
 }
 
 bool TrainingRun::log_losses() {
-  check_finite(recent_, trainer_.steps());
-  LossPoint point = mean_of(recent_);
+  check_finite();
+  LossPoint point = mean_of_recent();
   point.images = images_seen();
   point.learning_rate = learning_rate_at(config_.schedule, trainer_.steps());
   recent_.clear();
   log_.losses.push_back(point);
-  return tell({.kind = TrainingEvent::Kind::kStep,
-               .done = images_seen(),
-               .total = total_steps(config_.schedule) * config_.schedule.batch,
-               .fresh = images_seen() - first_image_,
-               .loss = point});
+  return all_of(tell({.kind = TrainingEvent::Kind::kStep,
+                      .done = images_seen(),
+                      .total = total_steps(config_.schedule) * config_.schedule.batch,
+                      .fresh = images_seen() - first_image_,
+                      .loss = point}));
 }
 
 bool TrainingRun::validate() {
-  check_finite(recent_, trainer_.steps());
+  check_finite();
   TrainingEvent event;
   event.kind = TrainingEvent::Kind::kValidation;
   event.done = images_seen();
@@ -214,12 +245,13 @@ bool TrainingRun::validate() {
   // A finished training is validated again if it is restarted.
   std::erase_if(log_.aps, [&](const ApPoint& point) { return point.images == images_seen(); });
   log_.aps.insert(log_.aps.end(), event.aps.begin(), event.aps.end());
-  write_results();
-  return tell(event);
+  if (group_.is_first()) write_results();
+  return all_of(tell(event));
 }
 
 void TrainingRun::checkpoint() {
-  check_finite(recent_, trainer_.steps());
+  check_finite();
+  if (!group_.is_first()) return;
   const auto now = std::chrono::steady_clock::now();
   log_.seconds += std::chrono::duration<double>(now - clock_).count();
   clock_ = now;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,20 +27,28 @@ struct TrainingEvent {
 };
 
 /// A training in a folder: checkpoint.pt and log.json for continuation, config.yaml,
-/// weights.safetensors (the average, after every validation) and report.html.
+/// weights.safetensors (the average, after every validation) and report.html. Several processes
+/// divide each batch; the first one writes the files, and the result is that of one process but
+/// for rounding.
 class TrainingRun {
  public:
   /// Continues the training in the folder, if there is one.
   /// @param threads  of the network; 0: one per core
+  /// @param place    of this process among those of the training
   /// @throws ConfigError, DataError, FileError for settings without data, a folder with a training
-  /// with other settings, or files that cannot be read or written.
-  TrainingRun(const TrainingConfig& config, const std::filesystem::path& folder, int threads);
+  /// with other settings, or files that cannot be read or written; Error if other processes do not
+  /// start or end too early, also in `train`.
+  TrainingRun(const TrainingConfig& config, const std::filesystem::path& folder, int threads,
+              const ProcessPlace& place = {});
 
-  /// @param callback  returning false ends the training early, after a checkpoint
+  /// @param callback  returning false ends the training early, of all processes, after a checkpoint
   void on_event(std::function<bool(const TrainingEvent&)> callback);
 
   /// Trains to the end of the schedule; false if it ended early.
   bool train();
+
+  /// Whether this process writes the files.
+  bool is_first() const { return group_.is_first(); }
 
   std::filesystem::path weights_path() const { return folder_ / "weights.safetensors"; }
   std::filesystem::path report_path() const { return folder_ / "report.html"; }
@@ -49,7 +58,12 @@ class TrainingRun {
  private:
   void start_or_resume();
   void initialise();
+  void share_start();
+  void check_same_data(std::size_t images);
+  LossPoint mean_of_recent();
+  void check_finite();
   bool tell(const TrainingEvent& event);
+  bool all_of(bool here);
   void tell_left_out(const CocoFaults& of_training);
   bool after_step(const torch::Tensor& losses);
   bool log_losses();
@@ -62,8 +76,9 @@ class TrainingRun {
   TrainingConfig config_;
   std::filesystem::path folder_;
   std::string config_text_;
+  ProcessGroup group_;
   Trainer trainer_;
-  FolderLock lock_;
+  std::optional<FolderLock> lock_;  ///< of the first process
   TrainingLog log_;
   std::vector<ValidationSet> validation_;
   CocoFaults validation_faults_;

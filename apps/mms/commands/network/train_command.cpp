@@ -28,16 +28,21 @@ void train(const TrainArguments& arguments) {
   const ThreadLimit limit(arguments.threads);
   const InterruptGuard interrupt;
   TrainingProgress progress;
-  TrainingRun run(config, arguments.output, arguments.threads);
+  const ProcessPlace place = process_place();
+  if (place.size > 1 && place.rank == 0) {
+    fmt::print(stderr, "waiting for all of {} processes at {}:{}\n", place.size, place.address,
+               place.port);
+  }
+  TrainingRun run(config, arguments.output, arguments.threads, place);
   run.on_event([&](const TrainingEvent& event) {
-    progress.show(event);
+    if (run.is_first()) progress.show(event);
     return !InterruptGuard::requested();
   });
   const bool finished = run.train();
   progress.finish();
-  fmt::print("{}\n", finished ? "weights: " + run.weights_path().string() +
-                                    "\nreport:  " + run.report_path().string()
-                              : "interrupted; the same command continues from the last checkpoint");
+  if (!finished) throw Interrupted("the same command continues from the last checkpoint");
+  if (!run.is_first()) return;
+  fmt::print("weights: {}\nreport:  {}\n", run.weights_path().string(), run.report_path().string());
 }
 
 }  // namespace
@@ -45,6 +50,7 @@ void train(const TrainArguments& arguments) {
 void add_train_command(CLI::App& app) {
   const auto arguments = std::make_shared<TrainArguments>();
   CLI::App* command = app.add_subcommand("train", "Train the segmentation network");
+  command->footer("Several processes divide each batch, if torchrun or srun starts them.");
   command
       ->add_option("-c,--config", arguments->config,
                    "architecture, data and schedule (examples: config/train/*.yaml)")
