@@ -52,7 +52,8 @@ Ros2Source::Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t que
       node_(node),
       inputs_(inputs),
       stop_(std::move(stop)),
-      assembler_(sensor_of(inputs)) {
+      assembler_(sensor_of(inputs)),
+      depth_known_(inputs.depth_info.empty()) {
   if (!inputs_.color.empty()) subscribe_color();
   if (is_camera()) {
     subscribe_depth();
@@ -60,9 +61,7 @@ Ros2Source::Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t que
     subscribe_points();
   }
   subscribe_motion();
-  const bool needs_transforms =
-      (!is_camera() && !inputs_.color.empty()) || !inputs_.imu.empty() || !inputs_.wheels.empty();
-  if (needs_transforms) subscribe_transforms();
+  if (!is_placed() || needs_mounting()) subscribe_transforms();
   node_.every(kPoll, [this] {
     if (stop_()) close();
     advance();
@@ -97,6 +96,7 @@ void Ros2Source::subscribe_color() {
 
 void Ros2Source::subscribe_depth() {
   const auto add = [this](const auto& message) {
+    depth_frame_ = message.header.frame_id;
     assembler_.add_depth(message.header.stamp, depth_of(message, "depth image"));
     advance();
   };
@@ -105,6 +105,13 @@ void Ros2Source::subscribe_depth() {
   } else {
     node_.subscribe<msg::Image>(inputs_.depth, sensor_qos(30), add);
   }
+  if (depth_known_) return;
+  node_.subscribe<msg::CameraInfo>(
+      inputs_.depth_info, sensor_qos(30), [this](const msg::CameraInfo& message) {
+        const bool rectified = inputs_.depth.find("rect") != std::string::npos;
+        depth_camera_ = intrinsics_of(message, rectified, "camera_info of the depth images");
+        advance();
+      });
 }
 
 void Ros2Source::subscribe_points() {
@@ -144,9 +151,7 @@ void Ros2Source::subscribe_motion() {
 void Ros2Source::subscribe_transforms() {
   const auto add = [this](const msg::Transforms& message) {
     // Those of a moving robot would fill the memory; mountings do not change.
-    const bool needed =
-        (!is_camera() && !inputs_.color.empty() && !assembler_.extrinsics_known()) || !mounting_;
-    if (needed) transforms_.add(message);
+    if (!is_placed() || !mounting_) transforms_.add(message);
     advance();
   };
   node_.subscribe<msg::Transforms>("/tf_static", {TopicQos::Reliability::kReliable, true, 100},
@@ -173,7 +178,7 @@ void Ros2Source::advance() {
 }
 
 void Ros2Source::take_frames() {
-  if (sensor_of(inputs_) == FrameAssembler::Sensor::kCloudWithCamera && !find_extrinsics()) return;
+  if (!is_placed() && !(is_camera() ? find_depth_camera() : find_extrinsics())) return;
   while (std::optional<Frame> frame = assembler_.next()) {
     if (last_stamp_ && frame->stamp <= *last_stamp_) {
       warn("frame " + frame->name + " skipped: its stamp is not later than the previous one, " +
@@ -187,8 +192,24 @@ void Ros2Source::take_frames() {
   }
 }
 
+/// Whether the place of the depth or LiDAR sensor beside the color camera is known, or not needed.
+bool Ros2Source::is_placed() const {
+  if (is_camera()) return depth_known_;
+  return inputs_.color.empty() || assembler_.extrinsics_known();
+}
+
+/// Depth images in the frame of the color images are registered; others need their camera.
+bool Ros2Source::find_depth_camera() {
+  if (color_frame_.empty() || depth_frame_.empty()) return false;
+  if (color_frame_ != depth_frame_) {
+    const auto T = transforms_.lookup(color_frame_, depth_frame_, Timestamp());
+    if (!depth_camera_ || !T) return false;
+    assembler_.set_depth_camera({*depth_camera_, Transform<Camera, Depth>(*T)});
+  }
+  return depth_known_ = true;
+}
+
 bool Ros2Source::find_extrinsics() {
-  if (assembler_.extrinsics_known()) return true;
   if (color_frame_.empty() || cloud_frame_.empty()) return false;
   const auto T = transforms_.lookup(color_frame_, cloud_frame_, Timestamp());
   if (T) assembler_.set_extrinsics(Transform<Camera, Lidar>(*T));
@@ -289,7 +310,15 @@ std::string Ros2Source::report() {
   const auto now = Clock::now();
   const std::chrono::duration<double> passed = now - reported_;
   reported_ = now;
-  return assembler_.report(passed.count());
+  std::string text = assembler_.report(passed.count());
+  if (!depth_known_ && !depth_frame_.empty() && !color_frame_.empty()) {
+    if (!depth_camera_) text += "; camera_info of the depth images: none on " + inputs_.depth_info;
+    if (!transforms_.lookup(color_frame_, depth_frame_, Timestamp())) {
+      text += "; no transform from '" + depth_frame_ + "' to '" + color_frame_ +
+              "', if they are registered give --depth-registered";
+    }
+  }
+  return text;
 }
 
 Ros2InputCounts Ros2Source::counts() const {

@@ -20,7 +20,9 @@ namespace mms {
 /// "/compressed" or "/compressedDepth" are of the type CompressedImage.
 struct Ros2Inputs {
   std::string color{};
-  std::string depth{};        ///< registered to the color images; without `points`
+  std::string depth{};        ///< without `points`
+  std::string depth_info{};   ///< CameraInfo of depth images with a frame of their own, which are
+                              ///< registered then; empty: they are registered already
   std::string camera_info{};  ///< of the color images
   std::string points{};       ///< LiDAR scans, with or without color images
   std::string imu{};
@@ -80,6 +82,9 @@ class Ros2Source final : public LiveSource {
   void advance();
   void take_frames();
   bool find_extrinsics();
+  bool find_depth_camera();
+  bool needs_mounting() const { return !inputs_.imu.empty() || !inputs_.wheels.empty(); }
+  bool is_placed() const;
   bool is_complete(const Pending& pending);
   void release(Frame frame);
   void complete(Frame& frame);
@@ -92,7 +97,9 @@ class Ros2Source final : public LiveSource {
   // Of the node's thread:
   FrameAssembler assembler_;
   TransformTree transforms_;
-  std::string color_frame_, cloud_frame_, wheel_frame_, imu_frame_;
+  std::string color_frame_, depth_frame_, cloud_frame_, wheel_frame_, imu_frame_;
+  std::optional<CameraIntrinsics> depth_camera_;  ///< as received
+  bool depth_known_ = false;     ///< how to register depth images, or that they are
   std::deque<Pending> pending_;  ///< frames that wait for masks or motion
   std::deque<std::pair<Timestamp, Image<std::uint8_t>>> masks_;
   std::deque<WheelSample> wheels_;

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
 #include <vector>
 
+#include "mms/geometry/depth_registration.hpp"
 #include "mms/ros/camera_messages.hpp"
 #include "mms/ros/cloud_messages.hpp"
 #include "mms/ros/image_messages.hpp"
@@ -41,6 +43,9 @@ class Ros2SourceTest : public ::testing::Test {
     depth_ = add<msg::Image>("depth");
     camera_info_ = add<msg::CameraInfo>("camera_info");
     points_ = add<msg::PointCloud2>("points");
+    depth_info_ = add<msg::CameraInfo>("depth_info");
+    compressed_color_ = add<msg::CompressedImage>("color/compressed");
+    compressed_depth_ = add<msg::CompressedImage>("depth/compressedDepth");
     imu_ = add<msg::Imu>("imu");
     wheels_ = add<msg::Odometry>("wheels");
     mask_ = add<msg::Image>("mask");
@@ -108,7 +113,8 @@ class Ros2SourceTest : public ::testing::Test {
   std::atomic<bool> stop_ = false;
   std::unique_ptr<Ros2Node> robot_, node_;
   std::unique_ptr<Ros2Source> source_;
-  Ros2Writer color_, depth_, camera_info_, points_, imu_, wheels_, mask_, tf_static_;
+  Ros2Writer color_, depth_, camera_info_, depth_info_, compressed_color_, compressed_depth_,
+      points_, imu_, wheels_, mask_, tf_static_;
 };
 
 TEST_F(Ros2SourceTest, GivesFramesOfImages) {
@@ -231,6 +237,82 @@ TEST_F(Ros2SourceTest, ScansWithImagesWaitForTransform) {
   EXPECT_EQ(frame->scan.points.size(), 1U);
   EXPECT_FALSE(frame->color.empty());
   EXPECT_EQ(source_->sensor_frame(), "lidar");
+}
+
+/// Of a camera of half the size, 5 cm beside the color camera.
+TEST_F(Ros2SourceTest, RegistersDepthOfAnotherFrame) {
+  start({.color = "color",
+         .depth = "depth",
+         .depth_info = "depth_info",
+         .camera_info = "camera_info"},
+        {&color_, &depth_, &camera_info_, &depth_info_});
+  DepthCamera depth_camera;
+  depth_camera.camera = camera();
+  depth_camera.camera.width = kWidth / 2;
+  depth_camera.camera.height = kHeight / 2;
+  depth_camera.camera.fx = depth_camera.camera.fy = 4.0;
+  depth_camera.camera.cx = 1.5;
+  depth_camera.camera.cy = 1.0;
+  Image<float> depth(kWidth / 2, kHeight / 2, 2.0F);
+  depth(1, 1) = 1.0F;
+  const auto publish = [&](double seconds) {
+    camera_info_.publish(camera_info_message(header_at(seconds, "camera"), camera()));
+    color_.publish(
+        image_message(header_at(seconds, "camera"), Image<Rgb>(kWidth, kHeight, Rgb{1, 2, 3})));
+    depth_.publish(image_message(header_at(seconds, "depth_camera"), depth));
+  };
+  publish(0.0);
+  const auto reports = [&](const std::string& part) {
+    for (int i = 0; i < 100; ++i) {
+      if (source_->report().find(part) != std::string::npos) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return false;
+  };
+  EXPECT_TRUE(reports("camera_info of the depth images: none on depth_info"));
+  depth_info_.publish(camera_info_message(header_at(0.0, "depth_camera"), depth_camera.camera));
+  EXPECT_TRUE(reports("no transform from 'depth_camera' to 'camera'"));
+  msg::TransformStamped mounting{{0, at(0.0), "camera"}, "depth_camera", {}};
+  mounting.transform.position = {-0.05, 0.0, 0.0};
+  tf_static_.publish(msg::Transforms{{mounting}});
+  ASSERT_TRUE(source_->wait(ignore));
+  EXPECT_FALSE(source_->calibration()->depth_camera);
+  publish(0.1);
+  depth_camera.T_color_depth =
+      Transform<Camera, Depth>(Eigen::Isometry3d(Eigen::Translation3d(-0.05, 0.0, 0.0)));
+  const Image<float> expected = DepthRegistration(depth_camera, camera()).apply(depth);
+  for (int i = 0; i < 2; ++i) {
+    const auto frame = source_->next();
+    ASSERT_TRUE(frame);
+    EXPECT_TRUE(std::ranges::equal(frame->depth.pixels(), expected.pixels()));
+  }
+}
+
+TEST_F(Ros2SourceTest, TakesDepthOfTheColorFrameAsRegistered) {
+  start({.color = "color",
+         .depth = "depth",
+         .depth_info = "depth_info",
+         .camera_info = "camera_info"},
+        {&color_, &depth_, &camera_info_});
+  publish_images(0.0);
+  ASSERT_TRUE(source_->wait(ignore));
+  EXPECT_EQ(source_->next()->depth(7, 5), 2.0F);
+}
+
+TEST_F(Ros2SourceTest, DecodesCompressedImages) {
+  start(
+      {.color = "color/compressed", .depth = "depth/compressedDepth", .camera_info = "camera_info"},
+      {&compressed_color_, &compressed_depth_, &camera_info_});
+  camera_info_.publish(camera_info_message(header_at(0.0, "camera"), camera()));
+  compressed_color_.publish(compressed_message(
+      header_at(0.0, "camera"), Image<Rgb>(kWidth, kHeight, Rgb{100, 150, 200}), 95));
+  compressed_depth_.publish(compressed_message(
+      header_at(0.0, "camera"), Image<std::uint16_t>(kWidth, kHeight, std::uint16_t{1500})));
+  ASSERT_TRUE(source_->wait(ignore));
+  const auto frame = source_->next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->depth(7, 5), 1.5F);
+  EXPECT_NEAR(frame->color(0, 0).g, 150, 3);
 }
 
 TEST_F(Ros2SourceTest, EndsWhenAsked) {

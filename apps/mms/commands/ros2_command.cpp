@@ -27,6 +27,7 @@ namespace {
 struct Ros2CommandOptions {
   Ros2NodeOptions node;
   Ros2Inputs inputs;
+  bool depth_registered = false;
   Ros2ResultOptions results;
   std::size_t queue = 100;
   std::filesystem::path save_folder = ".";
@@ -149,7 +150,7 @@ void run_node(const Ros2CommandOptions&) {
 
 #endif
 
-void add_input_options(CLI::App& command, Ros2Inputs& inputs) {
+void add_input_options(CLI::App& command, Ros2Inputs& inputs, bool& depth_registered) {
   const auto add = [&](const char* name, std::string& topic, const char* help) {
     return command.add_option(name, topic, help)
         ->group("Topics of the sensors")
@@ -158,11 +159,19 @@ void add_input_options(CLI::App& command, Ros2Inputs& inputs) {
   add("--color", inputs.color,
       "color images, Image; CompressedImage where the name ends with /compressed")
       ->default_str("/camera/color/image_raw; none with --points");
-  add("--depth", inputs.depth,
-      "depth images registered to them, Image; CompressedImage: .../compressedDepth")
+  add("--depth", inputs.depth, "depth images, Image; CompressedImage: .../compressedDepth")
       ->default_str("/camera/aligned_depth_to_color/image_raw");
   add("--camera-info", inputs.camera_info, "CameraInfo of the color images")
       ->default_str("camera_info beside --color");
+  add("--depth-info", inputs.depth_info,
+      "CameraInfo of depth images with a frame of their own: they are registered by it and /tf")
+      ->default_str("camera_info beside --depth");
+  command
+      .add_flag("--depth-registered", depth_registered,
+                "depth images are registered to the color images; so are those whose names have "
+                "aligned, registered, to_color or to_rgb")
+      ->group("Topics of the sensors")
+      ->excludes("--depth-info");
   add("--points", inputs.points, "LiDAR scans in place of depth images, PointCloud2");
   add("--imu", inputs.imu, "gyroscope, Imu");
   add("--odometry", inputs.wheels, "dead reckoning of the wheels, Odometry");
@@ -199,10 +208,14 @@ void add_node_options(CLI::App& command, Ros2CommandOptions& options) {
 }
 
 /// Fills in the topics that are not given.
-void complete_inputs(Ros2Inputs& inputs, const std::string& segmenter) {
+void complete_inputs(Ros2Inputs& inputs, bool depth_registered, const std::string& segmenter) {
   if (inputs.points.empty()) {
     if (inputs.color.empty()) inputs.color = "/camera/color/image_raw";
     if (inputs.depth.empty()) inputs.depth = "/camera/aligned_depth_to_color/image_raw";
+    const bool registered = depth_registered || is_named_registered(inputs.depth);
+    if (inputs.depth_info.empty() && !registered) {
+      inputs.depth_info = camera_info_beside(inputs.depth);
+    }
   } else if (!inputs.depth.empty()) {
     throw CLI::ValidationError("--points", "is in place of --depth: give one of them");
   }
@@ -223,7 +236,7 @@ void add_ros2_command(CLI::App& app) {
   run.data = "ros2";
   CLI::App* command = app.add_subcommand(
       "ros2", "Localize the sensors of a robot, as a node of ROS 2 that needs no ROS");
-  add_input_options(*command, options->inputs);
+  add_input_options(*command, options->inputs, options->depth_registered);
   add_node_options(*command, *options);
   add_result_options(*command, run);
   command
@@ -248,7 +261,7 @@ void add_ros2_command(CLI::App& app) {
       throw CLI::ValidationError(
           "--weights", "is for masks of the network, but they come from " + run_options.segmenter);
     }
-    complete_inputs(options->inputs, run_options.segmenter);
+    complete_inputs(options->inputs, options->depth_registered, run_options.segmenter);
     if (command->count("--view") > 0) {
       run_options.view = options->view.place;
       if (!options->view.word.empty()) {

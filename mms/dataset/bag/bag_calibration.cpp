@@ -47,14 +47,12 @@ void read_extrinsics(BagRecording& recording, const TransformTree& transforms,
 }
 
 /// The camera of depth images that have a frame and a camera_info of their own, and a transform to
-/// the color images. Drivers name topics of registered images so.
+/// the color images.
 void read_depth_camera(BagRecording& recording, const TransformTree& transforms,
                        Calibration& calibration) {
   const BagStream& depth = recording.depth;
   if (depth.empty() || depth.frame_id == recording.color.frame_id) return;
-  for (const char* word : {"aligned", "registered", "to_color", "to_rgb"}) {
-    if (depth.topic.find(word) != std::string::npos) return;
-  }
+  if (is_named_registered(depth.topic)) return;
   const std::string info = camera_info_beside(depth.topic);
   const auto T =
       transforms.lookup(recording.color.frame_id, depth.frame_id, recording.frames.front().stamp);

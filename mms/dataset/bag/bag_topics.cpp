@@ -192,6 +192,11 @@ std::string camera_info_beside(std::string topic) {
   return topic.substr(0, topic.rfind('/') + 1) + "camera_info";
 }
 
+bool is_named_registered(const std::string& depth_topic) {
+  const auto has = [&](const char* word) { return depth_topic.find(word) != std::string::npos; };
+  return has("aligned") || has("registered") || has("to_color") || has("to_rgb");
+}
+
 BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicNames& given,
                             const EncodingOf& encoding_of, const std::string& where) {
   const Choice choice(topics, where);

@@ -27,4 +27,8 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
 /// Topic of the camera_info beside a topic of images: "/rgb/camera_info" for "/rgb/image".
 std::string camera_info_beside(std::string topic);
 
+/// Whether the name of a topic of depth images says that they are registered to color images, as
+/// drivers name it: "aligned_depth_to_color", "depth_registered".
+bool is_named_registered(const std::string& depth_topic);
+
 }  // namespace mms
