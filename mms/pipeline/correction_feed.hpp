@@ -2,16 +2,23 @@
 
 #include <deque>
 #include <future>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "mms/core/time.hpp"
-#include "mms/global_map/pose_correction.hpp"
+#include "mms/pipeline/session_places.hpp"
 
 namespace mms {
 
-/// Pose of the odometry's world frame in that of the map, by the loops so far; nothing until the
-/// place in an earlier map is recognized.
-using MapCorrection = std::optional<Transform<Global, World>>;
+/// What loop closure knows of the map so far.
+struct MapCorrection {
+  /// Pose of the odometry's world frame in that of the map; nothing until the place in an earlier
+  /// map is recognized.
+  std::optional<Transform<Global, World>> T_global_world{};
+  /// Places of the run's sessions; null before the first loop.
+  std::shared_ptr<const std::vector<SessionPlace>> places{};
+};
 
 /// Takes the results of loop closure, which runs beside the odometry, to the frames that follow.
 class CorrectionFeed {
@@ -24,8 +31,8 @@ class CorrectionFeed {
 
   /// Frames of a new session follow.
   /// @param first  for those before any result
-  void reset(const MapCorrection& first) {
-    current_ = first;
+  void reset(const std::optional<Transform<Global, World>>& first) {
+    current_.T_global_world = first;
     coming_.clear();
   }
 

@@ -39,7 +39,7 @@ struct FrameResult {
   bool after_lost = false;             ///< frames since the last global keyframe were lost
   bool wants_relocalization = false;   ///< lost before, and its place is not recognized yet
   bool has_pose_in_doubt = false;      ///< of these: the odometry found a pose
-  MapCorrection T_global_world;        ///< known to loop closure so far
+  MapCorrection correction;            ///< known to loop closure so far
   bool relocalized = false;            ///< the pose is that of a recognized place
   double dynamic_share = 0.0;          ///< of the valid points, in [0, 1]
   double overruled_share = 0.0;        ///< of the valid points: masked, but static for the pose

@@ -88,7 +88,7 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     if (velocity) deskew(result.cloud, Vector6d(*velocity - expected));
     return estimate;
   });
-  result.T_global_world = corrections_.at(result.odometry.stamp);
+  result.correction = corrections_.at(result.odometry.stamp);
   result.warnings = odometry_.take_warnings();
   result.wants_relocalization = wants_relocalization(result);
   if (result.wants_relocalization) {
@@ -109,7 +109,7 @@ FrameResult Localization::relocate(FrameResult lost, const Relocalization& place
     begin_session();
     searches_place_ = !place.T_global_world;
     lost.session = session_number_;
-    lost.T_global_world = place.T_global_world;
+    lost.correction.T_global_world = place.T_global_world;
     corrections_.reset(place.T_global_world);
   }
   if (!place.begins_session && lost_frames_ == 0 && agree(lost.odometry, place)) {

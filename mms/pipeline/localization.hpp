@@ -37,7 +37,7 @@ class Localization {
   /// in which the place is to be recognized.
   void search_place() {
     searches_place_ = true;
-    corrections_ = CorrectionFeed(std::nullopt);
+    corrections_ = CorrectionFeed({});
   }
 
   /// Corrections by loop closure for the frames that follow.
@@ -68,7 +68,7 @@ class Localization {
   Odometry odometry_;
   Session session_;
   std::uint32_t session_number_ = 0;
-  CorrectionFeed corrections_{Transform<Global, World>()};
+  CorrectionFeed corrections_{MapCorrection{Transform<Global, World>()}};
   bool closes_loops_;
   bool lost_since_global_keyframe_ = false;
   bool searches_place_ = false;

@@ -10,8 +10,13 @@ LoopClosing::LoopClosing(const SystemConfig& config)
 
 MapCorrection LoopClosing::close_loops(const GlobalKeyframe& keyframe) {
   assert(thread_.is_owner());
-  global_map_.add(keyframe);
-  return global_map_.last_correction();
+  const std::size_t sessions = keyframe.session + std::size_t{1};
+  const bool corrected = !global_map_.add(keyframe).empty();
+  if (corrected || (places_ && places_->size() < sessions)) {
+    places_ = std::make_shared<const std::vector<SessionPlace>>(
+        session_places(global_map_, static_cast<std::uint32_t>(sessions)));
+  }
+  return {global_map_.last_correction(), places_};
 }
 
 std::optional<Relocalization> LoopClosing::relocalize(const GlobalKeyframe& frame) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "mms/core/thread_confinement.hpp"
 #include "mms/global_map/global_map.hpp"
@@ -38,6 +40,7 @@ class LoopClosing {
 
  private:
   GlobalMap global_map_;
+  std::shared_ptr<const std::vector<SessionPlace>> places_;  // at the last loop
   ThreadConfinement thread_;
 };
 

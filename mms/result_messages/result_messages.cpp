@@ -102,11 +102,11 @@ msg::Transforms transforms_message(const msg::Header& header, const FrameNames& 
   world.frame_id = frames.world;
   msg::Transforms message{
       {{world, frames.sensor, pose_message(result.odometry.T_world_sensor.isometry())}}};
-  if (!result.T_global_world) return message;
+  if (!result.correction.T_global_world) return message;
   msg::Header map = header;
   map.frame_id = frames.map;
   const Eigen::Isometry3d T_map_world =
-      level_map_pose(is_camera) * result.T_global_world->isometry();
+      level_map_pose(is_camera) * result.correction.T_global_world->isometry();
   message.transforms.push_back({map, frames.world, pose_message(T_map_world)});
   return message;
 }

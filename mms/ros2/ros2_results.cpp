@@ -3,6 +3,7 @@
 #include <sstream>
 #include <utility>
 
+#include "mms/pipeline/live_map.hpp"
 #include "mms/result_messages/result_messages.hpp"
 #include "mms/ros/transform_tree.hpp"
 
@@ -61,7 +62,7 @@ void Ros2Results::publish(const Processed& processed, const SlamSystem& system,
   publish_path(world, result.odometry);
   publish_clouds(sensor, result.cloud);
   if (map_.is_wanted() && is_due(last_map_, options_.map_period)) {
-    map_.publish(cloud_message(world, system.static_map().cloud()));
+    map_.publish(cloud_message(world, live_map(system.mapping(), result)));
   }
   if (markers_.is_wanted()) markers_.publish(markers_message(world, result.objects));
   if (objects_.is_wanted()) objects_.publish(objects_message(world, result.objects));

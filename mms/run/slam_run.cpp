@@ -236,7 +236,7 @@ void SlamRun::warn_of_losses(const Processed& processed, RunObserver& observer) 
   } else if (result.relocalized) {
     tell("relocalized");
   }
-  if (!is_outside_ || !result.T_global_world) return;
+  if (!is_outside_ || !result.correction.T_global_world) return;
   is_outside_ = false;
   if (!begins) tell(fmt::format("session {} has its place in the map", result.session));
 }

@@ -12,21 +12,21 @@ namespace {
 MapCorrection moved_by(double x) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation().x() = x;
-  return Transform<Global, World>(T);
+  return {Transform<Global, World>(T)};
 }
 
 double x_of(const MapCorrection& correction) {
-  return correction->translation().x();
+  return correction.T_global_world->translation().x();
 }
 
 TEST(CorrectionFeed, TakesEffectAtAStampIfItWaits) {
-  CorrectionFeed feed(std::nullopt);
+  CorrectionFeed feed({});
   for (const double seconds : {1.0, 2.0}) {
     std::promise<MapCorrection> result;
     feed.add(Timestamp::from_seconds(seconds), result.get_future());
     result.set_value(moved_by(seconds));
   }
-  EXPECT_FALSE(feed.at(Timestamp::from_seconds(1.4)));
+  EXPECT_FALSE(feed.at(Timestamp::from_seconds(1.4)).T_global_world);
   EXPECT_EQ(x_of(feed.at(Timestamp::from_seconds(1.5))), 1.0);
   EXPECT_EQ(x_of(feed.at(Timestamp::from_seconds(2.4))), 1.0);
   EXPECT_EQ(x_of(feed.at(Timestamp::from_seconds(9.0))), 2.0);
@@ -46,7 +46,7 @@ TEST(CorrectionFeed, TakesEffectWhenReadyIfItDoesNotWait) {
 }
 
 TEST(CorrectionFeed, ThrowsTheErrorOfTheLoopClosure) {
-  CorrectionFeed feed(std::nullopt);
+  CorrectionFeed feed({});
   std::promise<MapCorrection> result;
   feed.add(Timestamp::from_seconds(1.0), result.get_future());
   result.set_exception(std::make_exception_ptr(std::runtime_error("no memory")));

@@ -391,9 +391,9 @@ TEST(Relocalization, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one[i].odometry.T_world_sensor.isometry().matrix(),
               two[i].odometry.T_world_sensor.isometry().matrix());
     EXPECT_EQ(one[i].relocalized, two[i].relocalized);
-    ASSERT_TRUE(one[i].T_global_world && two[i].T_global_world);
-    EXPECT_EQ(one[i].T_global_world->isometry().matrix(),
-              two[i].T_global_world->isometry().matrix());
+    ASSERT_TRUE(one[i].correction.T_global_world && two[i].correction.T_global_world);
+    EXPECT_EQ(one[i].correction.T_global_world->isometry().matrix(),
+              two[i].correction.T_global_world->isometry().matrix());
   }
 }
 
@@ -413,20 +413,21 @@ TEST(Relocalization, PoseInAnEarlierMapIsUnknownUntilItsPlaceIsRecognized) {
   SlamSystem earlier(config, std::make_unique<MaskSegmenter>());
   const std::vector<FrameResult> before = drive(earlier, 0, 60);
   for (const FrameResult& result : before) {
-    ASSERT_TRUE(result.T_global_world);
-    EXPECT_TRUE(result.T_global_world->isometry().isApprox(Eigen::Isometry3d::Identity(), 1e-12));
+    ASSERT_TRUE(result.correction.T_global_world);
+    EXPECT_TRUE(result.correction.T_global_world->isometry().isApprox(Eigen::Isometry3d::Identity(),
+                                                                      1e-12));
   }
   SlamSystem later(config, std::make_unique<MaskSegmenter>());
   const GlobalMap& map = earlier.global_map();
   later.restore({map.records(), map.poses(), map.loops()}, MapUse::kLocalizeOnly);
   const int first = 25;
   const std::vector<FrameResult> results = drive(later, first, 50);
-  EXPECT_FALSE(results.front().T_global_world);
-  ASSERT_TRUE(results.back().T_global_world);
+  EXPECT_FALSE(results.front().correction.T_global_world);
+  ASSERT_TRUE(results.back().correction.T_global_world);
   for (std::size_t i = 0; i < results.size(); ++i) {
-    if (!results[i].T_global_world) continue;
+    if (!results[i].correction.T_global_world) continue;
     const Eigen::Isometry3d pose =
-        (*results[i].T_global_world * results[i].odometry.T_world_sensor).isometry();
+        (*results[i].correction.T_global_world * results[i].odometry.T_world_sensor).isometry();
     const Eigen::Isometry3d& expected = before[i + first].odometry.T_world_sensor.isometry();
     EXPECT_LT((pose.translation() - expected.translation()).norm(), 0.03) << i;
   }

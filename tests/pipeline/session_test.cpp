@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mms/pipeline/async_pipeline.hpp"
+#include "mms/pipeline/live_map.hpp"
 #include "mms/pipeline/session_places.hpp"
 #include "mms/segmentation/segmenters/mask_segmenter.hpp"
 #include "mms/simulation/simulated_scene.hpp"
@@ -92,7 +93,7 @@ TEST(Session, BeginsWhereALostSensorSeesEnoughForSecondsButNoKnownPlace) {
   EXPECT_TRUE(run.results[begin].global_keyframe);
   for (std::size_t i = begin; i < run.results.size(); ++i) {
     EXPECT_EQ(run.results[i].session, 1U);
-    EXPECT_FALSE(run.results[i].T_global_world) << "its place in the map is not known";
+    EXPECT_FALSE(run.results[i].correction.T_global_world) << "its place in the map is not known";
     EXPECT_EQ(run.results[i].odometry.status,
               i == begin ? Status::kInitialized : Status::kTracking);
   }
@@ -104,6 +105,7 @@ TEST(Session, BeginsWhereALostSensorSeesEnoughForSecondsButNoKnownPlace) {
   ASSERT_EQ(maps.size(), 2U);
   const MapCloud joined = joined_map(maps, places);
   EXPECT_LE(joined.size(), maps[0].cloud.size());
+  EXPECT_EQ(live_map(run.system->mapping(), run.results.back()).points, maps[1].cloud.points);
   EXPECT_GT(maps[1].cloud.size(), maps[0].cloud.size() / 10);
 }
 
@@ -118,15 +120,27 @@ TEST(Session, IsJoinedToTheMapWhereItSeesAKnownPlace) {
   ASSERT_EQ(run.session_begin(), kBegin);
   const FrameResult& last = run.results.back();
   ASSERT_EQ(last.session, 1U);
-  ASSERT_TRUE(last.T_global_world);
+  ASSERT_TRUE(last.correction.T_global_world);
   const Eigen::Vector3d there = run.first_position_at(run.places.back());
   const Eigen::Vector3d now =
-      (*last.T_global_world * last.odometry.T_world_sensor).isometry().translation();
+      (*last.correction.T_global_world * last.odometry.T_world_sensor).isometry().translation();
   EXPECT_LT((now - there).norm(), 0.05);
   EXPECT_GT((last.odometry.T_world_sensor.translation() - there).norm(), 0.2)
       << "the world of the session goes on from a guess";
   const std::vector<SessionPlace> places = session_places(run.system->global_map(), 2);
   EXPECT_TRUE(places[0].is_known && places[1].is_known);
+  // The live map has both sessions, in the world of the present one.
+  const std::vector<SessionPlace> known = places_at(last);
+  ASSERT_EQ(known.size(), 2U);
+  EXPECT_TRUE(known[0].is_known && known[1].is_known);
+  const MapCloud both = joined_map(run.system->mapping().session_maps(), known);
+  const MapCloud live = live_map(run.system->mapping(), last);
+  ASSERT_EQ(live.size(), both.size());
+  const Eigen::Isometry3d T_global_world = last.correction.T_global_world->isometry();
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    const Eigen::Vector3d point = T_global_world * live.points[i].cast<double>();
+    ASSERT_LT((point - both.points[i].cast<double>()).norm(), 1e-4);
+  }
   // Both maps show the same place.
   const std::vector<StampedMap> maps = run.system->mapping().session_maps();
   const MapCloud joined = joined_map(maps, places);
@@ -143,7 +157,7 @@ TEST(Session, BeginsAtAPlaceOfAnEarlierSessionWhereALostSensorIsRelocalized) {
   EXPECT_TRUE(first->relocalized);
   EXPECT_TRUE(first->global_keyframe);
   for (auto result = first; result != run.results.end(); ++result) {
-    ASSERT_TRUE(result->T_global_world) << "its place is known from the start";
+    ASSERT_TRUE(result->correction.T_global_world) << "its place is known from the start";
     EXPECT_NE(result->odometry.status, Status::kLost);
     const int place = run.places[static_cast<std::size_t>(result - run.results.begin())];
     EXPECT_LT((result->odometry.T_world_sensor.translation() - run.first_position_at(place)).norm(),
@@ -164,10 +178,11 @@ TEST(Session, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.results[i].session, two.results[i].session);
     EXPECT_EQ(one.results[i].odometry.T_world_sensor.isometry().matrix(),
               two.results[i].odometry.T_world_sensor.isometry().matrix());
-    ASSERT_EQ(one.results[i].T_global_world.has_value(), two.results[i].T_global_world.has_value());
-    if (!one.results[i].T_global_world) continue;
-    EXPECT_EQ(one.results[i].T_global_world->isometry().matrix(),
-              two.results[i].T_global_world->isometry().matrix());
+    ASSERT_EQ(one.results[i].correction.T_global_world.has_value(),
+              two.results[i].correction.T_global_world.has_value());
+    if (!one.results[i].correction.T_global_world) continue;
+    EXPECT_EQ(one.results[i].correction.T_global_world->isometry().matrix(),
+              two.results[i].correction.T_global_world->isometry().matrix());
   }
   const auto map_of = [](const Carried& run) {
     return joined_map(run.system->mapping().session_maps(),

@@ -252,7 +252,8 @@ def check_restart():
                            odometry, "expect", "5", "call", "/mms_slam/save_map")
     output = finish(second, "the second partner")
     check("reply: success 1" in output and "points" in output, f"save_map: {output}")
-    check(Path("saved/static_map.ply").exists(), "a saved map")
+    for name in ("static_map.ply", "trajectory.tum", "trajectory_map.tum", "map.pgm"):
+        check(Path("saved", name).exists(), f"{name} of a saved map")
     node.send_signal(signal.SIGINT)
     finish(node, "the interrupted node")
     stamps = [float(line.split()[0]) for line in poses("restarted")]

@@ -16,6 +16,8 @@
 #include "apps/mms/console/viewing.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_topics.hpp"
+#include "mms/io/results/trajectory_io.hpp"
+#include "mms/pipeline/live_map.hpp"
 #include "mms/ros2/ros2_results.hpp"
 #include "mms/ros2/ros2_source.hpp"
 #include "mms/run/results/result_files.hpp"
@@ -64,15 +66,15 @@ class MapSaver {
   /// In the thread of the run.
   void add(const Processed& processed, const SlamSystem& system) {
     const FrameResult& result = processed.result;
-    trajectory_.push_back({processed.frame.stamp, result.odometry.T_world_sensor});
-    if (result.keyframe) keyframes_.push_back(trajectory_.back());
+    const StampedPose pose{processed.frame.stamp, result.odometry.T_world_sensor};
+    poses_.push_back({pose, result.session, result.keyframe});
     std::vector<Request> requests;
     {
       const std::scoped_lock lock(mutex_);
       requests.swap(waiting_);
     }
     if (requests.empty()) return;
-    const TriggerResult answer = save(system);
+    const TriggerResult answer = save(system, places_at(result));
     for (const Request& request : requests) request.reply(answer);
   }
 
@@ -83,15 +85,33 @@ class MapSaver {
     Clock::time_point since;
   };
 
-  TriggerResult save(const SlamSystem& system) const {
+  struct SessionPose {
+    StampedPose pose;
+    std::uint32_t session = 0;
+    bool keyframe = false;
+  };
+
+  TriggerResult save(const SlamSystem& system, const std::vector<SessionPlace>& places) const {
     try {
-      const MapCloud map = result_map(system.static_map(), frame_);
+      Trajectory trajectory, keyframes, corrected;
+      for (const SessionPose& at : poses_) {
+        trajectory.push_back(at.pose);
+        if (at.keyframe) keyframes.push_back(at.pose);
+        const auto T = places[at.session].corrected(at.pose.stamp, at.pose.T_world_sensor);
+        if (T) corrected.push_back({at.pose.stamp, *T});
+      }
+      const MapCloud map = result_map(system.mapping(), frame_, places);
       std::filesystem::create_directories(folder_);
-      write_result_files(folder_, trajectory_, keyframes_, map, frame_);
-      write_robot_maps(folder_, system.occupancy_map(), system.static_map().cloud(),
-                       frame_ == MapFrame::kCamera);
-      return {true, fmt::format("{} points, {} poses in {}", map.size(), trajectory_.size(),
-                                std::filesystem::absolute(folder_).string())};
+      write_result_files(folder_, trajectory, keyframes, map, frame_);
+      write_trajectory_tum(folder_ / "trajectory_map.tum", corrected);
+      std::string note;
+      if (are_corrected(places)) {
+        note = "; the occupancy maps are written at the end of the run, as loops correct them";
+      } else {
+        write_robot_maps(folder_, system.occupancy_map(), map, frame_ == MapFrame::kCamera);
+      }
+      return {true, fmt::format("{} points, {} poses in {}{}", map.size(), poses_.size(),
+                                std::filesystem::absolute(folder_).string(), note)};
     } catch (const std::exception& error) {
       return {false, error.what()};
     }
@@ -99,8 +119,8 @@ class MapSaver {
 
   std::filesystem::path folder_;
   MapFrame frame_;
-  Trajectory trajectory_, keyframes_;  // of the thread of the run
-  std::mutex mutex_;                   ///< guards all below
+  std::vector<SessionPose> poses_;  // of the thread of the run
+  std::mutex mutex_;                ///< guards all below
   std::vector<Request> waiting_;
 };
 
