@@ -202,7 +202,9 @@ void bind_results(py::module_& module) {
       .def_property_readonly(
           "world_in_map",
           [](const FrameResult& r) {
-            return r.correction.T_global_world ? std::optional(matrix_of(*r.correction.T_global_world)) : std::nullopt;
+            return r.correction.T_global_world
+                       ? std::optional(matrix_of(*r.correction.T_global_world))
+                       : std::nullopt;
           },
           "4 x 4 float64: pose of the world frame in that of the map, by the loops so far. None "
           "until the place in an earlier map, or of a session after a loss, is recognized.")
