@@ -240,6 +240,17 @@ def check_discovery():
         check(not Path("none_" + distro).exists(), "results without frames")
 
 
+def check_settings():
+    """A wrong setting is an error before any frame."""
+    for words, message in ((("--set", "mapping.nothing=1"), "mapping.nothing"),
+                           (("--config", "none.yaml"), "none.yaml"),
+                           (("--weights", "none.safetensors"), "none.safetensors")):
+        result = subprocess.run([MMS, "ros2", *words], capture_output=True, text=True, timeout=WAIT,
+                                check=False)
+        check(result.returncode == 1 and message in result.stderr, f"{words}: {result.stderr}")
+    print("ok: wrong settings are errors before any frame")
+
+
 def check_restart():
     """A partner is killed and another one starts; the service works; Ctrl-C writes the results."""
     node = start_node("restarted", "--save-folder", "saved")
@@ -272,3 +283,4 @@ check_map()
 check_decoded()
 check_discovery()
 check_restart()
+check_settings()

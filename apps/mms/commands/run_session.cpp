@@ -13,6 +13,7 @@
 #include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 #include "mms/run/results/result_folder.hpp"
+#include "mms/run/sensor_settings.hpp"
 
 namespace mms {
 namespace {
@@ -123,9 +124,19 @@ void play_and_write(SlamRun& run, const ConsoleOptions& console) {
   if (run.view() != nullptr) keep_showing(run, folder.path());
 }
 
+/// Finds faults before the wait for the first frame.
+void check_settings(const RunOptions& options) {
+  std::vector<std::string> warnings;  // the run has them again
+  sensor_settings(nullptr, options.config, options.set, "--set", warnings);
+  if (!options.weights.empty() && !std::filesystem::exists(options.weights)) {
+    throw FileError(options.weights, "no such file");
+  }
+}
+
 void run_live(const RunOptions& options, const ConsoleOptions& console,
               std::unique_ptr<LiveSource> source, SlamRun::ResultSink sink) {
   const InterruptGuard interrupt;
+  check_settings(options);
   if (!source->wait([](const std::string& message) { print_warnings({message}); })) {
     if (!InterruptGuard::requested()) throw DataError(options.data, "ended before its first frame");
     throw Interrupted("no frame was received, so there are no results");
