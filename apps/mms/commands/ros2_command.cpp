@@ -3,25 +3,19 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <utility>
-#include <vector>
 
+#include "apps/mms/commands/ros2_map_saver.hpp"
 #include "apps/mms/commands/run_session.hpp"
 #include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/viewing.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_topics.hpp"
-#include "mms/io/results/trajectory_io.hpp"
-#include "mms/pipeline/live_map.hpp"
 #include "mms/ros2/ros2_results.hpp"
 #include "mms/ros2/ros2_source.hpp"
-#include "mms/run/results/result_files.hpp"
-#include "mms/run/results/robot_maps.hpp"
 
 namespace mms {
 namespace {
@@ -39,90 +33,6 @@ struct Ros2CommandOptions {
 };
 
 #ifdef MMS_WITH_ROS2
-
-/// Answers the service ~/save_map with the next frame: the maps belong to the thread of the run.
-class MapSaver {
- public:
-  MapSaver(std::filesystem::path folder, bool is_camera)
-      : folder_(std::move(folder)), frame_(is_camera ? MapFrame::kCamera : MapFrame::kLidar) {}
-
-  /// In the node's thread.
-  void request(const Ros2Node::Reply& reply) {
-    const std::scoped_lock lock(mutex_);
-    waiting_.push_back({reply, Clock::now()});
-  }
-
-  /// Refuses requests where no frame comes; in the node's thread.
-  void refuse_late() {
-    constexpr auto kMaxWait = std::chrono::seconds(5);
-    const std::scoped_lock lock(mutex_);
-    if (waiting_.empty() || Clock::now() - waiting_.front().since < kMaxWait) return;
-    for (const Request& request : waiting_) {
-      request.reply({false, "no frame arrives: the map is saved with the next one"});
-    }
-    waiting_.clear();
-  }
-
-  /// In the thread of the run.
-  void add(const Processed& processed, const SlamSystem& system) {
-    const FrameResult& result = processed.result;
-    const StampedPose pose{processed.frame.stamp, result.odometry.T_world_sensor};
-    poses_.push_back({pose, result.session, result.keyframe});
-    std::vector<Request> requests;
-    {
-      const std::scoped_lock lock(mutex_);
-      requests.swap(waiting_);
-    }
-    if (requests.empty()) return;
-    const TriggerResult answer = save(system, places_at(result));
-    for (const Request& request : requests) request.reply(answer);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  struct Request {
-    Ros2Node::Reply reply;
-    Clock::time_point since;
-  };
-
-  struct SessionPose {
-    StampedPose pose;
-    std::uint32_t session = 0;
-    bool keyframe = false;
-  };
-
-  TriggerResult save(const SlamSystem& system, const std::vector<SessionPlace>& places) const {
-    try {
-      Trajectory trajectory, keyframes, corrected;
-      for (const SessionPose& at : poses_) {
-        trajectory.push_back(at.pose);
-        if (at.keyframe) keyframes.push_back(at.pose);
-        const auto T = places[at.session].corrected(at.pose.stamp, at.pose.T_world_sensor);
-        if (T) corrected.push_back({at.pose.stamp, *T});
-      }
-      const MapCloud map = result_map(system.mapping(), frame_, places);
-      std::filesystem::create_directories(folder_);
-      write_result_files(folder_, trajectory, keyframes, map, frame_);
-      write_trajectory_tum(folder_ / "trajectory_map.tum", corrected);
-      std::string note;
-      if (are_corrected(places)) {
-        note = "; the occupancy maps are written at the end of the run, as loops correct them";
-      } else {
-        write_robot_maps(folder_, system.occupancy_map(), map, frame_ == MapFrame::kCamera);
-      }
-      return {true, fmt::format("{} points, {} poses in {}{}", map.size(), poses_.size(),
-                                std::filesystem::absolute(folder_).string(), note)};
-    } catch (const std::exception& error) {
-      return {false, error.what()};
-    }
-  }
-
-  std::filesystem::path folder_;
-  MapFrame frame_;
-  std::vector<SessionPose> poses_;  // of the thread of the run
-  std::mutex mutex_;                ///< guards all below
-  std::vector<Request> waiting_;
-};
 
 /// Publishes diagnostics once a second, and warns where nothing arrives.
 void add_diagnosis(Ros2Node& node, Ros2Source& source, Ros2Results& results) {
@@ -146,7 +56,7 @@ void run_node(const Ros2CommandOptions& options) {
   auto owned = std::make_unique<Ros2Source>(node, options.inputs, options.queue,
                                             [] { return InterruptGuard::requested(); });
   source = owned.get();
-  MapSaver saver(options.save_folder, source->is_camera());
+  Ros2MapSaver saver(options.save_folder, source->is_camera());
   node.serve("~/save_map", [&saver](const Ros2Node::Reply& reply) { saver.request(reply); });
   node.every(1.0, [&saver] { saver.refuse_late(); });
   add_diagnosis(node, *source, results);
