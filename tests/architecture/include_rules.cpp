@@ -220,7 +220,9 @@ IncludeRules make_rules() {
       {"training", {"data", "processes", "run"}},
       {"server", {"scene", "viewer", "http"}},
       {"run", {"record", "segmenter", "results", "view", ""}},
-      {"apps", {"console", "paper", "batch", "commands", "commands/eval", "commands/network", ""}},
+      {"apps",
+       {"console", "paper", "batch", "commands", "commands/eval", "commands/live",
+        "commands/network", ""}},
   };
   return rules;
 }

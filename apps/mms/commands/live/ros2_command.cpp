@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "apps/mms/commands/ros2_map_saver.hpp"
+#include "apps/mms/commands/live/ros2_map_saver.hpp"
 #include "apps/mms/commands/run_session.hpp"
 #include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/interrupt.hpp"

@@ -1,4 +1,4 @@
-#include "apps/mms/commands/ros2_map_saver.hpp"
+#include "apps/mms/commands/live/ros2_map_saver.hpp"
 
 #include <fmt/core.h>
 
