@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mms/geometry/image_blur.hpp"
+#include "mms/geometry/image_overlap.hpp"
 #include "mms/io/text/numbers.hpp"
 
 namespace mms {
@@ -49,30 +50,6 @@ Image<float> small_gray(const Image<Rgb>& color) {
   return small;
 }
 
-/// Correlation of the brightness where the shifted images overlap, in [-1, 1].
-double correlation(const Image<float>& a, const Image<float>& b, int dx, int dy) {
-  double n = 0.0;
-  double sum_a = 0.0;
-  double sum_b = 0.0;
-  double aa = 0.0;
-  double bb = 0.0;
-  double ab = 0.0;
-  for (int y = std::max(0, dy); y < std::min(a.height(), a.height() + dy); ++y) {
-    for (int x = std::max(0, dx); x < std::min(a.width(), a.width() + dx); ++x) {
-      const double p = static_cast<double>(a(x, y));
-      const double q = static_cast<double>(b(x - dx, y - dy));
-      n += 1.0;
-      sum_a += p;
-      sum_b += q;
-      aa += p * p;
-      bb += q * q;
-      ab += p * q;
-    }
-  }
-  const double var = (aa - sum_a * sum_a / n) * (bb - sum_b * sum_b / n);
-  return var > 0.0 ? (ab - sum_a * sum_b / n) / std::sqrt(var) : 0.0;
-}
-
 /// Whether an image has enough texture to see its motion; not if the lens is covered.
 bool has_texture(const Image<float>& image) {
   double sum = 0.0;
@@ -91,7 +68,7 @@ double shift_of(const Image<float>& a, const Image<float>& b) {
   double shift = 0.0;
   for (int dy = -a.height() / 2; dy <= a.height() / 2; ++dy) {
     for (int dx = -a.width() / 2; dx <= a.width() / 2; ++dx) {
-      const double found = correlation(a, b, dx, dy);
+      const double found = image_overlap(a, b, dx, dy).correlation();
       if (found <= best) continue;
       best = found;
       shift = std::hypot(dx, dy);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mms/geometry/camera.hpp"
+#include "mms/geometry/image_overlap.hpp"
 
 namespace mms {
 namespace {
@@ -52,32 +53,12 @@ Image<float> small_image(const IntensityLevel& level, int step) {
 /// independent pixels (Fisher's transformation): a small overlap correlates by chance. 0 without
 /// enough pixels or correlation.
 double significance(const Image<float>& before, const Image<float>& now, int dx, int dy) {
-  double n = 0.0;
-  double a = 0.0;
-  double b = 0.0;
-  double aa = 0.0;
-  double bb = 0.0;
-  double ab = 0.0;
-  for (int y = std::max(0, -dy); y < std::min(before.height(), before.height() - dy); ++y) {
-    for (int x = std::max(0, -dx); x < std::min(before.width(), before.width() - dx); ++x) {
-      const auto p = static_cast<double>(before(x, y));
-      const auto q = static_cast<double>(now(x + dx, y + dy));
-      if (std::isnan(p) || std::isnan(q)) continue;
-      n += 1.0;
-      a += p;
-      b += q;
-      aa += p * p;
-      bb += q * q;
-      ab += p * q;
-    }
-  }
-  if (n < kMinCompared * static_cast<double>(before.size())) return 0.0;
-  const double variance_a = aa / n - a * a / (n * n);
-  const double variance_b = bb / n - b * b / (n * n);
-  if (std::min(variance_a, variance_b) < kMinVariance) return 0.0;
-  const double correlation = (ab / n - a * b / (n * n)) / std::sqrt(variance_a * variance_b);
+  const ImageOverlap overlap = image_overlap(before, now, dx, dy);
+  if (overlap.count < kMinCompared * static_cast<double>(before.size())) return 0.0;
+  if (std::min(overlap.variance_a, overlap.variance_b) < kMinVariance) return 0.0;
+  const double correlation = overlap.correlation();
   if (correlation < kMinCorrelation) return 0.0;
-  return std::atanh(std::min(correlation, kMaxCorrelation)) * std::sqrt(n);
+  return std::atanh(std::min(correlation, kMaxCorrelation)) * std::sqrt(overlap.count);
 }
 
 struct Peak {
