@@ -153,6 +153,7 @@ TEST(Batch, RefusesBadLists) {
   refused("a/b = c\n", "list.txt:1: has the name 'a/b'");
   refused("a =\n", "list.txt:1: has a name without a recording");
   refused("a --output=b\n", "list.txt:1: has the option --output");
+  refused("a -ob\n", "list.txt:1: has the option -o");
   expect_error(run_mms(folder.path(), {"batch", "no_list", "-o", "out"}), "no_list");
   fs::create_directory(folder.path() / "mine");
   write_file(folder.path() / "mine/thesis.txt", std::string_view("text"));

@@ -110,7 +110,8 @@ std::vector<BatchRun> read_batch_list(const std::filesystem::path& list) {
     if (!words) throw DataError(where, "has a quote without end");
     if (words->empty()) continue;
     for (const std::string& word : *words) {
-      const std::string option = word.substr(0, word.find('='));
+      const bool is_short = word.starts_with('-') && !word.starts_with("--");  // -oDIR is one word
+      const std::string option = is_short ? word.substr(0, 2) : word.substr(0, word.find('='));
       if (std::find(kOwnOptions.begin(), kOwnOptions.end(), option) == kOwnOptions.end()) continue;
       throw DataError(where, "has the option " + option, "results are below -o of mms batch");
     }
