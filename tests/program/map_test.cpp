@@ -71,6 +71,15 @@ TEST(Map, IsSavedLocalizedInExtendedAndExported) {
   EXPECT_GT(read_trajectory_tum(folder.path() / "export/session_1.tum").size(), 3U);
 }
 
+TEST(Map, ExportHasTheSettingsOfTheRun) {
+  const TempFolder folder;
+  expect_success(run_day(folder, kFirstDay, "first",
+                         {"--save-map", "a.mmsmap", "--set", "occupancy.voxel_size=0.25"}));
+  expect_success(run_mms(folder.path(), {"map", "export", "a.mmsmap", "-o", "export"}));
+  EXPECT_NE(read_file(folder.path() / "export/map.yaml").find("resolution: 0.25"),
+            std::string::npos);
+}
+
 TEST(Map, AfterALossInAnUnknownPlaceTheNewSessionIsWrittenToo) {
   const TempFolder folder;
   const Outcome run = run_day(

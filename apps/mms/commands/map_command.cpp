@@ -18,6 +18,7 @@
 #include "mms/global_map/corrected_occupancy.hpp"
 #include "mms/io/cloud/pcd_io.hpp"
 #include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/config/config_yaml.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/map_file/map_composition.hpp"
 #include "mms/map_file/map_merge.hpp"
@@ -53,9 +54,22 @@ MapCloud picture_of(const MapChangeCloud& changes) {
   return picture;
 }
 
+/// Settings of the first session; the defaults where this version cannot read them.
+SystemConfig settings_of(const MapFile& file, const fs::path& path) {
+  SystemConfig config;
+  if (file.sessions().empty()) return config;
+  try {
+    parse_config(file.sessions().front().settings, path.string() + ", its settings", config);
+  } catch (const ConfigError& error) {
+    warn(std::string(error.what()) + "; the occupancy maps have the default settings");
+  }
+  return config;
+}
+
 void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
   const MapFile file(path, MapFile::Mode::kRead);
   const GlobalMapContent content = file.content(warn);
+  const SystemConfig config = settings_of(file, path);
   std::error_code ignored;
   fs::create_directories(folder, ignored);
   if (!fs::is_directory(folder, ignored)) {
@@ -80,7 +94,7 @@ void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
     map = composed_map(file, content, warn);
   } else {
     const fs::path picture = check("changes.ply");
-    const MapChangeCloud changes = find_changes(file, content, DepthNoise{}, warn);
+    const MapChangeCloud changes = find_changes(file, content, config.noise.depth, warn);
     map = points_of(changes, {Change::kUnchanged, Change::kNew, Change::kUnknown});
     write_ply(picture, file_of(picture_of(changes), frame), ply_comments(frame));
     fmt::print("{}: {} new, {} gone\n", picture.string(), points_of(changes, {Change::kNew}).size(),
@@ -92,7 +106,8 @@ void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
     return std::find(joined.begin(), joined.end(), session) != joined.end();
   };
   const OccupancyMap occupancy =
-      corrected_occupancy(content.records, content.poses, is_joined, {}, {});
+      corrected_occupancy(content.records, content.poses, is_joined, config.occupancy,
+                          with_noise(config.static_map.surface, config.noise));
   write_robot_maps(folder, occupancy, map, frame == MapFrame::kCamera, MapMarking::kObstacles);
   fmt::print("{}: {} points of {} sessions\n", ply.string(), map.size(), joined.size());
   if (joined.size() == file.sessions().size()) return;

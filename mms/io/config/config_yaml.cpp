@@ -15,9 +15,7 @@ namespace {
 /// Sets fields from a file. The stack holds the current group and its parents.
 class ConfigLoader final : public ConfigVisitor {
  public:
-  explicit ConfigLoader(const std::filesystem::path& path) {
-    groups_.push_back(YamlMap::load(path));
-  }
+  explicit ConfigLoader(YamlMap map) { groups_.push_back(std::move(map)); }
 
   /// To be called after the visit; fails on unknown keys.
   /// @returns warnings, one line each
@@ -171,7 +169,14 @@ class ConfigWriter final : public ConfigVisitor {
 
 std::vector<std::string> load_config_fields(const std::filesystem::path& path,
                                             const std::function<void(ConfigVisitor&)>& visit) {
-  ConfigLoader loader(path);
+  ConfigLoader loader(YamlMap::load(path));
+  visit(loader);
+  return loader.finish();
+}
+
+std::vector<std::string> parse_config_fields(const std::string& text, const std::string& where,
+                                             const std::function<void(ConfigVisitor&)>& visit) {
+  ConfigLoader loader(YamlMap::parse(text, where));
   visit(loader);
   return loader.finish();
 }

@@ -19,6 +19,11 @@ namespace mms {
 std::vector<std::string> load_config_fields(const std::filesystem::path& path,
                                             const std::function<void(ConfigVisitor&)>& visit);
 
+/// The same of a text.
+/// @param where  its source, for messages
+std::vector<std::string> parse_config_fields(const std::string& text, const std::string& where,
+                                             const std::function<void(ConfigVisitor&)>& visit);
+
 /// YAML of the fields that `visit` visits, each with its doc, unit and allowed values.
 std::string dump_config_fields(const std::function<void(ConfigVisitor&)>& visit);
 
@@ -29,6 +34,17 @@ std::vector<std::string> load_config(const std::filesystem::path& path, Config& 
   Config loaded = config;
   auto warnings = load_config_fields(path, [&](ConfigVisitor& visitor) { loaded.visit(visitor); });
   config = std::move(loaded);
+  return warnings;
+}
+
+/// As `load_config`, of a text.
+template <class Config>
+std::vector<std::string> parse_config(const std::string& text, const std::string& where,
+                                      Config& config) {
+  Config parsed = config;
+  auto warnings =
+      parse_config_fields(text, where, [&](ConfigVisitor& visitor) { parsed.visit(visitor); });
+  config = std::move(parsed);
   return warnings;
 }
 

@@ -57,14 +57,17 @@ std::string to_string(Range range) {
 }
 
 YamlMap YamlMap::load(const std::filesystem::path& path) {
-  const std::string text = without_directives(read_file(path));
+  return parse(read_file(path), path.string());
+}
+
+YamlMap YamlMap::parse(const std::string& text, const std::string& where) {
   std::optional<YAML::Node> root;
   try {
-    root.emplace(YAML::Load(text));
+    root.emplace(YAML::Load(without_directives(text)));
   } catch (const YAML::Exception& error) {
-    throw ConfigError(at_line(path.string(), error.mark), "is not YAML: " + error.msg);
+    throw ConfigError(at_line(where, error.mark), "is not YAML: " + error.msg);
   }
-  return {path.string(), "", root};
+  return {where, "", root};
 }
 
 YamlMap::YamlMap(std::string file, std::string path, std::optional<YAML::Node> node)
