@@ -579,6 +579,7 @@ TRAINING = [
         lambda repo, report, _: yolo_txt(
             repo, report, "datasets/", [PERSON, PERSON], beside("\0", "\0"), unlabelled=False
         ),
+        partial=("person",),
     ),
     Source(
         "coco_people",
