@@ -7,6 +7,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -68,6 +70,10 @@ class Ros2SourceTest : public ::testing::Test {
     node_ = std::make_unique<Ros2Node>(
         options_, [this](const std::string& fault) { source_->count_damaged(fault); });
     source_ = std::make_unique<Ros2Source>(*node_, inputs, 100, [this] { return stop_.load(); });
+    node_->every(0.02, [this, source = source_.get()] {
+      const std::scoped_lock lock(report_mutex_);
+      report_ = source->report();
+    });
     node_->start();
     const auto all_wanted = [&] {
       return std::all_of(used.begin(), used.end(),
@@ -88,6 +94,18 @@ class Ros2SourceTest : public ::testing::Test {
         image_message(header_at(seconds, "camera"), Image<Rgb>(kWidth, kHeight, Rgb{1, 2, 3})));
     depth_.publish(
         image_message(header_at(seconds, "camera"), Image<float>(kWidth, kHeight, 2.0F)));
+  }
+
+  /// Whether the source says soon that this is missing.
+  bool reports(const std::string& part) {
+    for (int i = 0; i < 500; ++i) {
+      {
+        const std::scoped_lock lock(report_mutex_);
+        if (report_.find(part) != std::string::npos) return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return false;
   }
 
   void publish_imu(double seconds) {
@@ -111,6 +129,8 @@ class Ros2SourceTest : public ::testing::Test {
 
   Ros2NodeOptions options_;
   std::atomic<bool> stop_ = false;
+  std::mutex report_mutex_;
+  std::string report_;  ///< the last one
   std::unique_ptr<Ros2Node> robot_, node_;
   std::unique_ptr<Ros2Source> source_;
   Ros2Writer color_, depth_, camera_info_, depth_info_, compressed_color_, compressed_depth_,
@@ -262,13 +282,6 @@ TEST_F(Ros2SourceTest, RegistersDepthOfAnotherFrame) {
     depth_.publish(image_message(header_at(seconds, "depth_camera"), depth));
   };
   publish(0.0);
-  const auto reports = [&](const std::string& part) {
-    for (int i = 0; i < 100; ++i) {
-      if (source_->report().find(part) != std::string::npos) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    return false;
-  };
   EXPECT_TRUE(reports("camera_info of the depth images: none on depth_info"));
   depth_info_.publish(camera_info_message(header_at(0.0, "depth_camera"), depth_camera.camera));
   EXPECT_TRUE(reports("no transform from 'depth_camera' to 'camera'"));
