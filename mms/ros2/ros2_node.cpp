@@ -30,25 +30,13 @@ constexpr std::array kRos2Distros = {kHumble, "iron", "jazzy", "kilted", "rollin
 constexpr std::int64_t kWake = 50'000'000;  // longest sleep of the receiving thread [ns]
 constexpr std::uint32_t kTaken = 16;        // samples per call
 
-/// What rmw_cyclonedds_cpp puts before the fields of requests and replies.
-struct RequestHeader {
-  std::uint64_t client = 0;
-  std::int64_t number = 0;
-
-  template <class Self, class Archive>
-  static void fields(Self& self, Archive& archive) {
-    archive(self.client, self.number);
-  }
-};
-
 struct TriggerReply {
-  RequestHeader header;
   bool success = false;
   std::string message;
 
   template <class Self, class Archive>
   static void fields(Self& self, Archive& archive) {
-    archive(self.header, self.success, self.message);
+    archive(self.success, self.message);
   }
 };
 
@@ -346,23 +334,35 @@ void Ros2Node::subscribe(const std::string& topic, const msg::MessageType& type,
   graph_->announce();
 }
 
-void Ros2Node::serve(const std::string& name, TriggerHandler handler) {
-  const std::string topic = graph_->full(name);
-  const TopicQos qos;
-  const auto [entity, type] = graph_->add_writer(
-      "rr" + topic + "Reply", msg::dds_type_name("std_srvs/Trigger_Response", "srv"), qos, "");
+Ros2Writer Ros2Node::advertise_replies(const std::string& service, const std::string& type) {
   Ros2Writer replies;
+  const auto [entity, raw_type] =
+      graph_->add_writer("rr" + graph_->full(service) + "Reply",
+                         msg::dds_type_name(type + "_Response", "srv"), TopicQos{}, "");
   replies.entity_ = entity;
-  replies.type_ = type;
-  graph_->add_reader(
-      "rq" + topic + "Request", msg::dds_type_name("std_srvs/Trigger_Request", "srv"), qos, "",
-      [replies, topic, handler = std::move(handler)](std::string_view bytes) {
-        const auto header = msg::decode<RequestHeader>(bytes, topic, msg::WireFormat::kCdr);
+  replies.type_ = raw_type;
+  graph_->remember(entity);
+  return replies;
+}
+
+void Ros2Node::receive_requests(const std::string& service, const std::string& type,
+                                BytesHandler handler) {
+  graph_->add_reader("rq" + graph_->full(service) + "Request",
+                     msg::dds_type_name(type + "_Request", "srv"), TopicQos{}, "",
+                     std::move(handler));
+  graph_->announce();
+}
+
+void Ros2Node::serve(const std::string& name, TriggerHandler handler) {
+  const Ros2Writer replies = advertise_replies(name, "std_srvs/Trigger");
+  receive_requests(
+      name, "std_srvs/Trigger",
+      [replies, name, handler = std::move(handler)](std::string_view bytes) {
+        const auto header = msg::decode<msg::RequestHeader>(bytes, name, msg::WireFormat::kCdr);
         handler([replies, header](const TriggerResult& result) {
-          replies.publish(TriggerReply{header, result.success, result.message});
+          replies.publish(msg::Numbered<TriggerReply>{header, {result.success, result.message}});
         });
       });
-  graph_->remember(entity);
 }
 
 void Ros2Node::every(double period, std::function<void()> tick) {

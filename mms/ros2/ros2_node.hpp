@@ -9,6 +9,7 @@
 #include "mms/ros/message_types.hpp"
 #include "mms/ros/wire.hpp"
 #include "mms/ros2/raw_sample.hpp"
+#include "mms/ros2/service_messages.hpp"
 
 namespace mms {
 
@@ -104,6 +105,19 @@ class Ros2Node {
   /// may reply later, in any thread, as long as there is the node.
   void serve(const std::string& name, TriggerHandler handler);
 
+  /// Offers a service of another type, as "rcl_interfaces/GetParameters". The handler gives the
+  /// reply of a request, in the receiving thread.
+  template <class Request, class Response, class Handler>
+  void answer(const std::string& name, const std::string& type, Handler handler) {
+    const Ros2Writer replies = advertise_replies(name, type);
+    receive_requests(
+        name, type, [replies, name, handler = std::move(handler)](std::string_view bytes) {
+          const auto request =
+              msg::decode<msg::Numbered<Request>>(bytes, name, msg::WireFormat::kCdr);
+          replies.publish(msg::Numbered<Response>{request.header, handler(request.body)});
+        });
+  }
+
   /// Calls `tick` in the receiving thread about every `period` seconds.
   void every(double period, std::function<void()> tick);
 
@@ -124,6 +138,8 @@ class Ros2Node {
   Ros2Writer advertise(const std::string& topic, const msg::MessageType& type, const TopicQos& qos);
   void subscribe(const std::string& topic, const msg::MessageType& type, const TopicQos& qos,
                  BytesHandler handler);
+  Ros2Writer advertise_replies(const std::string& service, const std::string& type);
+  void receive_requests(const std::string& service, const std::string& type, BytesHandler handler);
 
   std::unique_ptr<Graph> graph_;
 };

@@ -20,6 +20,8 @@
 #include "mms/ros/mask_messages.hpp"
 #include "mms/ros/rvl.hpp"
 #include "mms/ros/transform_tree.hpp"
+#include "mms/ros2/parameter_messages.hpp"
+#include "mms/ros2/service_messages.hpp"
 #include "tests/dataset/capture_file.hpp"
 #include "tests/dataset/video_file.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
@@ -156,6 +158,8 @@ Seeds message_seeds() {
   masks.height = 6;
   masks.instances.emplace_back().mask = Image<std::uint8_t>(3, 2, 1);
   add_seeds(seeds, masks_message(header, masks));
+  add_seeds(seeds, msg::Numbered<msg::ListParametersRequest>{{1, 2}, {{"occupancy"}, 1}});
+  add_seeds(seeds, msg::Numbered<msg::ListOf<msg::Parameter>>{{1, 2}, {{{"fusion.stride", {}}}}});
   return seeds;
 }
 
@@ -178,6 +182,10 @@ void read_message_bytes(std::string_view bytes) {
       depth_of(message, "input");
     };
     try_message<msg::Image>(bytes, format, as_images);
+    const auto unused = [](const auto&) {};
+    try_message<msg::Numbered<msg::ListParametersRequest>>(bytes, format, unused);
+    try_message<msg::Numbered<msg::ParameterNames>>(bytes, format, unused);
+    try_message<msg::Numbered<msg::ListOf<msg::Parameter>>>(bytes, format, unused);
     try_message<msg::Image>(bytes, format, [](const auto& message) { mask_of(message, "input"); });
     try_message<msg::CompressedImage>(bytes, format, as_images);
     try_message<msg::CameraInfo>(

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "apps/mms/commands/live/ros2_map_saver.hpp"
 #include "apps/mms/commands/run_session.hpp"
@@ -14,8 +15,10 @@
 #include "apps/mms/console/viewing.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_topics.hpp"
+#include "mms/ros2/ros2_parameters.hpp"
 #include "mms/ros2/ros2_results.hpp"
 #include "mms/ros2/ros2_source.hpp"
+#include "mms/run/sensor_settings.hpp"
 
 namespace mms {
 namespace {
@@ -49,6 +52,9 @@ void add_diagnosis(Ros2Node& node, Ros2Source& source, Ros2Results& results) {
 
 void run_node(const Ros2CommandOptions& options) {
   const InterruptGuard interrupt;
+  std::vector<std::string> warnings;  // the run has them again
+  const SystemConfig config =
+      sensor_settings(nullptr, options.run.config, options.run.set, "--set", warnings);
   Ros2Source* source = nullptr;  // set before the node starts
   Ros2Node node(options.node,
                 [&source](const std::string& fault) { source->count_damaged(fault); });
@@ -59,6 +65,7 @@ void run_node(const Ros2CommandOptions& options) {
   Ros2MapSaver saver(options.save_folder, source->is_camera());
   node.serve("~/save_map", [&saver](const Ros2Node::Reply& reply) { saver.request(reply); });
   node.every(1.0, [&saver] { saver.refuse_late(); });
+  offer_parameters(node, config);
   add_diagnosis(node, *source, results);
   node.start();
   if (!options.console.quiet) {
