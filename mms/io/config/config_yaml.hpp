@@ -20,7 +20,9 @@ std::vector<std::string> load_config_fields(const std::filesystem::path& path,
                                             const std::function<void(ConfigVisitor&)>& visit);
 
 /// The same of a text.
+/// @param text   YAML
 /// @param where  its source, for messages
+/// @param visit  as above
 std::vector<std::string> parse_config_fields(const std::string& text, const std::string& where,
                                              const std::function<void(ConfigVisitor&)>& visit);
 

@@ -21,7 +21,9 @@ class YamlMap {
   /// @throws FileError if the file cannot be read; ConfigError if it is not a YAML mapping.
   static YamlMap load(const std::filesystem::path& path);
 
-  /// The same of a text. @param where  its source, for messages
+  /// The same of a text.
+  /// @param text   YAML
+  /// @param where  its source, for messages
   static YamlMap parse(const std::string& text, const std::string& where);
 
   /// The value of `key`, which is marked as known; nullopt if absent.
