@@ -38,6 +38,21 @@ TEST(OutputFolder, KeepsEarlierOutputsUnlessAsked) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+TEST(OutputFolder, ReplacesTemporaryFilesOfAKilledProcess) {
+  const TempFolder folder;
+  folder.write("run.json", "{}");
+  folder.write("map.ply.tmp10052_4", "half");
+  EXPECT_FALSE(take_output_folder(folder.path(), kOwn, kMarks, true));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+  for (const char* name : {"mine.txt.tmp10052_4", "map.ply.tmp", "map.ply.tmp1_2x"}) {
+    const TempFolder other;
+    other.write("run.json", "{}");
+    other.write(name, "mine");
+    expect_in(std::string("has a file that this command did not write, as ") + name,
+              message_of<FileError>([&] { take_output_folder(other.path(), kOwn, kMarks, true); }));
+  }
+}
+
 TEST(OutputFolder, NeverTouchesOtherFiles) {
   const TempFolder folder;
   folder.write("map.ply", "old");

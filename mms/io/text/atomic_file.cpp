@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <regex>
 
 #include "mms/core/error.hpp"
 
@@ -30,6 +31,12 @@ fs::path neighbour(const fs::path& path) {
 }
 
 }  // namespace
+
+std::string name_without_temporary_part(const std::string& name) {
+  static const std::regex kTemporary(R"((.+)\.tmp[0-9]+_[0-9]+)");
+  std::smatch parts;
+  return std::regex_match(name, parts, kTemporary) ? parts[1].str() : name;
+}
 
 WrittenBuffer::int_type WrittenBuffer::overflow(int_type c) {
   errno = 0;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "mms/io/text/temporary_path.hpp"
@@ -23,6 +24,10 @@ class WrittenBuffer : public std::filebuf {
  private:
   int error_ = 0;
 };
+
+/// Name of the file that a temporary one of `AtomicFile` was to become, as a killed process leaves
+/// it; any other name as it is.
+std::string name_without_temporary_part(const std::string& name);
 
 /// A file that is written completely or not at all: the bytes go to a temporary file next to it,
 /// which `commit` renames. Without `commit` (after an exception or a signal) the temporary file is

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mms/core/error.hpp"
+#include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
 
 namespace mms {
@@ -63,7 +64,8 @@ bool take_output_folder(const fs::path& folder, std::span<const std::string_view
                                   [&](const std::string& name) { return is_in(marks, name); });
   const auto others =
       std::stable_partition(names.begin(), names.end(), [&](const std::string& name) {
-        return marked && is_in(own, name) && is_as_named(folder / name);
+        return marked && is_in(own, name_without_temporary_part(name)) &&
+               is_as_named(folder / name);
       });
   if (others != names.end()) {
     const auto count = names.end() - others;

@@ -34,7 +34,8 @@ bool is_as_named(const std::filesystem::path& path);
 /// Makes an output folder, or takes one that has nothing but earlier outputs. Devices, and links to
 /// them, are left alone.
 /// @param own        names of all files and folders that the caller writes there; those without
-///                   ending are folders
+///                   ending are folders. Their temporary files, left by a killed process, are
+///                   earlier outputs, too.
 /// @param marks      those of them that only this program writes; without any, the rest is not ours
 /// @param overwrite  removes earlier outputs
 /// @returns whether the folder was created
