@@ -42,8 +42,10 @@ void read_run_record_bytes(std::string_view bytes) {
 
 Seeds frame_record_seeds() {
   return {
-      "stamp,index,status,dynamic_share,overruled_share,implausible_masks,session\n"
-      "1.000000000,0,tracking,0.12500,0.00000,0,0\n1.100000000,2,initialized,0.00000,0.00000,1,1\n",
+      "stamp,index,status,dynamic_share,overruled_share,implausible_masks,session,in_map\n"
+      "1.000000000,0,tracking,0.12500,0.00000,0,0,1\n"
+      "1.100000000,2,initialized,0.00000,0.00000,1,1,0\n",
+      "1.000000000,0,tracking,0.12500,0.00000,0,0\n",
       "1.000000000,0,tracking,0.12500,0.00000,0\n1.100000000,2,lost,0.00000,0.00000,1\n",
       "1.000000000,0,tracking,0.12500\n"};
 }

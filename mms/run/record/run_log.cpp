@@ -27,6 +27,10 @@ std::vector<double> column(const std::vector<LoggedFrame>& frames, const Value& 
   return values;
 }
 
+bool is_in_map(const FrameResult& result) {
+  return result.odometry.status != Status::kLost && result.correction.T_global_world.has_value();
+}
+
 }  // namespace
 
 double LoggedFrame::stages_ms() const {
@@ -43,7 +47,7 @@ void RunLog::add(const Processed& processed) {
   last_ = now;
   frames_.push_back({processed.frame.name, processed.frame.stamp, processed.frame.index,
                      result.session, result.odometry.T_world_sensor, result.odometry.status,
-                     result.keyframe, result.relocalized, result.is_searching(),
+                     result.keyframe, result.relocalized, result.is_searching(), is_in_map(result),
                      result.dynamic_share, result.overruled_share, result.cloud.implausible_masks,
                      processed.read_ms, interval.count(), result.stage_ms, processed.latency_ms});
   places_.resize(result.session + std::size_t{1});

@@ -29,6 +29,7 @@ struct LoggedFrame {
   bool keyframe = false;
   bool relocalized = false;
   bool is_searching = false;  ///< lost, and its place is searched for
+  bool in_map = false;        ///< whether its place in the map was known then
   double dynamic_share = 0.0;
   double overruled_share = 0.0;
   int implausible_masks = 0;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kFramesHeader =
-    "stamp,index,status,dynamic_share,overruled_share,implausible_masks,session";
+    "stamp,index,status,dynamic_share,overruled_share,implausible_masks,session,in_map";
 
 std::string absolute_path(const fs::path& path) {
   std::error_code error;
@@ -79,10 +79,10 @@ CameraOptions camera_options_of(const Json& run) {
 std::string frames_csv(const RunLog& log) {
   std::string text = std::string(kFramesHeader) + "\n";
   for (const LoggedFrame& frame : log.frames()) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{:.5f},{:.5f},{},{}\n",
+    fmt::format_to(std::back_inserter(text), "{},{},{},{:.5f},{:.5f},{},{},{:d}\n",
                    frame.stamp.to_string(), frame.index, to_string(frame.status),
                    frame.dynamic_share, frame.overruled_share, frame.implausible_masks,
-                   frame.session);
+                   frame.session, frame.in_map);
   }
   return text;
 }
@@ -95,9 +95,9 @@ std::optional<Status> status_of(std::string_view name) {
 }
 
 std::optional<FrameRecord> frame_of(const TextLine& line) {
-  // Runs of earlier versions end with the dynamic share, or without the session.
+  // Runs of earlier versions end with the dynamic share, the implausible masks or the session.
   const std::size_t columns = line.fields.size();
-  if (columns != 4 && columns != 6 && columns != 7) return std::nullopt;
+  if (columns != 4 && (columns < 6 || columns > 8)) return std::nullopt;
   const auto stamp = parse_stamp(line.fields[0]);
   const auto index = parse_integer(line.fields[1]);
   const auto status = status_of(line.fields[2]);
@@ -108,7 +108,9 @@ std::optional<FrameRecord> frame_of(const TextLine& line) {
     frame.overruled_share = parse_double(line.fields[4]);
     if (!frame.overruled_share || !parse_integer(line.fields[5])) return std::nullopt;
   }
-  if (columns == 7 && !parse_integer(line.fields[6])) return std::nullopt;
+  for (std::size_t i = 6; i < columns; ++i) {
+    if (!parse_integer(line.fields[i])) return std::nullopt;
+  }
   return frame;
 }
 
