@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "mms/core/image.hpp"
 #include "mms/core/motion_samples.hpp"
 #include "mms/core/time.hpp"
+#include "mms/core/transform.hpp"
 
 namespace mms {
 
@@ -34,6 +36,8 @@ struct Frame {
   Image<std::uint8_t> mask;
   /// Since the previous frame, up to the end of this one; may be empty.
   MotionSamples motion;
+  /// Where a user says that the sensor is: its place in the map is searched for around it.
+  std::optional<Transform<Global, Sensor>> expected_place;
   std::shared_ptr<const Calibration> calibration;  ///< never null
 
   /// Whether this is an RGB-D frame.

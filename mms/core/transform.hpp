@@ -6,10 +6,12 @@ namespace mms {
 
 /// Coordinate frames of transforms. Camera: optical frame, x right, y down, z forward. Depth: that
 /// of a depth camera beside it. Sensor: frame of the localized cloud, the camera frame for RGB-D,
-/// the LiDAR frame for LiDAR. World: the sensor frame of the first localized frame. Base: that of
-/// the wheels, x forward, y left, z up. Odometer: the base's frame where its dead reckoning began.
-/// Imu: that of a gyroscope and accelerometer.
+/// the LiDAR frame for LiDAR. World: the sensor frame of the first localized frame. Global: that of
+/// the map, the world at its first keyframe, corrected by loop closure. Base: that of the wheels, x
+/// forward, y left, z up. Odometer: the base's frame where its dead reckoning began. Imu: that of a
+/// gyroscope and accelerometer.
 struct World {};
+struct Global {};
 struct Camera {};
 struct Depth {};
 struct Lidar {};

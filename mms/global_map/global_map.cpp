@@ -34,6 +34,19 @@ constexpr double kMaxNearbySigma = 0.15;
 /// each, then share no scans.
 constexpr double kScanPath = 20.0;
 
+/// [m]: distance along the floor of keyframes around a place that a user tells. Source: initial
+/// choice; a click on a map may be that far off.
+constexpr double kMaxExpectedDistance = 2.0;
+
+/// [rad]: the same of the angle between the views. Source: as `kMaxExpectedDistance`; 60 degrees.
+constexpr double kMaxExpectedTurn = std::numbers::pi / 3.0;
+
+/// [-]: such candidates of a keyframe. Source: computing time.
+constexpr std::size_t kMaxExpected = 6;
+
+/// [-]: keyframes beside one of them up to which none is another candidate. Source: about 0.5 m.
+constexpr std::size_t kExpectedSpacing = 2;
+
 /// What is kept of a keyframe at a place that the map has.
 KeyframeRecord pose_of(const KeyframeRecord& record) {
   KeyframeRecord pose;
@@ -108,12 +121,14 @@ std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
     record.session = earlier_sessions_ + static_cast<std::uint32_t>(run_sessions_.size()) - 1U;
   }
   if (!keyframe.cloud.organised()) describe_scan(keyframe, record);
-  return add(std::move(record));
+  return add(std::move(record), keyframe.expected_place);
 }
 
-std::vector<Loop> GlobalMap::add(KeyframeRecord record) {
+std::vector<Loop> GlobalMap::add(KeyframeRecord record,
+                                 const std::optional<Transform<Global, Sensor>>& expected) {
   graph_.add_node(record);
-  const std::vector<Loop> accepted = first_loop_ ? join_session(record) : find_loop(record);
+  const std::vector<Loop> accepted =
+      first_loop_ ? join_session(record) : find_loop(record, expected);
   const bool is_in_map = std::any_of(accepted.begin(), accepted.end(), [&](const Loop& loop) {
     return graph_.is_fixed(loop.candidate);
   });
@@ -170,9 +185,36 @@ std::vector<std::size_t> GlobalMap::nearby(std::size_t end) const {
   return keyframes;
 }
 
+/// Keyframes of the map around a place that a user tells, whose height is not told.
+std::vector<std::size_t> GlobalMap::around(const Transform<Global, Sensor>& expected) const {
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    if (!is_joined(records_[i].session) || !may_match(i)) continue;
+    const Eigen::Vector3d up =
+        (records_[i].is_scan() ? SensorAxes::lidar() : SensorAxes::camera()).up;
+    const Eigen::Vector3d shift = graph_.poses()[i].translation() - expected.translation();
+    const double distance = (shift - up * up.dot(shift)).norm();
+    const double turn = se3::angle(graph_.poses()[i].inverse() * expected.isometry());
+    if (distance < kMaxExpectedDistance && turn < kMaxExpectedTurn) {
+      near.emplace_back(distance + turn, i);
+    }
+  }
+  std::sort(near.begin(), near.end());
+  std::vector<std::size_t> keyframes;
+  for (const auto& [unused, keyframe] : near) {
+    if (keyframes.size() == kMaxExpected) break;
+    const bool is_beside = std::any_of(keyframes.begin(), keyframes.end(), [&](std::size_t other) {
+      return keyframe <= other + kExpectedSpacing && other <= keyframe + kExpectedSpacing;
+    });
+    if (!is_beside) keyframes.push_back(keyframe);
+  }
+  return keyframes;
+}
+
 /// Checks the candidates of the next keyframe until one is accepted: first those at its position,
-/// then those that place recognition finds.
-std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record) {
+/// then those around the expected place, then those that place recognition finds.
+std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record,
+                                       const std::optional<Transform<Global, Sensor>>& expected) {
   const std::vector<Eigen::Isometry3d>& poses = graph_.poses();
   const std::size_t end = graph_.first_recent(config_.min_path);
   const int min_inliers = min_inliers_of(config_.loops, record);
@@ -183,17 +225,19 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record) {
     return graph_.add_check(std::move(loop));
   };
   for (const std::size_t candidate : nearby(end)) {
-    const Eigen::Isometry3d expected = poses[candidate].inverse() * poses.back();
-    if (passes(verifier_.verify_nearby(records_, poses, candidate, record, expected))) {
+    const Eigen::Isometry3d by_odometry = poses[candidate].inverse() * poses.back();
+    if (passes(verifier_.verify_nearby(records_, poses, candidate, record, by_odometry))) {
       return confirmation_.confirm(graph_, min_inliers);
     }
   }
-  const std::vector<PlaceCandidate> recognized =
-      recognizer_.find(record.keypoints.descriptors,
-                       record.is_scan() ? graph_.first_recent(kScanPath) : end, kMaxRecognized);
-  for (const PlaceCandidate& candidate : recognized) {
-    const std::size_t i = candidate.keyframe;
-    if (!may_match(i)) continue;
+  std::vector<std::size_t> candidates;
+  if (expected && !is_joined(session())) candidates = around(*expected);
+  for (const PlaceCandidate& candidate :
+       recognizer_.find(record.keypoints.descriptors,
+                        record.is_scan() ? graph_.first_recent(kScanPath) : end, kMaxRecognized)) {
+    if (may_match(candidate.keyframe)) candidates.push_back(candidate.keyframe);
+  }
+  for (const std::size_t i : candidates) {
     // Another session of the run: after a loss, people may cover the view, and nothing was moved
     // since, so that places which only look alike contradict.
     const bool is_after_loss = !record.is_scan() && !graph_.shares_frame(i) &&

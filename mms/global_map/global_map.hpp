@@ -48,6 +48,8 @@ struct GlobalKeyframe {
   bool after_lost = false;    ///< whether the sensor was lost since the keyframe before
   bool has_pose = false;      ///< of a lost sensor: whether the odometry found a pose, in doubt
   std::uint32_t session = 0;  ///< of the run; its world is that of the odometry since it began
+  /// Where a user says that the sensor is.
+  std::optional<Transform<Global, Sensor>> expected_place{};
 };
 
 /// Content of a global map, for map files. Sessions are numbered from 0 in the order of the
@@ -97,7 +99,9 @@ class GlobalMap {
 
   /// The same with a record, as those of another map; its session is that of the last one, or the
   /// next.
-  std::vector<Loop> add(KeyframeRecord record);
+  /// @param expected  where a user says that it is, while its session is not in the map
+  std::vector<Loop> add(KeyframeRecord record,
+                        const std::optional<Transform<Global, Sensor>>& expected = std::nullopt);
 
   /// Brings the poses up to date with all loops. After the last keyframe.
   void finish() { graph_.finish(); }
@@ -143,7 +147,9 @@ class GlobalMap {
   std::vector<Eigen::Isometry3d> poses_in_world() const;
   bool may_match(std::size_t candidate) const;
   std::vector<std::size_t> nearby(std::size_t end) const;
-  std::vector<Loop> find_loop(const KeyframeRecord& record);
+  std::vector<std::size_t> around(const Transform<Global, Sensor>& expected) const;
+  std::vector<Loop> find_loop(const KeyframeRecord& record,
+                              const std::optional<Transform<Global, Sensor>>& expected);
   std::vector<Loop> join_session(const KeyframeRecord& first);
 
   GlobalMapConfig config_;

@@ -8,10 +8,6 @@
 
 namespace mms {
 
-/// Frame of the global map: the world frame of the odometry, corrected by loop closure. It is that
-/// of the world at the first keyframe.
-struct Global {};
-
 /// Correction of the odometry's drift over time, interpolated between keyframes.
 class PoseCorrection {
  public:

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,13 +34,15 @@ using StageTimes = std::array<double, kStageCount>;
 struct FrameResult {
   OdometryEstimate odometry;
   LabeledCloud cloud;
-  std::uint32_t session = 0;           ///< of the run; one that begins after a loss has the next
-  bool keyframe = false;               ///< of the static map
-  bool global_keyframe = false;        ///< of the global map
-  bool after_lost = false;             ///< frames since the last global keyframe were lost
-  bool wants_relocalization = false;   ///< lost before, and its place is not recognized yet
-  bool has_pose_in_doubt = false;      ///< of these: the odometry found a pose
-  MapCorrection correction;            ///< known to loop closure so far
+  std::uint32_t session = 0;          ///< of the run; one that begins after a loss has the next
+  bool keyframe = false;              ///< of the static map
+  bool global_keyframe = false;       ///< of the global map
+  bool after_lost = false;            ///< frames since the last global keyframe were lost
+  bool wants_relocalization = false;  ///< lost before, and its place is not recognized yet
+  bool has_pose_in_doubt = false;     ///< of these: the odometry found a pose
+  MapCorrection correction;           ///< known to loop closure so far
+  /// By a user, and the odometry since: where the place in the map is searched for.
+  std::optional<Transform<Global, Sensor>> expected_place;
   bool relocalized = false;            ///< the pose is that of a recognized place
   double dynamic_share = 0.0;          ///< of the valid points, in [0, 1]
   double overruled_share = 0.0;        ///< of the valid points: masked, but static for the pose

@@ -34,6 +34,10 @@ constexpr Duration kSearchInterval = std::chrono::milliseconds(200);
 /// Source: nine of ten kidnapped cameras are relocalized within 1 s, if their place is known.
 constexpr Duration kSessionDelay = std::chrono::seconds(3);
 
+/// [s]: time for which the place that a user tells is searched for. Source: initial choice; people
+/// may cover the view for some seconds, and later the odometry has drifted.
+constexpr Duration kExpectationTime = std::chrono::seconds(10);
+
 bool agree(const OdometryEstimate& odometry, const Relocalization& place) {
   const Eigen::Isometry3d difference =
       (odometry.T_world_sensor.inverse() * place.T_world_sensor).isometry();
@@ -72,6 +76,8 @@ Localization::Localization(const SystemConfig& config)
 FrameResult Localization::localize(PerceivedFrame frame) {
   assert(thread_.is_owner());
   if (is_lost_for_long(frame.cloud.stamp, frame.features)) begin_session();
+  const auto told = closes_loops_ ? frame.expected_place : std::nullopt;
+  if (told) search_again(frame.cloud.stamp);
   FrameResult result;
   result.session = session_number_;
   result.stage_ms = frame.stage_ms;
@@ -89,6 +95,10 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     return estimate;
   });
   result.correction = corrections_.at(result.odometry.stamp);
+  if (told) {
+    expected_ = {result.odometry.stamp, *told * result.odometry.T_world_sensor.inverse()};
+  }
+  result.expected_place = expected_place(result);
   result.warnings = odometry_.take_warnings();
   result.wants_relocalization = wants_relocalization(result);
   if (result.wants_relocalization) {
@@ -150,6 +160,23 @@ void Localization::begin_session() {
   lost_for_ = Duration::zero();
   lost_frames_ = 0;
   is_in_doubt_ = has_global_keyframe_ = false;
+}
+
+/// The place is searched for as at the start. Where it seemed known, the user says otherwise.
+void Localization::search_again(Timestamp stamp) {
+  if (has_global_keyframe_ && corrections_.at(stamp).T_global_world) begin_session();
+  searches_place_ = true;
+  search_begin_.reset();
+}
+
+std::optional<Transform<Global, Sensor>> Localization::expected_place(const FrameResult& result) {
+  if (!expected_) return std::nullopt;
+  const bool is_known = result.correction.T_global_world.has_value();
+  if (is_known || result.odometry.stamp - expected_->stamp > kExpectationTime) {
+    expected_.reset();
+    return std::nullopt;
+  }
+  return expected_->T_global_world * result.odometry.T_world_sensor;
 }
 
 /// Similar places can mislead the odometry after a loss: until the place is recognized, or the

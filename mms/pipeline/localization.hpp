@@ -57,6 +57,14 @@ class Localization {
     KeyframeSelector scan_keyframes;  // of the global map, too
   };
 
+  /// Where a user says that the sensor is.
+  struct ExpectedPlace {
+    Timestamp stamp;  // of the frame that it was told with
+    Transform<Global, World> T_global_world;
+  };
+
+  void search_again(Timestamp stamp);
+  std::optional<Transform<Global, Sensor>> expected_place(const FrameResult& result);
   bool is_lost_for_long(Timestamp stamp, const FeatureCloud& features);
   void begin_session();
   void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
@@ -74,6 +82,7 @@ class Localization {
   bool searches_place_ = false;
   std::optional<Timestamp> search_begin_;
   Timestamp last_search_;
+  std::optional<ExpectedPlace> expected_;
   bool has_global_keyframe_ = false;
   int lost_frames_ = 0;       // in a row
   bool is_in_doubt_ = false;  // since a loss: the place is not recognized yet

@@ -26,6 +26,7 @@ PerceivedFrame Perception::perceive(const Frame& frame, const TimedSegmentation&
   PerceivedFrame result;
   result.motion = frame.motion;
   result.motion_calibration = frame.calibration->motion;
+  result.expected_place = frame.expected_place;
   result.stage_ms[static_cast<std::size_t>(Stage::kSegmentation)] = masks.ms;
   result.cloud = timed(result.stage_ms, Stage::kFusion, [&] {
     return fusion_.fuse(frame, masks.segmentation);  // III-B

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "mms/core/frame.hpp"
 #include "mms/core/labeled_cloud.hpp"
@@ -26,6 +27,7 @@ struct PerceivedFrame {
   FeatureCloud features;
   MotionSamples motion;  ///< of the frame
   MotionCalibration motion_calibration;
+  std::optional<Transform<Global, Sensor>> expected_place;  ///< of the frame
   StageTimes stage_ms{};
 };
 

@@ -92,7 +92,8 @@ class SlamSystem {
             localized.odometry.T_world_sensor,
             localized.after_lost,
             localized.has_pose_in_doubt,
-            localized.session};
+            localized.session,
+            localized.expected_place};
   }
 
   const GlobalMap& global_map() const { return loop_closing_.global_map(); }

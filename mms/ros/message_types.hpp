@@ -33,6 +33,9 @@ inline constexpr std::string_view kName<TransformStamped> = "geometry_msgs/Trans
 template <>
 inline constexpr std::string_view kName<Transforms> = "tf2_msgs/TFMessage";
 template <>
+inline constexpr std::string_view kName<PoseWithCovarianceStamped> =
+    "geometry_msgs/PoseWithCovarianceStamped";
+template <>
 inline constexpr std::string_view kName<Odometry> = "nav_msgs/Odometry";
 template <>
 inline constexpr std::string_view kName<Imu> = "sensor_msgs/Imu";

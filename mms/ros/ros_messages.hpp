@@ -168,6 +168,18 @@ struct Odometry {
   }
 };
 
+/// geometry_msgs/PoseWithCovarianceStamped
+struct PoseWithCovarianceStamped {
+  Header header;
+  Pose pose;
+  std::array<double, 36> covariance{};
+
+  template <class Self, class Archive>
+  static void fields(Self& self, Archive& archive) {
+    archive(self.header, self.pose, self.covariance);
+  }
+};
+
 /// sensor_msgs/Imu
 struct Imu {
   Header header;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mms/core/error.hpp"
+#include "mms/result_messages/result_messages.hpp"
 #include "mms/ros/camera_messages.hpp"
 #include "mms/ros/cloud_messages.hpp"
 #include "mms/ros/image_messages.hpp"
@@ -62,6 +63,7 @@ Ros2Source::Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t que
   }
   subscribe_motion();
   if (!is_placed() || needs_mounting()) subscribe_transforms();
+  if (!inputs_.initial_pose.empty()) subscribe_initial_pose();
   node_.every(kPoll, [this] {
     if (stop_()) close();
     advance();
@@ -157,6 +159,25 @@ void Ros2Source::subscribe_transforms() {
   node_.subscribe<msg::Transforms>("/tf_static", {TopicQos::Reliability::kReliable, true, 100},
                                    add);
   node_.subscribe<msg::Transforms>("/tf", sensor_qos(100), add);
+}
+
+/// The pose is taken as that of the sensor, x forward and z up.
+void Ros2Source::subscribe_initial_pose() {
+  node_.subscribe<msg::PoseWithCovarianceStamped>(
+      inputs_.initial_pose, {}, [this](const msg::PoseWithCovarianceStamped& message) {
+        const std::string& frame = message.header.frame_id;
+        const Eigen::Isometry3d T_map_body = isometry_of(message.pose);
+        if (frame != inputs_.map_frame || !T_map_body.matrix().allFinite()) {
+          throw DataError("initial pose", frame != inputs_.map_frame
+                                              ? "is in the frame '" + frame + "', allowed: '" +
+                                                    inputs_.map_frame + "'"
+                                              : "has values that are not finite");
+        }
+        const Eigen::Isometry3d T_map_global = level_map_pose(is_camera());
+        const Eigen::Isometry3d T_body_sensor(T_map_global.linear());
+        expected_place_ =
+            Transform<Global, Sensor>(T_map_global.inverse() * T_map_body * T_body_sensor);
+      });
 }
 
 /// Moves on what has become complete.
@@ -260,6 +281,7 @@ void Ros2Source::release(Frame frame) {
 
 void Ros2Source::complete(Frame& frame) {
   frame.calibration = calibration_of(frame);
+  frame.expected_place = std::exchange(expected_place_, std::nullopt);
   while (!masks_.empty() && masks_.front().first <= frame.stamp) {
     const bool size = masks_.front().second.width() == frame.color.width() &&
                       masks_.front().second.height() == frame.color.height();

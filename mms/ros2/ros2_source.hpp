@@ -28,6 +28,9 @@ struct Ros2Inputs {
   std::string imu{};
   std::string wheels{};  ///< nav_msgs/Odometry
   std::string mask{};    ///< label images: 0 static, 1 person, 2 vehicle
+  std::string initial_pose =
+      "/initialpose";  ///< PoseWithCovarianceStamped: where a user says that the sensor is
+  std::string map_frame = "map";  ///< frame of the initial pose: x forward, z up
 };
 
 /// Counts since the start.
@@ -79,6 +82,7 @@ class Ros2Source final : public LiveSource {
   void subscribe_points();
   void subscribe_motion();
   void subscribe_transforms();
+  void subscribe_initial_pose();
   void advance();
   void take_frames();
   bool find_extrinsics();
@@ -104,6 +108,7 @@ class Ros2Source final : public LiveSource {
   std::deque<std::pair<Timestamp, Image<std::uint8_t>>> masks_;
   std::deque<WheelSample> wheels_;
   std::deque<ImuSample> imu_;
+  std::optional<Transform<Global, Sensor>> expected_place_;  ///< for the next frame
   std::optional<Timestamp> last_stamp_;
   std::shared_ptr<const Calibration> received_;   ///< that of the last frame
   std::shared_ptr<const Calibration> completed_;  ///< the same with the mounting of the motion

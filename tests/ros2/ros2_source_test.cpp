@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <mutex>
+#include <numbers>
 #include <string>
 #include <thread>
 #include <vector>
@@ -51,6 +53,7 @@ class Ros2SourceTest : public ::testing::Test {
     imu_ = add<msg::Imu>("imu");
     wheels_ = add<msg::Odometry>("wheels");
     mask_ = add<msg::Image>("mask");
+    initial_pose_ = add<msg::PoseWithCovarianceStamped>("initialpose");
     tf_static_ = robot_->advertise<msg::Transforms>("/tf_static",
                                                     {TopicQos::Reliability::kReliable, true, 10});
   }
@@ -134,7 +137,7 @@ class Ros2SourceTest : public ::testing::Test {
   std::unique_ptr<Ros2Node> robot_, node_;
   std::unique_ptr<Ros2Source> source_;
   Ros2Writer color_, depth_, camera_info_, depth_info_, compressed_color_, compressed_depth_,
-      points_, imu_, wheels_, mask_, tf_static_;
+      points_, imu_, wheels_, mask_, initial_pose_, tf_static_;
 };
 
 TEST_F(Ros2SourceTest, GivesFramesOfImages) {
@@ -191,6 +194,46 @@ TEST_F(Ros2SourceTest, FramesHaveMotionUpToTheirEnd) {
   EXPECT_NEAR(second->motion.imu.front().rate.x(), 0.03, 1e-12);
   EXPECT_EQ(second->motion.wheels.back().T_odom_base.translation().x(), 7.0);
   EXPECT_EQ(second->calibration, first->calibration);
+}
+
+TEST_F(Ros2SourceTest, InitialPoseOfTheMapIsTheExpectedPlaceOfTheNextFrame) {
+  start({.color = "color",
+         .depth = "depth",
+         .camera_info = "camera_info",
+         .initial_pose = "initialpose",
+         .map_frame = "map"},
+        {&color_, &depth_, &camera_info_, &initial_pose_});
+  // 3 m ahead and 1 m to the left of the map's first camera, turned to the left.
+  msg::PoseWithCovarianceStamped told;
+  told.header = header_at(0.0, "map");
+  told.pose.position = {3.0, 1.0, 0.0};
+  told.pose.orientation = {0.0, 0.0, std::sqrt(0.5), std::sqrt(0.5)};
+  initial_pose_.publish(told);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  for (const double seconds : {0.0, 0.1}) publish_images(seconds);
+  ASSERT_TRUE(source_->wait(ignore));
+  const auto first = source_->next();
+  ASSERT_TRUE(first && first->expected_place);
+  EXPECT_TRUE(first->expected_place->translation().isApprox(Eigen::Vector3d(-1.0, 0.0, 3.0)));
+  EXPECT_TRUE(first->expected_place->rotation().isApprox(
+      Eigen::AngleAxisd(-std::numbers::pi / 2.0, Eigen::Vector3d::UnitY()).matrix()));
+  EXPECT_FALSE(source_->next()->expected_place);
+}
+
+TEST_F(Ros2SourceTest, InitialPoseOfAnotherFrameIsRefused) {
+  start({.color = "color",
+         .depth = "depth",
+         .camera_info = "camera_info",
+         .initial_pose = "initialpose"},
+        {&color_, &depth_, &camera_info_, &initial_pose_});
+  msg::PoseWithCovarianceStamped told;
+  told.header = header_at(0.0, "odom");
+  initial_pose_.publish(told);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  publish_images(0.0);
+  ASSERT_TRUE(source_->wait(ignore));
+  EXPECT_FALSE(source_->next()->expected_place);
+  EXPECT_EQ(source_->counts().damaged, 1U);
 }
 
 TEST_F(Ros2SourceTest, FramesGoOnWithoutMotionThatDoesNotCome) {

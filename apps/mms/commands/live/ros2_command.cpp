@@ -113,6 +113,9 @@ void add_input_options(CLI::App& command, Ros2Inputs& inputs, bool& depth_regist
   add("--imu", inputs.imu, "gyroscope, Imu");
   add("--odometry", inputs.wheels, "dead reckoning of the wheels, Odometry");
   add("--mask", inputs.mask, "label images: 0 static, 1 person, 2 vehicle");
+  add("--initial-pose", inputs.initial_pose,
+      "where you say that the sensor is in the map, PoseWithCovarianceStamped")
+      ->capture_default_str();
 }
 
 void add_node_options(CLI::App& command, Ros2CommandOptions& options) {
@@ -199,6 +202,7 @@ void add_ros2_command(CLI::App& app) {
           "--weights", "is for masks of the network, but they come from " + run_options.segmenter);
     }
     complete_inputs(options->inputs, options->depth_registered, run_options.segmenter);
+    options->inputs.map_frame = options->results.map_frame;
     if (command->count("--view") > 0) {
       run_options.view = options->view.place;
       if (!options->view.word.empty()) {
