@@ -68,7 +68,7 @@ run_under() {
 
 # Reports end the program, so that the test fails.
 export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1"
-export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/tests/support/tsan.txt"
+export TSAN_OPTIONS="halt_on_error=1:history_size=7:second_deadlock_stack=1:suppressions=$PWD/tests/support/tsan.txt"
 export ASAN_OPTIONS="detect_stack_use_after_return=1"
 
 check_asan() { run_under asan; }

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
+
+#include "mms/geometry/task_order.hpp"
 
 namespace mms {
 
@@ -13,8 +16,17 @@ namespace mms {
 template <class Body>
 void parallel_chunks(std::size_t count, std::size_t chunk, const Body& body) {
   const std::size_t chunks = (count + chunk - 1) / chunk;
-  tbb::parallel_for(std::size_t{0}, chunks,
-                    [&](std::size_t i) { body(i * chunk, std::min(count, (i + 1) * chunk)); });
+  TaskOrder order;
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t i) {
+    order.run([&] { body(i * chunk, std::min(count, (i + 1) * chunk)); });
+  });
+}
+
+/// Runs tasks in any order, on the same threads.
+template <class... Task>
+void parallel_tasks(const Task&... task) {
+  TaskOrder order;
+  tbb::parallel_invoke([&] { order.run(task); }...);
 }
 
 /// Sum of `body(begin, end)` over the chunks of [0, count), added in chunk order: bitwise equal for

@@ -1,10 +1,9 @@
 #include "mms/pipeline/mapping.hpp"
 
-#include <tbb/parallel_invoke.h>
-
 #include <cassert>
 #include <vector>
 
+#include "mms/geometry/parallel.hpp"
 #include "mms/mapping/tracking/unseen_objects.hpp"
 #include "mms/pipeline/stage_timer.hpp"
 
@@ -38,8 +37,8 @@ FrameResult Mapping::map(FrameResult result) {
     std::vector<TrackedObject> objects = dynamic_map_.objects();
     mask_unseen_objects(objects, T_world_sensor, result.cloud);
     if (result.keyframe) {
-      tbb::parallel_invoke([&] { static_map_.integrate(result.cloud, T_world_sensor); },
-                           [&] { occupancy_map_.integrate(result.cloud, T_world_sensor); });
+      parallel_tasks([&] { static_map_.integrate(result.cloud, T_world_sensor); },
+                     [&] { occupancy_map_.integrate(result.cloud, T_world_sensor); });
     } else if (result.odometry.status != Status::kLost) {
       static_map_.add(result.cloud, T_world_sensor);
     }
