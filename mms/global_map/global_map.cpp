@@ -74,6 +74,7 @@ GlobalMap::GlobalMap(const GlobalMapConfig& config, const FeatureConfig& feature
       extractor_(features),
       noise_(features.noise.depth),
       verifier_(config.loops, registration, noise_),
+      lost_verifier_(config.loops, registration, noise_),
       graph_(std::max(config.min_path, kScanPath)) {}
 
 KeyframeRecord GlobalMap::record_of(const GlobalKeyframe& keyframe) const {
@@ -242,7 +243,7 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record,
     // since, so that places which only look alike contradict.
     const bool is_after_loss = !record.is_scan() && !graph_.shares_frame(i) &&
                                !run_sessions_.empty() && records_[i].session >= earlier_sessions_;
-    if (passes(is_after_loss ? verifier_.verify_lost(records_, poses, i, record)
+    if (passes(is_after_loss ? lost_verifier_.verify(records_, poses, i, record)
                              : verifier_.verify(records_, poses, i, record))) {
       return confirmation_.confirm(graph_, min_inliers);
     }
@@ -292,7 +293,7 @@ std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame)
   const auto is_usable = [&](std::size_t keyframe) { return may_match(keyframe); };
   const auto shares_frame = [&](std::size_t keyframe) { return graph_.shares_frame(keyframe); };
   const auto loop =
-      relocalizer_.find({records_, poses, recognizer_, verifier_, is_usable, shares_frame},
+      relocalizer_.find({records_, poses, recognizer_, lost_verifier_, is_usable, shares_frame},
                         record_of(frame), frame.has_pose);
   if (!loop) return std::nullopt;
   return relocalization_at(*loop, poses);

@@ -13,6 +13,7 @@
 #include "mms/global_map/keyframes/local_scans.hpp"
 #include "mms/global_map/loops/loop.hpp"
 #include "mms/global_map/loops/loop_verification.hpp"
+#include "mms/global_map/loops/lost_verification.hpp"
 #include "mms/global_map/places/place_recognizer.hpp"
 #include "mms/global_map/pose_correction.hpp"
 #include "mms/global_map/relocalizer.hpp"
@@ -156,6 +157,7 @@ class GlobalMap {
   FeatureExtractor extractor_;
   DepthNoise noise_;
   LoopVerifier verifier_;
+  LostFrameVerifier lost_verifier_;
   LocalScans scans_;
   PlaceRecognizer recognizer_;
   std::deque<KeyframeRecord> records_;

@@ -59,8 +59,7 @@ std::optional<Loop> recognize(const KnownPlaces& places, const KeyframeRecord& f
   for (const PlaceCandidate& candidate :
        places.recognizer.find(frame.keypoints.descriptors, places.records.size(), kMaxRecognized)) {
     if (!places.is_usable(candidate.keyframe)) continue;
-    Loop loop =
-        places.verifier.verify_lost(places.records, places.poses, candidate.keyframe, frame);
+    Loop loop = places.verifier.verify(places.records, places.poses, candidate.keyframe, frame);
     if (loop.outcome != LoopOutcome::kAccepted) continue;
     if (!best || loop.inliers > best->inliers) best = std::move(loop);
   }
@@ -80,8 +79,8 @@ std::optional<Loop> confirm(const KnownPlaces& places, const KeyframeRecord& fra
   std::sort(near.begin(), near.end());
   near.resize(std::min(near.size(), kMaxNear));
   for (const auto& [unused, i] : near) {
-    Loop loop = places.verifier.verify_lost_nearby(places.records, places.poses, i, frame,
-                                                   places.poses[i].inverse() * pose);
+    Loop loop = places.verifier.verify_nearby(places.records, places.poses, i, frame,
+                                              places.poses[i].inverse() * pose);
     if (loop.outcome == LoopOutcome::kAccepted) return loop;
   }
   return std::nullopt;

@@ -9,7 +9,7 @@
 #include "mms/core/trajectory.hpp"
 #include "mms/global_map/keyframes/keyframe_record.hpp"
 #include "mms/global_map/loops/loop.hpp"
-#include "mms/global_map/loops/loop_verification.hpp"
+#include "mms/global_map/loops/lost_verification.hpp"
 #include "mms/global_map/places/place_recognizer.hpp"
 
 namespace mms {
@@ -20,7 +20,7 @@ struct KnownPlaces {
   /// In the world of the present session; those that no loops join to it in a frame of their own.
   const std::vector<Eigen::Isometry3d>& poses;
   const PlaceRecognizer& recognizer;
-  const LoopVerifier& verifier;
+  const LostFrameVerifier& verifier;
   std::function<bool(std::size_t keyframe)> is_usable;
   std::function<bool(std::size_t keyframe)> shares_frame;  ///< with the present session
 };
