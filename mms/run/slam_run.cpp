@@ -86,7 +86,8 @@ SlamRun::SlamRun(const RunOptions& options, std::unique_ptr<FrameSource> source)
       first_(read_first(options, *source_, warnings_)),
       config_(load_settings(options, *source_, first_, warnings_)),
       system_(config_, make_segmenter(options.segmenter, options.data, config_, *source_)),
-      map_(options_, source_->calibration().get(), config_),
+      map_({options_.map, options_.save_map, options_.localize, options_.overwrite, options_.data},
+           config_),
       frames_(std::min(options.frames, source_->size() - options.start)) {
   if (!options_.view) return;
   view_ = std::make_unique<LiveView>(*options_.view, options_.data, *source_, config_, frames_);
@@ -124,7 +125,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
                                   config_.dynamic_map);
   observer.on_start(run_heading(options_, *source_, config_, frames_, folder), frames_);
   for (const std::string& warning : of_settings) warn(warning, observer);
-  map_.load(system_, handler);
+  map_.load(system_, source_->calibration().get(), handler);
   if (options_.realtime) warm_up();
   AsyncPipeline pipeline(threads_of(options_, config_, *source_));
   // The check takes about 0.5 s, which a run in real time does not have.
@@ -201,7 +202,7 @@ void SlamRun::check_lost() {
 
 /// Called after the pose of the frame was estimated, before the next frame.
 void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
-  map_.check(processed.result);
+  map_.add(processed.result);
   std::optional<MapChanges> map;
   if (processed.result.keyframe) map = system_.mapping().changes();
   std::shared_ptr<const MapChanges> shown;
@@ -308,8 +309,7 @@ void SlamRun::finish_recording() {
 }
 
 bool SlamRun::save_map(RunObserver& observer) {
-  return map_.save(system_, *log_,
-                   [&](const std::string& message) { observer.on_warning(message); });
+  return map_.save(system_, [&](const std::string& message) { observer.on_warning(message); });
 }
 
 }  // namespace mms

@@ -10,8 +10,16 @@
 namespace mms::python {
 
 /// The last call may have come from another thread.
-SlamSystem& LiveSlam::system() {
+SlamSystem& LiveSlam::system(const Calibration* calibration) {
   if (!system_) system_.emplace(config_, std::move(segmenter_));
+  if (!std::exchange(has_map_, true)) {
+    try {
+      map_.load(*system_, calibration, [this](const std::string& line) { warn(line); });
+    } catch (...) {
+      has_map_ = false;  // the next call fails, too
+      throw;
+    }
+  }
   system_->release_threads();
   return *system_;
 }
@@ -25,7 +33,8 @@ FrameResult LiveSlam::process_locked(const Frame& frame) {
   if (!system_ && config_.measure_depth_noise) {
     config_.noise.depth = measured_noise(config_.noise.depth, frame.depth);
   }
-  FrameResult result = system().process(frame);
+  FrameResult result = system(frame.calibration.get()).process(frame);
+  map_.add(result);
   trajectory_.push_back({frame.stamp, result.odometry.T_world_sensor});
   frames_.push_back({result.session, result.is_searching()});
   objects_ = result.objects;
@@ -36,6 +45,16 @@ FrameResult LiveSlam::process_locked(const Frame& frame) {
 void LiveSlam::finish() {
   const std::scoped_lock lock(mutex_);
   system().finalize();
+}
+
+bool LiveSlam::save_map() {
+  const std::scoped_lock lock(mutex_);
+  return map_.save(system(), [this](const std::string& line) { warn(line); });
+}
+
+std::vector<std::string> LiveSlam::take_warnings() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(warnings_, {});
 }
 
 Trajectory LiveSlam::trajectory(bool corrected) {

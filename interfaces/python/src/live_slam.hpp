@@ -4,19 +4,24 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "mms/core/trajectory.hpp"
 #include "mms/mapping/static_map/map_cloud.hpp"
 #include "mms/pipeline/slam_system.hpp"
+#include "mms/run/results/run_map.hpp"
 
 namespace mms::python {
 
 /// A SlamSystem for callers in any thread, which take turns. Knows nothing of Python.
 class LiveSlam {
  public:
-  LiveSlam(const SystemConfig& config, std::unique_ptr<Segmenter> segmenter)
-      : config_(config), segmenter_(std::move(segmenter)) {}
+  /// @throws Error for map files that cannot be read or written
+  LiveSlam(const SystemConfig& config, std::unique_ptr<Segmenter> segmenter,
+           const MapFileOptions& map)
+      : config_(config), segmenter_(std::move(segmenter)), map_(map, config) {}
 
   /// Localizes the frame that `fill` makes of the last one, whose memory is used again.
   /// @throws std::invalid_argument for a stamp that is not later than that before
@@ -45,18 +50,29 @@ class LiveSlam {
   /// @param corrected  by loop closure, with all sessions whose place is known, as result files
   MapCloud static_map(bool corrected);
 
+  /// Writes the map file, once.
+  /// @returns whether one was asked for, and had a keyframe
+  bool save_map();
+
+  /// Warnings since the last call.
+  std::vector<std::string> take_warnings();
+
   /// The objects of the last frame.
   std::vector<TrackedObject> objects();
 
  private:
   FrameResult process_locked(const Frame& frame);
-  SlamSystem& system();
+  SlamSystem& system(const Calibration* calibration = nullptr);
+  void warn(const std::string& line) { warnings_.push_back(line); }
   std::uint32_t session_count() const { return frames_.empty() ? 1U : frames_.back().session + 1U; }
 
   std::mutex mutex_;
   SystemConfig config_;
   std::unique_ptr<Segmenter> segmenter_;  ///< null once there is a system
   std::optional<SlamSystem> system_;      ///< made with the noise of the first frame
+  RunMap map_;
+  bool has_map_ = false;  ///< whether the earlier map, if any, was given to the system
+  std::vector<std::string> warnings_;
   Frame frame_;
   Trajectory trajectory_;
   struct LocalizedFrame {

@@ -1,16 +1,17 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "interfaces/python/src/bindings.hpp"
 #include "interfaces/python/src/live_slam.hpp"
 #include "interfaces/python/src/numpy_arrays.hpp"
+#include "mms/geometry/parallel.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
 #include "mms/run/sensor_settings.hpp"
 #include "mms/segmentation/segmenters/mask_segmenter.hpp"
@@ -63,12 +64,26 @@ void copy_depth(const ImageSource& from, double scale, Image<float>& to) {
                  [units](std::uint16_t value) { return static_cast<float>(value) / units; });
 }
 
+/// Map files, as the arguments name them.
+MapFileOptions map_files(const std::optional<Path>& map, const std::optional<Path>& save_map,
+                         bool localize, bool overwrite) {
+  if (localize && !map) throw py::value_error("localize: needs a map");
+  if (localize && save_map)
+    throw py::value_error("save_map: is given, but localize changes no map");
+  if (save_map && !overwrite && std::filesystem::exists(*save_map)) {
+    throw py::value_error("save_map: " + save_map->string() +
+                          " exists, allowed: a new file, or overwrite=True");
+  }
+  return {map.value_or(Path()), save_map.value_or(Path()), localize, overwrite, "Python"};
+}
+
 /// A LiveSlam for numpy arrays.
 class Slam {
  public:
   Slam(const std::optional<Path>& config, std::shared_ptr<Calibration> calibration,
        const py::dict& settings, const std::string& segmenter,
-       const std::optional<std::string>& weights)
+       const std::optional<std::string>& weights, const std::optional<Path>& map,
+       const std::optional<Path>& save_map, bool localize, bool overwrite)
       : source_(segmenter) {
     calibration_ = calibration ? std::move(calibration) : std::make_shared<Calibration>();
     if (weights && segmenter != "network") {
@@ -80,8 +95,9 @@ class Slam {
                                           assignments_of(settings), "settings", warnings);
     if (weights) system.segmentation.weights = *weights;
     warn(warnings);
+    const MapFileOptions files = map_files(map, save_map, localize, overwrite);
     const py::gil_scoped_release release;
-    slam_ = std::make_unique<LiveSlam>(system, make_segmenter_of(segmenter, system));
+    slam_ = std::make_unique<LiveSlam>(system, make_segmenter_of(segmenter, system), files);
   }
 
   FrameResult process(const py::array& color, const py::array& depth, std::int64_t stamp,
@@ -94,9 +110,9 @@ class Slam {
     const ImageSource labels = mask_source(masks);
     return fill_and_process(stamp, [&](Frame& frame) {
       // One core alone does not use all of the memory's bandwidth.
-      tbb::parallel_invoke([&] { copy(colors, frame.color); },
-                           [&] { copy_depth(depths, calibration_->depth_scale, frame.depth); },
-                           [&] { copy(labels, frame.mask); });
+      parallel_tasks([&] { copy(colors, frame.color); },
+                     [&] { copy_depth(depths, calibration_->depth_scale, frame.depth); },
+                     [&] { copy(labels, frame.mask); });
       frame.scan = {};
     });
   }
@@ -122,8 +138,11 @@ class Slam {
   }
 
   FrameResult process_frame(const Frame& frame) {
-    const py::gil_scoped_release release;
-    return slam_->process(frame);
+    return with_warnings([&] { return slam_->process(frame); });
+  }
+
+  bool save_map() {
+    return with_warnings([this] { return slam_->save_map(); });
   }
 
   LiveSlam& live() { return *slam_; }
@@ -131,12 +150,24 @@ class Slam {
  private:
   template <class Fill>
   FrameResult fill_and_process(std::int64_t stamp, const Fill& fill) {
-    const py::gil_scoped_release release;
-    return slam_->fill_and_process([&](Frame& frame) {
-      frame.stamp = Timestamp(stamp);
-      frame.calibration = calibration_;
-      fill(frame);
+    return with_warnings([&] {
+      return slam_->fill_and_process([&](Frame& frame) {
+        frame.stamp = Timestamp(stamp);
+        frame.calibration = calibration_;
+        fill(frame);
+      });
     });
+  }
+
+  /// Without the lock of Python, but for the warnings after it.
+  template <class Call>
+  std::invoke_result_t<Call> with_warnings(const Call& call) {
+    auto result = [&] {
+      const py::gil_scoped_release release;
+      return call();
+    }();
+    warn(slam_->take_warnings());
+    return result;
   }
 
   ImageSource color_source(const py::array& color) const {
@@ -263,15 +294,21 @@ void bind_slam(py::module_& module) {
       "Localizes and maps, one frame at a time. Threads may share it: they take turns.\n"
       "Other threads of Python run meanwhile.")
       .def(py::init<const std::optional<Path>&, std::shared_ptr<Calibration>, const py::dict&,
-                    const std::string&, const std::optional<std::string>&>(),
+                    const std::string&, const std::optional<std::string>&,
+                    const std::optional<Path>&, const std::optional<Path>&, bool, bool>(),
            py::arg("config") = py::none(), py::arg("calibration") = py::none(), py::kw_only(),
            py::arg("settings") = py::dict(), py::arg("segmenter") = "masks",
-           py::arg("weights") = py::none(),
+           py::arg("weights") = py::none(), py::arg("map") = py::none(),
+           py::arg("save_map") = py::none(), py::arg("localize") = false,
+           py::arg("overwrite") = false,
            "config: settings file, as of mms run --config; None: the defaults.\n"
            "calibration: Calibration of the sensor; frames of recordings bring their own.\n"
            "settings: single ones, as {'static_map.voxel_size': 0.05}.\n"
            "segmenter: where masks come from: 'masks' (given ones), 'network' or 'none'.\n"
            "weights: network file in place of the default one.\n"
+           "map: file of an earlier map to localize in and to go on mapping.\n"
+           "save_map: file that `save_map` writes; None: `map`, if any.\n"
+           "localize: leaves `map` as it is. overwrite: replaces a file `save_map`.\n"
            "Raises ValueError, FileError, ConfigError, DataError.")
       .def("process", &Slam::process, py::arg("color"), py::arg("depth"), py::arg("stamp"),
            py::arg("masks") = py::none(),
@@ -298,6 +335,10 @@ void bind_slam(py::module_& module) {
       .def(
           "finish", [](Slam& slam) { slam.live().finish(); }, no_gil,
           "Completes the maps after the last frame.")
+      .def("save_map", &Slam::save_map,
+           "Writes the map file that was named at the beginning, once, after `finish`.\n"
+           "Returns whether there was anything to write. Raises FileError; an earlier map is as\n"
+           "before then.")
       .def(
           "trajectory",
           [](Slam& slam, bool corrected) { return slam.live().trajectory(corrected); },

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_options(const RunOptions& options, const SystemConfig& config) {
+void check_options(const MapFileOptions& options, const SystemConfig& config) {
   const std::string option = options.map.empty() ? "--save-map" : "--map";
   if (options.localize && options.map.empty()) {
     throw DataError("--localize", "needs a map", "--map FILE");
@@ -44,12 +44,12 @@ bool is_like(const CameraIntrinsics& a, const CameraIntrinsics& b) {
 
 }  // namespace
 
-RunMap::RunMap(const RunOptions& options, const Calibration* calibration,
-               const SystemConfig& config)
-    : name_(options.data), settings_(dump_config(config)) {
+RunMap::RunMap(const MapFileOptions& options, const SystemConfig& config) {
+  session_.name = options.recording;
+  session_.program = MMS_VERSION;
+  session_.settings = dump_config(config);
   if (options.map.empty() && options.save_map.empty() && !options.localize) return;
   check_options(options, config);
-  if (calibration != nullptr && calibration->camera) camera_ = *calibration->camera;
   if (options.localize) use_ = MapUse::kLocalizeOnly;
   path_ = options.save_map.empty() ? options.map : options.save_map;
   if (options.map.empty()) {
@@ -63,7 +63,9 @@ RunMap::RunMap(const RunOptions& options, const Calibration* calibration,
   }
 }
 
-void RunMap::load(SlamSystem& system, const MapFile::WarningHandler& warn) {
+void RunMap::load(SlamSystem& system, const Calibration* calibration,
+                  const MapFile::WarningHandler& warn) {
+  if (calibration != nullptr && calibration->camera) camera_ = *calibration->camera;
   const MapFile* file = earlier_ ? earlier_.get() : written_.get();
   if (file == nullptr || file->sessions().empty()) return;
   const MapSession& first = file->sessions().front();
@@ -78,7 +80,15 @@ void RunMap::load(SlamSystem& system, const MapFile::WarningHandler& warn) {
   system.restore(std::move(content), use_);
 }
 
-void RunMap::check(const FrameResult& frame) const {
+void RunMap::add(const FrameResult& frame) {
+  check_sensor(frame);
+  sessions_.resize(frame.session + std::size_t{1}, session_);
+  MapSession& session = sessions_.back();
+  if (session.frames++ == 0) session.begin = frame.odometry.stamp;
+  session.end = frame.odometry.stamp;
+}
+
+void RunMap::check_sensor(const FrameResult& frame) const {
   const bool is_scan = !frame.cloud.organised();
   if (!has_scans_ || frame.cloud.points.empty() || is_scan == *has_scans_) return;
   throw DataError(path_.string(),
@@ -87,8 +97,7 @@ void RunMap::check(const FrameResult& frame) const {
                   "make a map with this sensor: leave out --map, and --save-map FILE");
 }
 
-bool RunMap::save(const SlamSystem& system, const RunLog& log,
-                  const MapFile::WarningHandler& warn) {
+bool RunMap::save(const SlamSystem& system, const MapFile::WarningHandler& warn) {
   if (!written_) return false;
   const GlobalMap& map = system.global_map();
   if (map.records().empty() || map.records().back().session < map.earlier_sessions()) {
@@ -99,7 +108,7 @@ bool RunMap::save(const SlamSystem& system, const RunLog& log,
   const std::vector<StampedMap> maps = system.mapping().session_maps();
   for (std::uint32_t i = 0; i < maps.size(); ++i) {
     if (!map.session_of_run(i)) continue;
-    MapSession session = session_of(log, i);
+    MapSession session = sessions_.at(i);
     session.voxel_size = maps[i].voxel_size;
     if (!map.records().back().is_scan()) session.camera = camera_;
     written_->add_session(session, maps[i], map.records());
@@ -107,20 +116,6 @@ bool RunMap::save(const SlamSystem& system, const RunLog& log,
   written_->set_graph(map.poses(), map.loops());
   std::exchange(written_, nullptr)->commit();
   return true;
-}
-
-/// @param number  of the session, within the run
-MapSession RunMap::session_of(const RunLog& log, std::uint32_t number) const {
-  MapSession session;
-  session.name = name_;
-  session.program = MMS_VERSION;
-  session.settings = settings_;
-  for (const LoggedFrame& frame : log.frames()) {
-    if (frame.session != number) continue;
-    if (session.frames++ == 0) session.begin = frame.stamp;
-    session.end = frame.stamp;
-  }
-  return session;
 }
 
 }  // namespace mms

@@ -1,0 +1,48 @@
+"""Map files: made by one run, used by the next one."""
+import pytest
+
+import mms_slam
+from conftest import SCENE
+
+
+def run(tmp_path, **arguments):
+    """The last result of a run over the scene, after its map is saved."""
+    recording = mms_slam.Recording(SCENE)
+    slam = mms_slam.Slam(calibration=recording.calibration, **arguments)
+    for frame in recording:
+        result = slam.process_frame(frame)
+    slam.finish()
+    return result, slam.save_map()
+
+
+def test_map_of_a_run_is_used_by_the_next_one(mms, tmp_path):
+    path = tmp_path / "room.mmsmap"
+    result, saved = run(tmp_path, save_map=path)
+    assert saved and result.world_in_map is not None
+    assert "1 sessions" in mms("info", path) and "24 frames" in mms("info", path)
+    before = path.read_bytes()
+    localized, saved = run(tmp_path, map=path, localize=True)
+    assert not saved and path.read_bytes() == before
+    assert localized.world_in_map is not None
+    assert (localized.world_in_map @ localized.pose)[:3, 3] == pytest.approx(
+        result.pose[:3, 3], abs=0.02)
+    _, saved = run(tmp_path, map=path)
+    assert saved and "2 sessions" in mms("info", path)
+
+
+def test_no_map_is_saved_unless_one_is_named(tmp_path):
+    assert not run(tmp_path)[1]
+
+
+def test_wrong_map_files_are_named(tmp_path):
+    path = tmp_path / "a.mmsmap"
+    path.write_text("no map")
+    with pytest.raises(mms_slam.Error, match="a.mmsmap"):
+        mms_slam.Slam(map=path)
+    with pytest.raises(ValueError, match="save_map: .*exists"):
+        mms_slam.Slam(save_map=path)
+    with pytest.raises(ValueError, match="localize: needs a map"):
+        mms_slam.Slam(localize=True)
+    with pytest.raises(ValueError, match="save_map"):
+        mms_slam.Slam(map=path, save_map=tmp_path / "b.mmsmap", localize=True)
+    assert path.read_text() == "no map"
