@@ -62,29 +62,31 @@ std::vector<Plausibility> drop_impossible_masks(const std::vector<std::uint16_t>
 }  // namespace
 
 SemanticFusion::SemanticFusion(const FusionConfig& config)
-    : config_(config), depth_cloud_(config), memory_(config) {}
+    : config_(config), present_(config), depth_cloud_(config), memory_(config) {}
 
 LabeledCloud SemanticFusion::fuse(const Frame& frame, const Segmentation& segmentation) {
+  const std::optional<CameraIntrinsics>& camera = frame.calibration->camera;
+  if (camera) present_.stride = config_.stride_of(*camera);
   return frame.has_depth() ? fuse_depth(frame, segmentation) : fuse_scan(frame, segmentation);
 }
 
 LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& segmentation) {
   LabeledCloud cloud = depth_cloud_.build(frame);
-  if (config_.mode == FusionMode::kNone) return cloud;
+  if (present_.mode == FusionMode::kNone) return cloud;
   MaskImage mask = make_mask_image(segmentation, frame.depth.width(), frame.depth.height(),
-                                   config_.stride, config_.dilation);
-  if (config_.mode == FusionMode::kVision) {
+                                   present_.stride, present_.dilation);
+  if (present_.mode == FusionMode::kVision) {
     label_by_mask(mask.dilated.pixels(), segmentation.instances, cloud);
     mark_dynamic_pixels(mask.dilated, cloud);
     return cloud;
   }
   const std::vector<Plausibility> judged =
-      drop_impossible_masks(mask.raw.pixels(), segmentation.instances, config_, mask, cloud);
+      drop_impossible_masks(mask.raw.pixels(), segmentation.instances, present_, mask, cloud);
   std::vector<Instance> instances = segmentation.instances;
   memory_.recall(cloud, mask, instances);
   std::vector<DynamicObjects::Object> objects;
   if (!instances.empty()) {
-    objects = fuse_geometry(mask, instances, config_, cloud);
+    objects = fuse_geometry(mask, instances, present_, cloud);
     mark_dynamic_pixels(mask.raw, cloud);
     dilate(cloud.dynamic_pixels, mask.radius);
   }
@@ -94,21 +96,21 @@ LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& 
 }
 
 LabeledCloud SemanticFusion::fuse_scan(const Frame& frame, const Segmentation& segmentation) {
-  LabeledCloud cloud = build_scan_cloud(frame, config_);
+  LabeledCloud cloud = build_scan_cloud(frame, present_);
   const Calibration& calibration = *frame.calibration;
   const bool has_masks = calibration.camera && !segmentation.instances.empty();
-  if (config_.mode == FusionMode::kNone || !has_masks) return cloud;
+  if (present_.mode == FusionMode::kNone || !has_masks) return cloud;
   MaskImage mask = make_mask_image(segmentation, calibration.camera->width,
-                                   calibration.camera->height, config_.stride, config_.dilation);
-  PointMask covering = project_masks(cloud.points, mask, calibration, config_.stride);
-  if (config_.mode == FusionMode::kVision) {
+                                   calibration.camera->height, present_.stride, present_.dilation);
+  PointMask covering = project_masks(cloud.points, mask, calibration, present_.stride);
+  if (present_.mode == FusionMode::kVision) {
     label_by_mask(covering.dilated, segmentation.instances, cloud);
   } else {
-    drop_impossible_masks(covering.raw, segmentation.instances, config_, mask, cloud);
+    drop_impossible_masks(covering.raw, segmentation.instances, present_, mask, cloud);
     if (cloud.implausible_masks > 0) {
-      covering = project_masks(cloud.points, mask, calibration, config_.stride);
+      covering = project_masks(cloud.points, mask, calibration, present_.stride);
     }
-    fuse_scan_geometry(mask, covering, segmentation.instances, calibration, config_, cloud);
+    fuse_scan_geometry(mask, covering, segmentation.instances, calibration, present_, cloud);
   }
   return cloud;
 }

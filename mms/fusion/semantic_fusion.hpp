@@ -25,6 +25,7 @@ class SemanticFusion {
   LabeledCloud fuse_scan(const Frame& frame, const Segmentation& segmentation);
 
   FusionConfig config_;
+  FusionConfig present_;  ///< with the stride of the last images
   DepthCloudBuilder depth_cloud_;
   MaskMemory memory_;
 };

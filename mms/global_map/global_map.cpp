@@ -34,7 +34,7 @@ constexpr double kMaxNearbySigma = 0.15;
 /// each, then share no scans.
 constexpr double kScanPath = 20.0;
 
-/// [m]: distance along the floor of keyframes around a place that a user tells. Source: initial
+/// [m]: distance along the floor of keyframes around a place that a user gives. Source: initial
 /// choice; a click on a map may be that far off.
 constexpr double kMaxExpectedDistance = 2.0;
 
@@ -186,7 +186,7 @@ std::vector<std::size_t> GlobalMap::nearby(std::size_t end) const {
   return keyframes;
 }
 
-/// Keyframes of the map around a place that a user tells, whose height is not told.
+/// Keyframes of the map around a place that a user gives, whose height is not known.
 std::vector<std::size_t> GlobalMap::around(const Transform<Global, Sensor>& expected) const {
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t i = 0; i < records_.size(); ++i) {

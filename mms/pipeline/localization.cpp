@@ -34,7 +34,7 @@ constexpr Duration kSearchInterval = std::chrono::milliseconds(200);
 /// Source: nine of ten kidnapped cameras are relocalized within 1 s, if their place is known.
 constexpr Duration kSessionDelay = std::chrono::seconds(3);
 
-/// [s]: time for which the place that a user tells is searched for. Source: initial choice; people
+/// [s]: time for which the place that a user gives is searched for. Source: initial choice; people
 /// may cover the view for some seconds, and later the odometry has drifted.
 constexpr Duration kExpectationTime = std::chrono::seconds(10);
 
@@ -76,8 +76,8 @@ Localization::Localization(const SystemConfig& config)
 FrameResult Localization::localize(PerceivedFrame frame) {
   assert(thread_.is_owner());
   if (is_lost_for_long(frame.cloud.stamp, frame.features)) begin_session();
-  const auto told = closes_loops_ ? frame.expected_place : std::nullopt;
-  if (told) search_again(frame.cloud.stamp);
+  const auto given = closes_loops_ ? frame.expected_place : std::nullopt;
+  if (given) search_again(frame.cloud.stamp);
   FrameResult result;
   result.session = session_number_;
   result.stage_ms = frame.stage_ms;
@@ -95,8 +95,8 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     return estimate;
   });
   result.correction = corrections_.at(result.odometry.stamp);
-  if (told) {
-    expected_ = {result.odometry.stamp, *told * result.odometry.T_world_sensor.inverse()};
+  if (given) {
+    expected_ = {result.odometry.stamp, *given * result.odometry.T_world_sensor.inverse()};
   }
   result.expected_place = expected_place(result);
   result.warnings = odometry_.take_warnings();

@@ -59,7 +59,7 @@ class Localization {
 
   /// Where a user says that the sensor is.
   struct ExpectedPlace {
-    Timestamp stamp;  // of the frame that it was told with
+    Timestamp stamp;  // of the frame that it was given with
     Transform<Global, World> T_global_world;
   };
 

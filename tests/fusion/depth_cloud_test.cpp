@@ -46,6 +46,26 @@ TEST(DepthCloud, DepthOutOfRangeIsNoReturn) {
   EXPECT_EQ(DepthCloudBuilder(config).build(view.frame).labels[1000], PointLabel::kStatic);
 }
 
+TEST(DepthCloud, StrideFollowsTheSizeOfTheImagesUnlessItIsGiven) {
+  const auto stride_for = [](int width, int height, int given = 0) {
+    FusionConfig config;
+    config.stride = given;
+    CameraIntrinsics camera;
+    camera.width = width;
+    camera.height = height;
+    return config.stride_of(camera);
+  };
+  EXPECT_EQ(stride_for(160, 120), 1);
+  EXPECT_EQ(stride_for(320, 240), 1);
+  EXPECT_EQ(stride_for(424, 240), 1);
+  EXPECT_EQ(stride_for(512, 424), 2);
+  EXPECT_EQ(stride_for(640, 480), 2);
+  EXPECT_EQ(stride_for(848, 480), 2);
+  EXPECT_EQ(stride_for(1280, 720), 3);
+  EXPECT_EQ(stride_for(1920, 1080), 5);
+  EXPECT_EQ(stride_for(1920, 1080, 2), 2);
+}
+
 TEST(DepthCloud, AnyStrideGivesSameWall) {
   const View view = render(room());
   for (const int stride : {1, 3, 4}) {

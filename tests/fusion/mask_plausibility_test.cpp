@@ -116,8 +116,9 @@ Plausibility judged(const View& view, const Instance& instance) {
   const FusionConfig config;
   const LabeledCloud cloud = DepthCloudBuilder(config).build(view.frame);
   const Segmentation segmentation = segmentation_of(view, {instance});
-  const MaskImage mask = make_mask_image(segmentation, segmentation.width, segmentation.height,
-                                         config.stride, config.dilation);
+  const MaskImage mask =
+      make_mask_image(segmentation, segmentation.width, segmentation.height,
+                      config.stride_of(*view.frame.calibration->camera), config.dilation);
   return judge_masks(cloud, mask.raw.pixels(), segmentation.instances, config).front();
 }
 

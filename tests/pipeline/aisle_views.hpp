@@ -25,7 +25,6 @@ inline constexpr int kSteps = 20;  // frames from one end of the path to the oth
 inline std::vector<GlobalKeyframe> views_of(const SceneConfig& scene_config, int first, int end) {
   SimulatedScene scene(scene_config);
   SystemConfig config;
-  config.fusion.stride = 1;  // the images are half the usual size
   Perception perception(config, std::make_unique<MaskSegmenter>());
   std::vector<GlobalKeyframe> views;
   for (int i = first; i < end; ++i) {

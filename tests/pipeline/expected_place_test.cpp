@@ -20,7 +20,6 @@ constexpr int kEnd = 60;  // frames of the aisle, 10 a second
 
 std::unique_ptr<SlamSystem> make_system() {
   SystemConfig config;
-  config.fusion.stride = 1;  // the images are half the usual size
   return std::make_unique<SlamSystem>(config, std::make_unique<MaskSegmenter>());
 }
 

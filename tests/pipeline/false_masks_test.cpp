@@ -41,7 +41,6 @@ class FalseMasks final : public Segmenter {
 
 SlamSystem system_with(std::size_t begin, std::size_t end, double share, bool checked = true) {
   SystemConfig config;
-  config.fusion.stride = 1;
   config.mask_check.enabled = checked;
   return SlamSystem(config, std::make_unique<FalseMasks>(begin, end, share));
 }
@@ -95,7 +94,6 @@ TEST(FalseMasks, MakeNoTracks) {
 
 TEST(FalseMasks, AreBelievedByTheBaselines) {
   SystemConfig config;
-  config.fusion.stride = 1;
   config.fusion.mode = FusionMode::kVision;
   SlamSystem system(config, std::make_unique<FalseMasks>(3, 9, 0.5));
   for (std::size_t i = 0; i < 6; ++i) {

@@ -339,7 +339,6 @@ std::vector<FrameResult> carried_back(int threads) {
     return config;
   }());
   SystemConfig config;
-  config.fusion.stride = 1;
   SlamSystem system(config, std::make_unique<MaskSegmenter>());
   std::vector<Frame> frames;
   const auto add = [&](int i, bool dark) {
@@ -409,7 +408,6 @@ std::vector<FrameResult> drive(SlamSystem& system, int first, int end) {
 
 TEST(Relocalization, PoseInAnEarlierMapIsUnknownUntilItsPlaceIsRecognized) {
   SystemConfig config;
-  config.fusion.stride = 1;
   SlamSystem earlier(config, std::make_unique<MaskSegmenter>());
   const std::vector<FrameResult> before = drive(earlier, 0, 60);
   for (const FrameResult& result : before) {

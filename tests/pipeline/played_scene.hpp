@@ -41,7 +41,6 @@ inline const Frame& scene_frame(std::size_t index) {
 inline SlamSystem mask_system(FusionMode mode = FusionMode::kMultimodal) {
   SystemConfig config;
   config.fusion.mode = mode;
-  config.fusion.stride = 1;  // the images are half the usual size
   return SlamSystem(config, std::make_unique<MaskSegmenter>());
 }
 

@@ -58,7 +58,6 @@ Carried carried_away(int threads, Return back) {
   scene_config.hz = 10.0;
   SimulatedScene scene(scene_config);
   SystemConfig config;
-  config.fusion.stride = 1;
   run.system = std::make_unique<SlamSystem>(config, std::make_unique<MaskSegmenter>());
   std::size_t next = 0;
   AsyncPipeline({.threads = threads})

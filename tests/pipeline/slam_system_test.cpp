@@ -117,7 +117,6 @@ TEST(SlamSystem, TracksFastTurnsAtALowFrameRate) {
   config.turn_rate = 30.0;
   SimulatedScene shaken(config);
   SystemConfig system_config;
-  system_config.fusion.stride = 1;
   SlamSystem system(system_config, std::make_unique<NoneSegmenter>());
   for (int i = 0; i < 30; ++i) {
     const FrameResult result = system.process(shaken.render(i).frame);
@@ -145,7 +144,6 @@ TEST(SlamSystem, FindsMovingPeopleWithoutMasks) {
   walker.width = 320;
   SimulatedScene hall(walker);
   SystemConfig config;
-  config.fusion.stride = 1;
   SlamSystem system(config, std::make_unique<NoneSegmenter>());
   std::size_t people = 0;
   std::size_t found = 0;

@@ -84,7 +84,7 @@ TEST(Map, AfterALossInAnUnknownPlaceTheNewSessionIsWrittenToo) {
   const TempFolder folder;
   const Outcome run = run_day(
       folder, "sim:warehouse_loop?start=17&dark_from=1.5&dark_for=3&hz=10&width=320&duration=9.5",
-      "out", {"--set", "fusion.stride=1", "--save-map", "a.mmsmap", "--keep-journal"});
+      "out", {"--save-map", "a.mmsmap", "--keep-journal"});
   expect_success(run);
   EXPECT_NE(run.err.find("session 1 begins"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("session 1 has no place in the map"), std::string::npos) << run.err;

@@ -54,8 +54,8 @@ struct Return {
 template <int Stride>
 class Block {
  public:
-  Block(const FusionConfig& config)
-      : stride_(Stride > 0 ? Stride : config.stride),
+  Block(const FusionConfig& config, int stride)
+      : stride_(stride),
         min_(static_cast<float>(config.min_range)),
         max_(static_cast<float>(config.max_range)),
         noise_(config.noise.depth) {}
@@ -141,7 +141,8 @@ void fill_cloud(const Frame& frame, const Block<Stride>& block,
 void DepthCloudBuilder::prepare(const CameraIntrinsics& camera) {
   if (camera == full_camera_ && !ray_table_.empty()) return;
   full_camera_ = camera;
-  camera_ = downscaled(camera, config_.stride);
+  stride_ = config_.stride_of(camera);
+  camera_ = downscaled(camera, stride_);
   ray_table_ = CameraModel(camera_).ray_table();
 }
 
@@ -159,10 +160,10 @@ LabeledCloud DepthCloudBuilder::build(const Frame& frame) {
   cloud.cluster.assign(ray_table_.size(), std::int16_t{-1});
   cloud.colors.resize(frame.color.empty() ? 0 : ray_table_.size());
   cloud.dynamic_pixels = Image<std::uint8_t>(cloud.width, cloud.height);
-  if (config_.stride == 2) {
-    fill_cloud(frame, Block<2>(config_), ray_table_, cloud);
+  if (stride_ == 2) {
+    fill_cloud(frame, Block<2>(config_, stride_), ray_table_, cloud);
   } else {
-    fill_cloud(frame, Block<0>(config_), ray_table_, cloud);
+    fill_cloud(frame, Block<0>(config_, stride_), ray_table_, cloud);
   }
   return cloud;
 }

@@ -24,6 +24,7 @@ class DepthCloudBuilder {
   void prepare(const CameraIntrinsics& camera);
 
   FusionConfig config_;
+  int stride_ = 0;                          ///< of the ray table
   CameraIntrinsics full_camera_;            ///< of the image the ray table belongs to
   CameraIntrinsics camera_;                 ///< of the cloud
   std::vector<Eigen::Vector3f> ray_table_;  ///< z = 1, of the cloud's pixels

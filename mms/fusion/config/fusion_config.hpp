@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "mms/core/calibration.hpp"
 #include "mms/core/config_visitor.hpp"
 #include "mms/core/segmentation.hpp"
 #include "mms/geometry/sensor_noise.hpp"
@@ -50,7 +51,8 @@ struct ObjectSize {
 struct FusionConfig {
   FusionMode mode = FusionMode::kMultimodal;
 
-  int stride = 2;          ///< image pixels a side of the block that makes one cloud point
+  int stride = 0;          ///< image pixels a side of the block that makes one cloud point; 0: by
+                           ///< the size of the images, see `stride_of`
   double min_range = 0.3;  ///< [m]
   double max_range = 10.0;
 
@@ -82,6 +84,10 @@ struct FusionConfig {
   PlaneRemoval planes;
   std::array<ObjectSize, kObjectClassCount> sizes{
       {{.length = 2.3, .width = 1.2, .depth = 1.0}, {.length = 4.0, .width = 2.5, .depth = 1.5}}};
+
+  /// Stride for images of a camera: that of the settings, or the least with which they have no more
+  /// points than the method was tuned for.
+  int stride_of(const CameraIntrinsics& camera) const;
 
   void visit(ConfigVisitor& v);
 };
