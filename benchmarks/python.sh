@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
-# What a frame costs more in Python than in C++: the time of a call in Python without that of the
-# stages in C++, which the result brings. That is more than the bindings add, since C++ needs a part
-# of it, too. Loop closure is off, which no stage counts.
+# What a frame costs more in Python than in C++: the time of a call without that of the stages, which
+# the result brings, in both. Loop closure is off, which no stage counts. `process` copies the images,
+# `process_frame` and C++ take frames that exist.
 # usage: benchmarks/python.sh [WIDTH [FRAMES]]   images of WIDTH x 3/4 WIDTH (640, 300 frames)
 #   BUILD  build folder (build/release)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+if [ -x "${BUILD:-build/release}/benchmarks/mms_frame_cost" ]; then
+  "${BUILD:-build/release}/benchmarks/mms_frame_cost" "sim:stop_and_go?frames=${2:-300}&width=${1:-640}"
+fi
 export PYTHONPATH="${BUILD:-build/release}/python"
 /usr/bin/python3 - "${1:-640}" "${2:-300}" << 'PYTHON'
 import sys
