@@ -64,6 +64,7 @@ TEST(DepthCloud, StrideFollowsTheSizeOfTheImagesUnlessItIsGiven) {
   EXPECT_EQ(stride_for(1280, 720), 3);
   EXPECT_EQ(stride_for(1920, 1080), 5);
   EXPECT_EQ(stride_for(1920, 1080, 2), 2);
+  EXPECT_GT(stride_for(100000, 100000), 300) << "more pixels than an int counts";
 }
 
 TEST(DepthCloud, AnyStrideGivesSameWall) {

@@ -1,5 +1,6 @@
 #include "mms/fusion/config/fusion_config.hpp"
 
+#include <cstdint>
 #include <string_view>
 
 namespace mms {
@@ -7,14 +8,16 @@ namespace {
 
 /// [-]: points of a cloud whose stride the settings leave open. Source: images of 848x480 with a
 /// stride of 2 have 101,760; the method is tuned for 76,800, of 640x480 with a stride of 2.
-constexpr int kMaxCloudPoints = 110000;
+constexpr std::int64_t kMaxCloudPoints = 110000;
 
 }  // namespace
 
 int FusionConfig::stride_of(const CameraIntrinsics& camera) const {
   if (stride > 0) return stride;
+  const std::int64_t width = camera.width;  // a calibration may claim any size
+  const std::int64_t height = camera.height;
   int automatic = 1;
-  while ((camera.width / automatic) * (camera.height / automatic) > kMaxCloudPoints) ++automatic;
+  while ((width / automatic) * (height / automatic) > kMaxCloudPoints) ++automatic;
   return automatic;
 }
 
