@@ -105,21 +105,21 @@ class Variables {
   std::map<std::string, std::string> values_;
 };
 
-/// Two processes on this machine with the variables of torchrun.
+/// One of two processes on this machine, with the variables of torchrun.
+std::unique_ptr<RunningMms> start_training(const fs::path& folder, int rank, int port) {
+  const Variables variables({{"WORLD_SIZE", "2"},
+                             {"RANK", std::to_string(rank)},
+                             {"MASTER_ADDR", "127.0.0.1"},
+                             {"MASTER_PORT", std::to_string(port)}});
+  const fs::path own = folder / std::to_string(rank);  // for what it prints
+  fs::create_directories(own);
+  return std::make_unique<RunningMms>(
+      own,
+      std::vector<std::string>{"train", "-c", "../train.yaml", "-o", "../out", "--threads", "1"});
+}
+
 std::array<std::unique_ptr<RunningMms>, 2> two_trainings(const fs::path& folder, int port) {
-  std::array<std::unique_ptr<RunningMms>, 2> both;
-  for (std::size_t rank = 0; rank < 2; ++rank) {
-    const Variables variables({{"WORLD_SIZE", "2"},
-                               {"RANK", std::to_string(rank)},
-                               {"MASTER_ADDR", "127.0.0.1"},
-                               {"MASTER_PORT", std::to_string(port)}});
-    const fs::path own = folder / std::to_string(rank);  // for what it prints
-    fs::create_directories(own);
-    both[rank] = std::make_unique<RunningMms>(
-        own,
-        std::vector<std::string>{"train", "-c", "../train.yaml", "-o", "../out", "--threads", "1"});
-  }
-  return both;
+  return {start_training(folder, 0, port), start_training(folder, 1, port)};
 }
 
 constexpr int kFirstPort = 20000;  // below those that systems give to clients
@@ -148,6 +148,26 @@ TEST(Train, TwoProcessesTrainTogether) {
   expect_in("weights: ../out/weights.safetensors", first.out);
   EXPECT_EQ(second.out, "");
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "out/weights.safetensors"));
+}
+
+/// Both the one that listens and the one that looks for it.
+TEST(Train, SignalEndsWaitForOtherProcesses) {
+  if (!kHasTraining) GTEST_SKIP() << "the program was built without libtorch";
+  const TempFolder folder;
+  folder.write("train.yaml", kConfig);
+  for (const int rank : {0, 1}) {
+    SCOPED_TRACE(rank);
+    const auto process = start_training(folder.path(), rank, port_of_test());
+    const fs::path printed = folder.path() / std::to_string(rank) / ".stderr";
+    ASSERT_TRUE(wait_until([&] {
+      return fs::exists(printed) && read_file(printed).find("waiting for") != std::string::npos;
+    }));
+    process->send(SIGINT);
+    const Outcome outcome = process->wait();
+    EXPECT_EQ(outcome.exit_code, 130);
+    expect_in("interrupted: not all processes have started", outcome.err);
+    EXPECT_FALSE(fs::exists(folder.path() / "out"));
+  }
 }
 
 /// A process is killed: the other one says so, and the training continues from the checkpoint.

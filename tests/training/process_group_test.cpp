@@ -107,6 +107,17 @@ TEST(ProcessGroup, ErrorSaysThatOthersDidNotStart) {
             message_of<Error>([&] { ProcessGroup group(place); }));
 }
 
+/// The first process waits for the others, the second one for the first.
+TEST(ProcessGroup, WaitForOthersCanBeStopped) {
+  for (const ProcessPlace& place : two_places()) {
+    SCOPED_TRACE(place.rank);
+    int asked = 0;
+    expect_in("the wait was stopped",
+              message_of<Error>([&] { ProcessGroup group(place, [&] { return ++asked == 3; }); }));
+    EXPECT_EQ(asked, 3);
+  }
+}
+
 /// Losses of each step, and the averaged weights at the end.
 struct Trained {
   std::vector<torch::Tensor> losses;

@@ -1,8 +1,13 @@
 #include "mms/training/processes/process_group.hpp"
 
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
 #include "mms/core/error.hpp"
 
 #ifdef MMS_WITH_GLOO
+#include <boost/asio/ip/tcp.hpp>
 #include <torch/csrc/distributed/c10d/PrefixStore.hpp>
 #include <torch/csrc/distributed/c10d/ProcessGroupGloo.hpp>
 #include <torch/csrc/distributed/c10d/TCPStore.hpp>
@@ -34,20 +39,43 @@ std::string reason_of(const std::exception& fault) {
   return text;
 }
 
-c10::intrusive_ptr<c10d::Store> meet(const ProcessPlace& place) {
+constexpr std::chrono::milliseconds kPause{100};  ///< between two questions for others
+constexpr std::chrono::seconds kAttempt{1};       ///< longest one to connect
+
+/// Whether a process listens there. torch's own attempts print lines and cannot be stopped.
+bool listens(const ProcessPlace& place) {
+  boost::asio::ip::tcp::iostream stream;
+  stream.expires_after(kAttempt);
+  stream.connect(place.address, std::to_string(place.port));
+  return stream.good();
+}
+
+/// Waits until `condition()`. @throws std::runtime_error with the reason
+template <typename Condition>
+void wait_for(const Condition& condition, std::chrono::steady_clock::time_point end,
+              const std::function<bool()>& stop, const char* late) {
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() >= end) throw std::runtime_error(late);
+    if (stop && stop()) throw std::runtime_error("the wait was stopped");
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+c10::intrusive_ptr<c10d::Store> meet(const ProcessPlace& place, const std::function<bool()>& stop) {
+  const auto end = std::chrono::steady_clock::now() + place.wait;
   c10d::TCPStoreOptions options;
   options.port = static_cast<std::uint16_t>(place.port);
   options.isServer = place.rank == 0 && !place.hosted_by_launcher;
   options.numWorkers = static_cast<std::size_t>(place.size);
   options.waitWorkers = false;  // torch would go on silently without those that are missing
   options.timeout = place.wait;
-  c10::intrusive_ptr<c10d::Store> tcp = c10::make_intrusive<c10d::TCPStore>(place.address, options);
-  c10::intrusive_ptr<c10d::Store> store =
-      c10::make_intrusive<c10d::PrefixStore>("mms/" + place.prefix, tcp);
+  if (!options.isServer) wait_for([&] { return listens(place); }, end, stop, "no process listens");
+  c10::intrusive_ptr<c10d::Store> store = c10::make_intrusive<c10d::PrefixStore>(
+      "mms/" + place.prefix, c10::make_intrusive<c10d::TCPStore>(place.address, options));
   store->set(std::to_string(place.rank), std::vector<std::uint8_t>{1});
   std::vector<std::string> all;
   for (int rank = 0; rank < place.size; ++rank) all.push_back(std::to_string(rank));
-  store->wait(all, place.wait);
+  wait_for([&] { return store->check(all); }, end, stop, "some have not started");
   return store;
 }
 
@@ -66,10 +94,10 @@ auto device_for(const ProcessPlace& place) {
 }  // namespace
 
 struct ProcessGroup::Connection {
-  explicit Connection(const ProcessPlace& place) {
+  Connection(const ProcessPlace& place, const std::function<bool()>& stop) {
     const auto options = Gloo::Options::create(place.answer);
     options->devices.push_back(device_for(place));
-    gloo = c10::make_intrusive<Gloo>(meet(place), place.rank, place.size, options);
+    gloo = c10::make_intrusive<Gloo>(meet(place, stop), place.rank, place.size, options);
   }
 
   /// Does something together, and waits for it.
@@ -96,11 +124,13 @@ struct ProcessGroup::Connection {
 
 ProcessGroup::ProcessGroup() = default;
 
-ProcessGroup::ProcessGroup(const ProcessPlace& place) : place_(place) {
+ProcessGroup::ProcessGroup(const ProcessPlace& place,
+                           [[maybe_unused]] const std::function<bool()>& stop)
+    : place_(place) {
   if (place.size == 1) return;
 #ifdef MMS_WITH_GLOO
   try {
-    connection_ = std::make_unique<Connection>(place);
+    connection_ = std::make_unique<Connection>(place, stop);
   } catch (const std::exception& fault) {
     throw Error(name_of(place),
                 "not all processes have met at " + host_and_port(place) + ": " + reason_of(fault),

@@ -2,6 +2,7 @@
 
 #include <torch/types.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,8 +18,9 @@ class ProcessGroup {
   /// One process alone.
   ProcessGroup();
   /// Waits until all have started.
+  /// @param stop  asked several times a second; true ends the wait by an Error
   /// @throws ConfigError if this build has no Gloo; Error if the others cannot be reached
-  explicit ProcessGroup(const ProcessPlace& place);
+  explicit ProcessGroup(const ProcessPlace& place, const std::function<bool()>& stop = {});
   ~ProcessGroup();
   ProcessGroup(const ProcessGroup&) = delete;
   ProcessGroup& operator=(const ProcessGroup&) = delete;

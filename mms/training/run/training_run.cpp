@@ -54,13 +54,13 @@ std::vector<std::string> training_classes() {
 }
 
 TrainingRun::TrainingRun(const TrainingConfig& config, const fs::path& folder, int threads,
-                         const ProcessPlace& place)
+                         const ProcessPlace& place, const std::function<bool()>& stop)
     : config_(config),
       folder_(folder),
       config_text_(dump_config(config)),
       group_([&] {
         check(config, place);
-        return ProcessGroup(place);
+        return ProcessGroup(place, stop);
       }()),
       trainer_([&] {
         at::set_num_threads(threads > 0 ? threads : cores_of(place));

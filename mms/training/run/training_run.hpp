@@ -35,11 +35,12 @@ class TrainingRun {
   /// Continues the training in the folder, if there is one.
   /// @param threads  of the network; 0: one per core
   /// @param place    of this process among those of the training
+  /// @param stop     asked while this process waits for the others; true ends that by an Error
   /// @throws ConfigError, DataError, FileError for settings without data, a folder with a training
   /// with other settings, or files that cannot be read or written; Error if other processes do not
   /// start or end too early, also in `train`.
   TrainingRun(const TrainingConfig& config, const std::filesystem::path& folder, int threads,
-              const ProcessPlace& place = {});
+              const ProcessPlace& place = {}, const std::function<bool()>& stop = {});
 
   /// @param callback  returning false ends the training early, of all processes, after a checkpoint
   void on_event(std::function<bool(const TrainingEvent&)> callback);

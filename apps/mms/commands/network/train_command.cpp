@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "apps/mms/commands/commands.hpp"
 #include "apps/mms/console/common_options.hpp"
@@ -10,6 +11,7 @@
 #include "apps/mms/console/thread_limit.hpp"
 #include "apps/mms/console/training_progress.hpp"
 #include "apps/mms/console/warnings.hpp"
+#include "mms/core/error.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/training/run/training_run.hpp"
 
@@ -29,11 +31,18 @@ void train(const TrainArguments& arguments) {
   const InterruptGuard interrupt;
   TrainingProgress progress;
   const ProcessPlace place = process_place();
-  if (place.size > 1 && place.rank == 0) {
+  if (place.size > 1) {
     fmt::print(stderr, "waiting for all of {} processes at {}:{}\n", place.size, place.address,
                place.port);
   }
-  TrainingRun run(config, arguments.output, arguments.threads, place);
+  std::optional<TrainingRun> begun;
+  try {
+    begun.emplace(config, arguments.output, arguments.threads, place, InterruptGuard::requested);
+  } catch (const Error&) {
+    if (!InterruptGuard::requested()) throw;
+    throw Interrupted("not all processes have started, nothing was trained");
+  }
+  TrainingRun& run = *begun;
   run.on_event([&](const TrainingEvent& event) {
     if (run.is_first()) progress.show(event);
     return !InterruptGuard::requested();
