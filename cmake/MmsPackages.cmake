@@ -69,9 +69,10 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 # The module is for one version of Python; mms-slam has the weights of the network.
 if(TARGET mms_python)
-  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  get_target_property(minor mms_python MMS_PYTHON_MINOR)
+  math(EXPR next_minor "${minor} + 1")
   string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-         "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy, "
+         "python3 (>= 3.${minor}), python3 (<< 3.${next_minor}), python3-numpy, "
          "mms-slam (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 endif()
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
