@@ -47,6 +47,12 @@ constexpr std::size_t kMaxExpected = 6;
 /// [-]: keyframes beside one of them up to which none is another candidate. Source: about 0.5 m.
 constexpr std::size_t kExpectedSpacing = 2;
 
+/// [-]: visits of a place whose views are kept. Source: memory; people may cover much of a view.
+constexpr std::size_t kMaxVisits = 3;
+
+/// [-]: keyframes between those of two visits of a place. Source: initial choice; 2 m of path.
+constexpr std::size_t kBetweenVisits = 8;
+
 /// What is kept of a keyframe at a place that the map has.
 KeyframeRecord pose_of(const KeyframeRecord& record) {
   KeyframeRecord pose;
@@ -133,13 +139,40 @@ std::vector<Loop> GlobalMap::add(KeyframeRecord record,
   const bool is_in_map = std::any_of(accepted.begin(), accepted.end(), [&](const Loop& loop) {
     return graph_.is_fixed(loop.candidate);
   });
-  // The map has the place already: the memory of localization does not grow.
-  if (is_in_map) record = pose_of(record);
+  // The map has the place already: its memory grows with places, not with time.
+  if (is_in_map || has_enough_views(record, accepted)) record = pose_of(record);
   recognizer_.add(record.keypoints.descriptors);
   records_.push_back(std::move(record));
   relocalizer_.reset();
   graph_.solve_if_needed(accepted);
   return accepted;
+}
+
+/// Whether the views of several visits of the present session show the place of the next keyframe.
+/// Those of other sessions do not count: views of each tell what changed between them.
+/// @param accepted  loops that were accepted with it
+bool GlobalMap::has_enough_views(const KeyframeRecord& record,
+                                 const std::vector<Loop>& accepted) const {
+  const auto own = std::find_if(accepted.begin(), accepted.end(),
+                                [&](const Loop& loop) { return loop.query == records_.size(); });
+  if (own == accepted.end()) return false;
+  const KeyframeConfig& same = record.is_scan() ? config_.scan_keyframes : config_.keyframes;
+  const Eigen::Isometry3d T_sensor_global =
+      (graph_.poses()[own->candidate] * own->T_candidate_query).inverse();
+  std::size_t visits = 0;
+  std::size_t next = 0;  // the first keyframe that is of another visit
+  const std::size_t end = graph_.first_recent(config_.min_path);
+  for (std::size_t i = 0; i < end; ++i) {
+    if (records_[i].session != session() || records_[i].is_pose_only()) continue;
+    const Eigen::Isometry3d relative = T_sensor_global * graph_.poses()[i];
+    if (relative.translation().norm() > same.translation ||
+        se3::angle(relative) * 180.0 / std::numbers::pi > same.rotation) {
+      continue;
+    }
+    if (i >= next) ++visits;
+    next = i + kBetweenVisits;
+  }
+  return visits >= kMaxVisits;
 }
 
 /// Joins a session to the place where a relocalization began it.

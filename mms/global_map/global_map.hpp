@@ -147,6 +147,7 @@ class GlobalMap {
   void describe_scan(const GlobalKeyframe& keyframe, KeyframeRecord& record);
   std::vector<Eigen::Isometry3d> poses_in_world() const;
   bool may_match(std::size_t candidate) const;
+  bool has_enough_views(const KeyframeRecord& record, const std::vector<Loop>& accepted) const;
   std::vector<std::size_t> nearby(std::size_t end) const;
   std::vector<std::size_t> around(const Transform<Global, Sensor>& expected) const;
   std::vector<Loop> find_loop(const KeyframeRecord& record,

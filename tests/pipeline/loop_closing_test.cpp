@@ -168,6 +168,24 @@ TEST(LoopClosing, WithoutLeastPathAKeyframeIsNoCandidateOfItself) {
   for (const Loop& loop : map.loops()) EXPECT_LT(loop.candidate, loop.query);
 }
 
+/// Five laps; the way back from the end to the start is not seen.
+TEST(LoopClosing, OfManyVisitsTheViewsOfThreeAreKept) {
+  Visit visit;
+  std::vector<int> views_of_lap;
+  for (int lap = 0; lap < 5; ++lap) {
+    for (int i = 0; i < kSteps; ++i) {
+      visit.add(views()[static_cast<std::size_t>(i)], Eigen::Isometry3d::Identity());
+    }
+    const auto first = visit.map.records().begin() + lap * kSteps;
+    views_of_lap.push_back(static_cast<int>(std::count_if(
+        first, first + kSteps, [](const KeyframeRecord& r) { return !r.is_pose_only(); })));
+  }
+  for (int lap = 0; lap < 3; ++lap) EXPECT_EQ(views_of_lap[static_cast<std::size_t>(lap)], kSteps);
+  EXPECT_LE(views_of_lap[3], kSteps / 3);
+  EXPECT_LE(views_of_lap[4], kSteps / 3);
+  EXPECT_LT(visit.largest_error(visit.map.poses()), 0.03);
+}
+
 TEST(LoopClosing, EqualKeyframesGiveEqualPoses) {
   const Visit a = there_and_back(0.005);
   const Visit b = there_and_back(0.005);
