@@ -122,7 +122,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, handler);
   if (options_.mcap) recorder_ = std::make_unique<RunRecorder>(folder, handler);
   log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
-                                  config_.dynamic_map);
+                                  config_.dynamic_map, folder);
   observer.on_start(run_heading(options_, *source_, config_, frames_, folder), frames_);
   for (const std::string& warning : of_settings) warn(warning, observer);
   map_.load(system_, source_->calibration().get(), handler);
@@ -140,7 +140,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   log_->finish(source_->skipped(), source_->dropped(), pipeline, system_);
   warn_if_not_localized(observer);
   warn_of_sessions_outside(observer);
-  if (log_->frames().empty()) {
+  if (log_->size() == 0) {
     throw DataError(options_.data,
                     fmt::format("none of its {} frames could be processed", source_->size()),
                     "see the warnings above; mms info DATA describes the recording");
@@ -190,13 +190,13 @@ void SlamRun::check_lost() {
   constexpr std::size_t kMinFrames = 50;
   constexpr double kMinTime = 5.0;    // [s]; cameras are covered or shaken for shorter
   constexpr double kMaxShare = 0.95;  // of lost frames
-  const auto& frames = log_->frames();
-  if (frames.back().status == Status::kLost) ++lost_;
-  if (gave_up_ || frames.size() < kMinFrames || source_->size() == FrameSource::kEndless) return;
-  if (to_seconds(frames.back().stamp - frames.front().stamp) < kMinTime) return;
-  if (static_cast<double>(lost_) < kMaxShare * static_cast<double>(frames.size())) return;
-  failure_ = fmt::format("{} of its first {} frames were lost, so the run ended there", lost_,
-                         frames.size());
+  const std::size_t frames = log_->size();
+  if (log_->last().status == Status::kLost) ++lost_;
+  if (gave_up_ || frames < kMinFrames || source_->size() == FrameSource::kEndless) return;
+  if (to_seconds(log_->last().stamp - log_->first().stamp) < kMinTime) return;
+  if (static_cast<double>(lost_) < kMaxShare * static_cast<double>(frames)) return;
+  failure_ =
+      fmt::format("{} of its first {} frames were lost, so the run ended there", lost_, frames);
   gave_up_ = true;
 }
 
@@ -216,7 +216,7 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   if (sink_) sink_(processed, system_);
   observer.on_frame(*log_);
   if (!view_) return;
-  view_->show(std::move(processed), log_->frames().back().interval_ms, std::move(shown));
+  view_->show(std::move(processed), log_->last().interval_ms, std::move(shown));
 }
 
 void SlamRun::warn_of_losses(const Processed& processed, RunObserver& observer) {

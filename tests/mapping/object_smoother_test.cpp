@@ -93,6 +93,31 @@ TEST(ObjectSmoother, ReturnsEveryFrameOnceInOrder) {
   }
 }
 
+/// Whether the frames are taken all at the end or as soon as later ones do not change them.
+TEST(ObjectSmoother, TakenFramesAreTheSame) {
+  const DynamicMapConfig config;
+  const auto tracked = stopping_object(7, 100, config);
+  const ObjectHistory whole = smoothed(tracked, config);
+  ObjectSmoother smoother(config);
+  ObjectHistory parts;
+  const auto add = [&](ObjectHistory frames) {
+    parts.insert(parts.end(), frames.begin(), frames.end());
+    return frames.size();
+  };
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    smoother.add(stamp_of(static_cast<int>(i)), {tracked[i]});
+    taken += add(smoother.take_settled());
+  }
+  EXPECT_GT(taken, tracked.size() / 4);
+  add(smoother.history());
+  ASSERT_EQ(parts.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(parts[i].stamp, whole[i].stamp);
+    EXPECT_EQ(parts[i].objects[0].center(), whole[i].objects[0].center());
+  }
+}
+
 TEST(ObjectSmoother, MotionStateAgreesWithVelocity) {
   const DynamicMapConfig config;
   for (const ObjectBox& box : boxes_of(smoothed(stopping_object(1, 100, config), config))) {

@@ -39,7 +39,7 @@ void Progress::on_start(const std::vector<std::string>& heading, std::size_t fra
 }
 
 void Progress::on_frame(const RunLog& log) {
-  if (!quiet_ && status_.due(log.frames().size() >= total_)) status_.show(line(log));
+  if (!quiet_ && status_.due(log.size() >= total_)) status_.show(line(log));
 }
 
 void Progress::on_warning(const std::string& message) {
@@ -53,17 +53,17 @@ void Progress::on_end() {
 
 std::string Progress::line(const RunLog& log) const {
   const std::chrono::duration<double> elapsed = Clock::now() - start_;
-  const std::size_t done = log.frames().size();
+  const std::size_t done = log.size();
   const double rate = static_cast<double>(done) / elapsed.count();
   if (total_ == FrameSource::kEndless) {
-    const auto& latency = log.frames().back().latency_ms;
+    const auto& latency = log.last().latency_ms;
     return fmt::format("frame {}  {:.1f} Hz  {}{}  {}", done, rate,
                        latency ? fmt::format("latency {:.0f} ms  ", *latency) : "",
-                       to_string(log.frames().back().status), objects_text(log.objects_now()));
+                       to_string(log.last().status), objects_text(log.objects_now()));
   }
   return fmt::format("frame {}/{}  {:.1f} Hz  {} left  {}{}", done, total_, rate,
                      duration_text(static_cast<double>(total_ - done) / rate),
-                     to_string(log.frames().back().status), objects_text(log.objects_now()));
+                     to_string(log.last().status), objects_text(log.objects_now()));
 }
 
 }  // namespace mms

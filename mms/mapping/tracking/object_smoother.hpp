@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "mms/core/object_box.hpp"
@@ -22,7 +23,10 @@ class ObjectSmoother {
   /// kept, but does not improve those before it.
   void add(Timestamp stamp, const std::vector<TrackedObject>& objects);
 
-  /// All frames so far.
+  /// The frames that later ones do not change any more, but those that were taken before.
+  ObjectHistory take_settled() { return std::exchange(settled_, {}); }
+
+  /// All frames so far, but those that were taken.
   ObjectHistory history() const;
 
  private:

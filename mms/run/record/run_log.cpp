@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 #include "mms/evaluation/scores/statistics.hpp"
@@ -33,27 +32,31 @@ bool is_in_map(const FrameResult& result) {
 
 }  // namespace
 
-double LoggedFrame::stages_ms() const {
-  return std::accumulate(stage_ms.begin(), stage_ms.end(), read_ms);
-}
-
-RunLog::RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects)
-    : truth_(std::move(truth)), smoother_(objects), compare_masks_(compare_masks) {}
+RunLog::RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects,
+               const std::filesystem::path& folder)
+    : truth_(std::move(truth)),
+      frame_log_(folder),
+      smoother_(objects),
+      smoothed_log_(folder),
+      live_log_(folder),
+      compare_masks_(compare_masks) {}
 
 void RunLog::add(const Processed& processed) {
   const FrameResult& result = processed.result;
   const Clock::time_point now = Clock::now();
   const std::chrono::duration<double, std::milli> interval = now - last_;
   last_ = now;
-  frames_.push_back({processed.frame.name, processed.frame.stamp, processed.frame.index,
-                     result.session, result.odometry.T_world_sensor, result.odometry.status,
-                     result.keyframe, result.relocalized, result.is_searching(), is_in_map(result),
-                     result.dynamic_share, result.overruled_share, result.cloud.implausible_masks,
-                     processed.read_ms, interval.count(), result.stage_ms, processed.latency_ms});
+  frame_log_.add({processed.frame.stamp, processed.frame.index, result.session,
+                  result.odometry.T_world_sensor, result.odometry.status, result.keyframe,
+                  result.relocalized, result.is_searching(), is_in_map(result),
+                  result.dynamic_share, result.overruled_share, result.cloud.implausible_masks,
+                  processed.read_ms, interval.count(), result.stage_ms, processed.latency_ms});
   places_.resize(result.session + std::size_t{1});
   smoother_.add(processed.frame.stamp, result.objects);
-  ObjectFrame& seen = live_objects_.emplace_back(ObjectFrame{processed.frame.stamp, {}});
-  for (const TrackedObject& object : result.objects) seen.objects.push_back(object.box);
+  for (const ObjectFrame& settled : smoother_.take_settled()) smoothed_log_.add(settled);
+  objects_now_ = {processed.frame.stamp, {}};
+  for (const TrackedObject& object : result.objects) objects_now_.objects.push_back(object.box);
+  live_log_.add(objects_now_);
   has_image_ = has_image_ || result.cloud.organised();
   keep_picture(processed);
   if (!compare_masks_ || processed.frame.mask.empty()) return;
@@ -64,7 +67,7 @@ void RunLog::add(const Processed& processed) {
 void RunLog::keep_picture(const Processed& processed) {
   // Evenly distributed over a run of unknown length: if there are too many, every second one is
   // removed.
-  if ((frames_.size() - 1) % picture_stride_ != 0 || !processed.result.cloud.organised()) return;
+  if ((size() - 1) % picture_stride_ != 0 || !processed.result.cloud.organised()) return;
   pictures_.push_back({fmt::format("{} ({:.0f} % dynamic)", processed.frame.name,
                                    100.0 * processed.result.dynamic_share),
                        draw_overlay(processed.result.cloud)});
@@ -78,6 +81,7 @@ void RunLog::keep_picture(const Processed& processed) {
 void RunLog::finish(std::size_t skipped, std::size_t dropped, const AsyncPipeline& pipeline,
                     const SlamSystem& system) {
   dropped += pipeline.dropped();
+  frames_ = frame_log_.read();
   sum_up_times();
   sum_up_latency(dropped, pipeline);
   sum_up_accuracy();
@@ -92,7 +96,8 @@ void RunLog::finish(std::size_t skipped, std::size_t dropped, const AsyncPipelin
     metrics_.dynamic_share += frame.dynamic_share / static_cast<double>(frames_.size());
   }
   metrics_.tracks = system.dynamic_map().confirmed();
-  objects_ = smoother_.history();
+  for (const ObjectFrame& settled : smoother_.history()) smoothed_log_.add(settled);
+  objects_ = smoothed_log_.read();
   if (are_corrected(places_)) move_objects();
 }
 
@@ -195,7 +200,7 @@ void RunLog::compare_objects(const ObjectHistory& truth) {
     return evaluate_tracking(truth, transformed(objects, T->inverse()), truth_);
   };
   metrics_.objects = compare(objects_, corrected_trajectory());
-  metrics_.live_objects = compare(live_objects_, trajectory());
+  metrics_.live_objects = compare(live_log_.read(), trajectory());
 }
 
 void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map) {

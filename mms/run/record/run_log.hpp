@@ -14,39 +14,19 @@
 #include "mms/pipeline/session_places.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/report/report.hpp"
+#include "mms/run/record/frame_log.hpp"
 #include "mms/simulation/truth/truth_cloud.hpp"
 
 namespace mms {
 
-/// Data kept of every frame of a run.
-struct LoggedFrame {
-  std::string name;
-  Timestamp stamp;
-  std::int64_t index = 0;     ///< in the recording
-  std::uint32_t session = 0;  ///< of the run, see `FrameResult`
-  Transform<World, Sensor> T_world_sensor;
-  Status status = Status::kInitialized;
-  bool keyframe = false;
-  bool relocalized = false;
-  bool is_searching = false;  ///< lost, and its place is searched for
-  bool in_map = false;        ///< whether its place in the map was known then
-  double dynamic_share = 0.0;
-  double overruled_share = 0.0;
-  int implausible_masks = 0;
-  double read_ms = 0.0;
-  double interval_ms = 0.0;  ///< wall time since the end of the previous frame
-  StageTimes stage_ms{};
-  std::optional<double> latency_ms;  ///< of live sensors and in real-time mode
-
-  double stages_ms() const;  ///< sum of reading and all stages
-};
-
-/// Collects the data for a run's files.
+/// Collects the data for a run's files. Until `finish`, the frames are on disk.
 class RunLog {
  public:
   /// @param compare_masks  whether the frames' masks are ground truth and not the run's input
   /// @param objects        settings of the dynamic map
-  RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects);
+  /// @param folder         for temporary files; empty: all stays in memory
+  RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects,
+         const std::filesystem::path& folder = {});
 
   void add(const Processed& processed);
 
@@ -65,16 +45,21 @@ class RunLog {
   /// @throws DataError if the ground truth has no valid points.
   void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
 
+  std::size_t size() const { return frame_log_.size(); }  ///< frames so far
+  const LoggedFrame& first() const { return frame_log_.first(); }
+  const LoggedFrame& last() const { return frame_log_.last(); }
+  /// All frames; empty before `finish`.
   const std::vector<LoggedFrame>& frames() const { return frames_; }
   /// Smoothed objects (ObjectSmoother) in the global frame; empty before `finish`.
   const ObjectHistory& objects() const { return objects_; }
   /// The tracked objects of the last frame; call after `add`.
-  const std::vector<ObjectBox>& objects_now() const { return live_objects_.back().objects; }
+  const std::vector<ObjectBox>& objects_now() const { return objects_now_.objects; }
   const std::vector<ReportPicture>& pictures() const { return pictures_; }
   const RunMetrics& metrics() const { return metrics_; }
   const Trajectory& truth() const { return truth_; }
   bool has_image() const { return has_image_; }
 
+  // Of all frames; empty before `finish`.
   Trajectory trajectory() const;
   Trajectory keyframes() const;
   /// Poses in the frame of the map, of the frames whose place in it is known; those of `trajectory`
@@ -101,10 +86,13 @@ class RunLog {
   void move_objects();
 
   Trajectory truth_;
+  FrameLog frame_log_;
   std::vector<LoggedFrame> frames_;
   ObjectSmoother smoother_;
+  ObjectLog smoothed_log_;
+  ObjectLog live_log_;  ///< live output of the dynamic map
+  ObjectFrame objects_now_;
   ObjectHistory objects_;
-  ObjectHistory live_objects_;  ///< live output of the dynamic map
   std::vector<ReportPicture> pictures_;
   std::size_t picture_stride_ = 1;
   std::vector<Loop> loops_;
