@@ -15,6 +15,9 @@ namespace {
 /// Source: eight times the median range (`automatic_voxel_size`), farther than most frames see.
 constexpr double kMapRadius = 200.0;
 
+/// [-]: passes of the photometric residuals at a pose. Source: the first gives the exposure.
+constexpr int kExposurePasses = 2;
+
 /// [-]: share of the map radius that the sensor moves before the maps are trimmed to it.
 /// Source: computing time; the maps exceed their radius by a tenth at most.
 constexpr double kTrimInterval = 0.1;
@@ -99,6 +102,29 @@ std::optional<Vector6d> Odometry::changed_velocity(const Alignment& alignment) c
       (change.head<3>().norm() + change.tail<3>().norm() * median_range(features));
   if (displacement < kMinDisplacement) return std::nullopt;
   return velocity;
+}
+
+Odometry::Fit Odometry::fit(const FeatureCloud& features, const Isometry& T_world_sensor) const {
+  const GeometricConfig& geometric = config_.registration.geometric;
+  const Matches matches = associate(features, *maps_, T_world_sensor, geometric.association,
+                                    geometric.gate * maps_->voxel_size());
+  Fit fit{geometric_equations(matches, T_world_sensor, geometric).inliers(), 0.0};
+  if (features.intensity.empty()) return fit;
+  int visible = 0;  // keyframes
+  for (const IntensityKeyframe* keyframe : keyframes_.nearest(T_world_sensor)) {
+    PhotometricState state;
+    PhotometricEquations equations;
+    for (int i = 0; i < kExposurePasses; ++i) {
+      equations = photometric_equations(*keyframe, 0, features.intensity.front(), T_world_sensor,
+                                        state, config_.registration.photometric, noise_);
+      state = equations.next(state, config_.registration.photometric.min_sigma);
+    }
+    if (equations.visible == 0) continue;
+    fit.intensity_sigma += state.sigma;
+    ++visible;
+  }
+  fit.intensity_sigma /= std::max(1, visible);
+  return fit;
 }
 
 OdometryEstimate Odometry::accept(Alignment alignment) {

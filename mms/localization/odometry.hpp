@@ -38,6 +38,17 @@ class Odometry {
   /// Estimates a frame's pose. The frames must come in the order of their stamps.
   Alignment align(FeatureCloud features) const;
 
+  /// How well features fit to the local maps and reference keyframes.
+  struct Fit {
+    int inliers = 0;  ///< edges and planes within three standard deviations of their counterparts
+    /// Of the photometric residuals [grey levels]; 0 without images or keyframes in view.
+    double intensity_sigma = 0.0;
+  };
+
+  /// The fit of an image's features at a pose, which is not changed. After the first frame.
+  /// @param features  at the time of the pose
+  Fit fit(const FeatureCloud& features, const Eigen::Isometry3d& T_world_sensor) const;
+
   /// Takes an alignment of the next frame: moves the sensor and updates the local maps.
   /// Never throws for bad frames: see Status.
   OdometryEstimate accept(Alignment alignment);
@@ -52,6 +63,9 @@ class Odometry {
   /// Begins anew with the next frame: new local maps from the pose that is predicted now. For a
   /// sensor that is lost where the local maps do not reach.
   void restart();
+
+  /// Whether there are no local maps yet.
+  bool begins() const { return !maps_; }
 
   /// Whether a frame has enough features for local maps to begin with.
   bool can_begin_with(const FeatureCloud& features) const;

@@ -88,8 +88,7 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     const Vector6d expected = odometry_.velocity(from, to);
     deskew(result.cloud, expected);
     exclude_moving_points(result.cloud, frame.features);
-    const OdometryEstimate estimate = odometry_.accept(session_.hypotheses.align(
-        odometry_, result.cloud, std::move(frame.features)));  // III-C.2, III-C.3, eqs. (3)-(5)
+    const OdometryEstimate estimate = estimate_pose(frame, result.cloud, std::move(frame.features));
     const std::optional<Vector6d>& velocity = odometry_.unexpected_velocity();
     if (velocity) deskew(result.cloud, Vector6d(*velocity - expected));
     return estimate;
@@ -111,6 +110,35 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   result.dynamic_share = dynamic_share(result.cloud);
   result.overruled_share = overruled_share(result.cloud, result.cloud.overruled);
   return result;
+}
+
+/// III-C.2, III-C.3, eqs. (3)-(5).
+OdometryEstimate Localization::estimate_pose(const PerceivedFrame& frame, LabeledCloud& cloud,
+                                             FeatureCloud features) {
+  const bool begins = odometry_.begins();
+  if (begins) masked_start_.reset();
+  std::optional<Odometry> before;
+  if (begins && cloud.organised()) before = odometry_;
+  FeatureCloud beside_masks;
+  if (before || masked_start_) beside_masks = features;
+  OdometryEstimate estimate =
+      odometry_.accept(session_.hypotheses.align(odometry_, cloud, std::move(features)));
+  if (before && overruled_share(cloud, cloud.overruled) > 0.0 &&
+      before->can_begin_with(beside_masks)) {
+    masked_start_.emplace(*before);
+  }
+  if (!masked_start_) return estimate;
+  if (!before) masked_start_->following().sense(frame.motion, frame.motion_calibration, true);
+  const MaskedStart::Verdict verdict = masked_start_->add(std::move(beside_masks), estimate);
+  if (verdict == MaskedStart::Verdict::kOpen) return estimate;
+  if (verdict == MaskedStart::Verdict::kMasksAreRight) {
+    odometry_ = masked_start_->following();
+    estimate = masked_start_->estimate();
+    session_ = Session(config_);
+    cloud.overruled = {};
+  }
+  masked_start_.reset();
+  return estimate;
 }
 
 FrameResult Localization::relocate(FrameResult lost, const Relocalization& place) {

@@ -11,6 +11,7 @@
 #include "mms/mapping/static_map/keyframe_selector.hpp"
 #include "mms/pipeline/correction_feed.hpp"
 #include "mms/pipeline/frame_result.hpp"
+#include "mms/pipeline/masked_start.hpp"
 #include "mms/pipeline/perception.hpp"
 #include "mms/pipeline/pose_hypotheses.hpp"
 #include "mms/pipeline/system_config.hpp"
@@ -63,6 +64,8 @@ class Localization {
     Transform<Global, World> T_global_world;
   };
 
+  OdometryEstimate estimate_pose(const PerceivedFrame& frame, LabeledCloud& cloud,
+                                 FeatureCloud features);
   void search_again(Timestamp stamp);
   std::optional<Transform<Global, Sensor>> expected_place(const FrameResult& result);
   bool is_lost_for_long(Timestamp stamp, const FeatureCloud& features);
@@ -74,6 +77,7 @@ class Localization {
 
   SystemConfig config_;
   Odometry odometry_;
+  std::optional<MaskedStart> masked_start_;
   Session session_;
   std::uint32_t session_number_ = 0;
   CorrectionFeed corrections_{MapCorrection{Transform<Global, World>()}};

@@ -1,5 +1,5 @@
-// Masks of people where there is nobody: the pose is not disturbed, and the map stays free of
-// people.
+// Masks of people where there is nobody, and right ones that cover nearly all: the pose is not
+// disturbed, and the map stays free of people.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 namespace mms {
 namespace {
 
+using testing::mask_system;
 using testing::scene;
 using testing::scene_frame;
 
@@ -68,6 +69,31 @@ TEST(FalseMasks, InTheFirstFramesDoNotDisturbThePose) {
 
 TEST(FalseMasks, OfEverythingFromTheFirstFrameOnDoNotCauseLost) {
   EXPECT_LT(largest_error(system_with(0, 20, 1.0), 20), 0.03);
+}
+
+/// Three people walk close ahead of a driving camera from its first frame on: nearly all that it
+/// sees moves with it.
+TEST(RightMasks, OfPeopleWhoWalkAheadFromTheFirstFrameOnAreFollowed) {
+  SceneConfig config = scene_config("warehouse_loop");
+  config.companions = 3;
+  config.seed = 1002;
+  config.width = 320;
+  SimulatedScene walked(config);
+  SlamSystem system = mask_system();
+  const auto error_at = [&](int i) {
+    const FrameResult result = system.process(walked.render(i).frame);
+    EXPECT_TRUE(i > 0 || result.overruled_share > 0.6) << "an easier start";
+    EXPECT_NE(result.odometry.status, Status::kLost);
+    return (result.odometry.T_world_sensor.translation() -
+            walked.truth(i).T_world_sensor.translation())
+        .norm();
+  };
+  double largest = 0.0;
+  for (int i = 0; i < 6; ++i) largest = std::max(largest, error_at(i));
+  EXPECT_LT(largest, 0.2) << "until both hypotheses differ";
+  largest = 0.0;
+  for (int i = 6; i < 20; ++i) largest = std::max(largest, error_at(i));
+  EXPECT_LT(largest, 0.03);
 }
 
 TEST(FalseMasks, AreMarkedAsOverruled) {
