@@ -47,8 +47,12 @@ constexpr std::size_t kMaxExpected = 6;
 /// [-]: keyframes beside one of them up to which none is another candidate. Source: about 0.5 m.
 constexpr std::size_t kExpectedSpacing = 2;
 
-/// [-]: visits of a place whose views are kept. Source: memory; people may cover much of a view.
+/// [-]: visits of a place whose views are kept, where a loop recognizes it. Source: memory; people
+/// may cover much of a view.
 constexpr std::size_t kMaxVisits = 3;
+
+/// [-]: the same where none does, since it may look otherwise by now. Source: memory.
+constexpr std::size_t kMaxUnrecognizedVisits = 6;
 
 /// [-]: keyframes between those of two visits of a place. Source: initial choice; 2 m of path.
 constexpr std::size_t kBetweenVisits = 8;
@@ -155,10 +159,12 @@ bool GlobalMap::has_enough_views(const KeyframeRecord& record,
                                  const std::vector<Loop>& accepted) const {
   const auto own = std::find_if(accepted.begin(), accepted.end(),
                                 [&](const Loop& loop) { return loop.query == records_.size(); });
-  if (own == accepted.end()) return false;
+  const bool is_recognized = own != accepted.end();
   const KeyframeConfig& same = record.is_scan() ? config_.scan_keyframes : config_.keyframes;
   const Eigen::Isometry3d T_sensor_global =
-      (graph_.poses()[own->candidate] * own->T_candidate_query).inverse();
+      (is_recognized ? graph_.poses()[own->candidate] * own->T_candidate_query
+                     : graph_.poses().back())
+          .inverse();
   std::size_t visits = 0;
   std::size_t next = 0;  // the first keyframe that is of another visit
   const std::size_t end = graph_.first_recent(config_.min_path);
@@ -172,7 +178,15 @@ bool GlobalMap::has_enough_views(const KeyframeRecord& record,
     if (i >= next) ++visits;
     next = i + kBetweenVisits;
   }
-  return visits >= kMaxVisits;
+  if (is_recognized) return visits >= kMaxVisits;
+  return visits >= kMaxUnrecognizedVisits && is_place_known(next - kBetweenVisits);
+}
+
+/// Whether the place of the next keyframe relative to an earlier one is known well.
+bool GlobalMap::is_place_known(std::size_t earlier) const {
+  const std::optional<Matrix6d> covariance = graph_.relative_covariance(earlier, records_.size());
+  return covariance && covariance->topLeftCorner<3, 3>().diagonal().maxCoeff() <
+                           kMaxNearbySigma * kMaxNearbySigma;
 }
 
 /// Joins a session to the place where a relocalization began it.
@@ -210,11 +224,7 @@ std::vector<std::size_t> GlobalMap::nearby(std::size_t end) const {
   std::vector<std::size_t> keyframes;
   for (const auto& [unused, keyframe] : near) {
     if (keyframes.size() == kMaxNearby) break;
-    const std::optional<Matrix6d> covariance =
-        graph_.relative_covariance(keyframe, records_.size());
-    if (!covariance) continue;
-    const double variance = covariance->topLeftCorner<3, 3>().diagonal().maxCoeff();
-    if (variance < kMaxNearbySigma * kMaxNearbySigma) keyframes.push_back(keyframe);
+    if (is_place_known(keyframe)) keyframes.push_back(keyframe);
   }
   return keyframes;
 }

@@ -11,6 +11,12 @@
 
 namespace mms {
 
+/// A loop within the run, by the stamps of its keyframes.
+struct ClosedLoop {
+  Timestamp earlier;
+  Timestamp later;
+};
+
 /// What loop closure knows of the map so far.
 struct MapCorrection {
   /// Pose of the odometry's world frame in that of the map; nothing until the place in an earlier
@@ -18,6 +24,8 @@ struct MapCorrection {
   std::optional<Transform<Global, World>> T_global_world{};
   /// Places of the run's sessions; null before the first loop.
   std::shared_ptr<const std::vector<SessionPlace>> places{};
+  /// Loops so far; null before the first one.
+  std::shared_ptr<const std::vector<ClosedLoop>> loops{};
 };
 
 /// Takes the results of loop closure, which runs beside the odometry, to the frames that follow.

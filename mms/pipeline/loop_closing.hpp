@@ -41,6 +41,7 @@ class LoopClosing {
  private:
   GlobalMap global_map_;
   std::shared_ptr<const std::vector<SessionPlace>> places_;  // at the last loop
+  std::shared_ptr<const std::vector<ClosedLoop>> loops_;
   ThreadConfinement thread_;
 };
 

@@ -216,7 +216,7 @@ void SlamRun::finish_frame(Processed processed, RunObserver& observer) {
   if (sink_) sink_(processed, system_);
   observer.on_frame(*log_);
   if (!view_) return;
-  view_->show(std::move(processed), log_->last().interval_ms, std::move(shown));
+  view_->show(std::move(processed), log_->last().interval_ms, std::move(shown), system_.mapping());
 }
 
 void SlamRun::warn_of_losses(const Processed& processed, RunObserver& observer) {

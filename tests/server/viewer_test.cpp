@@ -244,6 +244,35 @@ TEST(Viewer, ReportsEndOfLiveRun) {
   EXPECT_EQ(only(viewer.drain(), "frame").json["frame"], 0) << "it plays again";
 }
 
+TEST(Viewer, ShowsCorrectedFramesAndLoopsInALiveRun) {
+  const auto scene = live_scene();
+  scene->add(frame_at(0), nullptr, floor_map(20));
+  scene->add(frame_at(1), nullptr, nullptr);
+  TestViewer viewer(scene);
+  viewer.advance(33ms);
+  viewer.drain();
+  ASSERT_EQ(scene->added().size(), 2U);
+  SceneFrames corrected;
+  for (const std::size_t index : {3U, 4U}) {
+    corrected.push_back(std::make_shared<const SceneFrame>(frame_at(index)));
+  }
+  const ColoredPoints map = floor_points(10);
+  scene->set_loops({{0, 1, true, "accepted"}});
+  scene->replace(corrected, changes_of(map.points, map.colors, 0.1));
+  viewer.advance(1s);
+  const auto messages = viewer.drain();
+  EXPECT_EQ(only(messages, "trajectory").values<float>("pose")[0], 3.0F);
+  EXPECT_EQ(only(messages, "map").values<float>("points").size(), 3 * 100U);
+  EXPECT_EQ(only(messages, "loops").values<std::uint32_t>("frames"),
+            (std::vector<std::uint32_t>{0, 1}));
+  scene->add(frame_at(5), nullptr, nullptr);
+  viewer.advance(33ms);
+  EXPECT_EQ(only(viewer.drain(), "frame").values<float>("pose")[0], 5.0F);
+  TestViewer later(scene);
+  later.advance(33ms);
+  EXPECT_EQ(only(later.drain(), "loops").values<std::uint32_t>("frames").size(), 2U);
+}
+
 TEST(Viewer, ShowsCorrectedResultsAndLoopsAtEndOfLiveRun) {
   const auto scene = live_scene();
   scene->add(frame_at(0), nullptr, floor_map(20));

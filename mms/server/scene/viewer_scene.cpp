@@ -51,6 +51,12 @@ void Scene::replace(SceneFrames frames, MapChanges map) {
   ++edition_;
 }
 
+SceneFrames Scene::added() const {
+  SceneFrames frames = frames_;  // others only read it
+  frames.insert(frames.end(), pending_.frames.begin(), pending_.frames.end());
+  return frames;
+}
+
 void Scene::set_loops(std::vector<SceneLoop> loops) {
   const std::scoped_lock lock(mutex_);
   loops_ = std::move(loops);

@@ -44,7 +44,10 @@ class Scene {
   /// @param frames  as many as there are
   void replace(SceneFrames frames, MapChanges map);
 
-  /// Shows loops; to be called before the end.
+  /// All frames that were added; to be called in the adding thread.
+  SceneFrames added() const;
+
+  /// Shows loops, with the next `replace` or the end.
   void set_loops(std::vector<SceneLoop> loops);
 
   /// Replaces the ground-truth positions, one per frame.
@@ -73,7 +76,6 @@ class Scene {
   /// Sensor data of a frame, or of the newest; null if unavailable.
   std::shared_ptr<const SensorView> view(std::optional<std::size_t> frame) const;
 
-  /// Empty before the end.
   std::vector<SceneLoop> loops() const;
 
   /// The present map; first applies all pending changes.

@@ -32,6 +32,7 @@ Message trajectory_of(const Scene& scene, std::size_t first, std::size_t last) {
 Viewer::Viewer(Scene& scene, std::string version)
     : scene_(scene),
       version_(std::move(version)),
+      loops_due_(!scene.loops().empty()),
       edition_sent_(scene.edition()),
       feed_(kDefaultBudget) {}
 
@@ -92,6 +93,7 @@ std::optional<Viewer::Encode> Viewer::next(Clock::time_point now) {
     edition_sent_ = scene_.edition();
     poses_sent_ = 0;
     sent_ = {};
+    loops_due_ = !scene_.loops().empty();
   }
   if (auto task = next_history()) return task;
   map_turn_ = !map_turn_;
