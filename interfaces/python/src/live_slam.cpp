@@ -49,6 +49,7 @@ void LiveSlam::finish() {
 
 bool LiveSlam::save_map() {
   const std::scoped_lock lock(mutex_);
+  if (trajectory_.empty()) throw std::runtime_error("save_map: no frame was processed");
   return map_.save(system(), [this](const std::string& line) { warn(line); });
 }
 

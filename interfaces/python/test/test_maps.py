@@ -34,6 +34,15 @@ def test_no_map_is_saved_unless_one_is_named(tmp_path):
     assert not run(tmp_path)[1]
 
 
+def test_without_frames_there_is_no_map_to_save(tmp_path):
+    path = tmp_path / "room.mmsmap"
+    slam = mms_slam.Slam(save_map=path)
+    slam.finish()
+    with pytest.raises(RuntimeError, match="save_map: no frame was processed"):
+        slam.save_map()
+    assert not path.exists()
+
+
 def test_wrong_map_files_are_named(tmp_path):
     path = tmp_path / "a.mmsmap"
     path.write_text("no map")

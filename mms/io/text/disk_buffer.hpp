@@ -7,7 +7,7 @@
 
 namespace mms {
 
-/// Bytes that are collected in a file without a name, so that the memory of a long run does not
+/// Bytes that are collected in a hidden temporary file, so that the memory of a long run does not
 /// grow. While the file cannot be written, as on a full disk, they stay in memory.
 class DiskBuffer {
  public:
