@@ -7,11 +7,10 @@
 #include <chrono>
 #include <utility>
 
-#include "mms/evaluation/tracking/tracking_error.hpp"
-#include "mms/global_map/loops/loop.hpp"
 #include "mms/mapping/ground/floor.hpp"
 #include "mms/pipeline/live_map.hpp"
 #include "mms/run/record/run_record.hpp"
+#include "mms/run/view/corrected_frames.hpp"
 #include "mms/run/view/recorded_scene.hpp"
 #include "mms/run/view/run_series.hpp"
 
@@ -70,37 +69,6 @@ constexpr std::chrono::seconds kCorrectionInterval{5};
 /// [-]: largest share of the run's time for corrections. A long run has many frames to move.
 constexpr int kCorrectionShare = 50;
 
-/// From the world frame of a frame's session to that of the present pose, as a correction knew it.
-/// The identity where a place is not known.
-Eigen::Isometry3d moved_by(const MapCorrection& correction, std::uint32_t session,
-                           Timestamp stamp) {
-  const bool is_known = correction.T_global_world && correction.places &&
-                        session < correction.places->size() &&
-                        (*correction.places)[session].is_known;
-  if (!is_known) return Eigen::Isometry3d::Identity();
-  return correction.T_global_world->isometry().inverse() *
-         (*correction.places)[session].correction.at(stamp).isometry();
-}
-
-/// The loops between frames that are displayed.
-std::vector<SceneLoop> scene_loops(const std::vector<ClosedLoop>& closed,
-                                   const SceneFrames& frames) {
-  const auto index_of = [&](Timestamp stamp) {
-    const auto found =
-        std::lower_bound(frames.begin(), frames.end(), stamp,
-                         [](const auto& frame, Timestamp other) { return frame->stamp < other; });
-    return static_cast<std::size_t>(found - frames.begin());
-  };
-  std::vector<SceneLoop> loops;
-  for (const ClosedLoop& loop : closed) {
-    const std::size_t later = index_of(loop.later);
-    if (later == frames.size()) continue;
-    loops.push_back(
-        {index_of(loop.earlier), later, true, std::string(to_string(LoopOutcome::kAccepted))});
-  }
-  return loops;
-}
-
 }  // namespace
 
 LiveView::LiveView(const ViewOptions& options, const std::string& data, const FrameSource& source,
@@ -137,17 +105,11 @@ void LiveView::show(Processed processed, double interval_ms, std::shared_ptr<con
 void LiveView::show_corrected(const FrameResult& result, const Mapping& mapping) {
   const Clock::time_point begin = Clock::now();
   const MapCloud map = live_map(mapping, result);
-  SceneFrames frames;
-  for (const auto& shown : scene_->added()) {
-    const std::size_t i = frames.size();
-    Eigen::Isometry3d T = moved_by(result.correction, sessions_[i], shown->stamp);
-    if (i < corrected_) T = T * moved_by(shown_, sessions_[i], shown->stamp).inverse();
-    auto frame = std::make_shared<SceneFrame>(*shown);
-    frame->T_world_sensor = Transform<World, Sensor>(T * shown->T_world_sensor.isometry());
-    frame->objects = transformed({{shown->stamp, shown->objects}}, T).front().objects;
-    frames.push_back(std::move(frame));
+  SceneFrames frames =
+      corrected_frames(scene_->added(), sessions_, shown_, corrected_, result.correction);
+  if (result.correction.loops) {
+    scene_->set_loops(loops_between(frames, *result.correction.loops));
   }
-  if (result.correction.loops) scene_->set_loops(scene_loops(*result.correction.loops, frames));
   corrected_ = frames.size();
   shown_ = result.correction;
   scene_->replace(std::move(frames),
