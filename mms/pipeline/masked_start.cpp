@@ -26,9 +26,11 @@ constexpr double kMinResidualRatio = 1.5;
 /// [-]: ratio of the features that fit at both poses, without images. Source: initial choice.
 constexpr double kMinFitRatio = 1.2;
 
-/// [-]: share of the features beside the masks, and their number, that must fit at the pose that
-/// follows the masks. Source: 0.55 and 182 among people; under false masks 50 features at most.
+/// [-]: share of the features beside the masks that must fit at the pose that follows the masks.
+/// Source: at least 0.55 among people.
 constexpr double kMinFittingShare = 0.4;
+
+/// [-]: their number. Source: at least 168 among people, at most 50 where false masks seemed right.
 constexpr int kMinFitting = 100;
 
 /// Whether a pose fits clearly better than another one.
