@@ -159,6 +159,7 @@ FrameResult Localization::relocate(FrameResult lost, const Relocalization& place
   }
   lost_frames_ = 0;
   is_in_doubt_ = is_lost_ = false;
+  masked_start_.reset();
   choose_keyframes(lost);
   return lost;
 }

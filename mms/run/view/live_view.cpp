@@ -66,8 +66,9 @@ std::vector<ObjectBox> objects_of(const FrameResult& result, Timestamp stamp) {
 /// [s]: least time between two corrections of what is displayed.
 constexpr std::chrono::seconds kCorrectionInterval{5};
 
-/// [-]: largest share of the run's time for corrections. A long run has many frames to move.
-constexpr int kCorrectionShare = 50;
+/// [-]: least time between two corrections, in units of the time that the first one took. A long
+/// run has many frames to move.
+constexpr int kCorrectionPause = 50;
 
 }  // namespace
 
@@ -116,7 +117,7 @@ void LiveView::show_corrected(const FrameResult& result, const Mapping& mapping)
                   changes_of(map.points, map.colors, mapping.static_map().voxel_size()));
   const Clock::time_point end = Clock::now();
   next_correction_ =
-      end + std::max<Clock::duration>(kCorrectionInterval, kCorrectionShare * (end - begin));
+      end + std::max<Clock::duration>(kCorrectionInterval, kCorrectionPause * (end - begin));
 }
 
 void LiveView::end(const std::filesystem::path& folder, const RunLog& log) {
