@@ -54,6 +54,10 @@ constexpr std::size_t kMaxVisits = 3;
 /// [-]: the same where none does, since it may look otherwise by now. Source: memory.
 constexpr std::size_t kMaxUnrecognizedVisits = 6;
 
+/// [m]: path since a loop up to which it tells where the sensor is. Source: the odometry drifts by
+/// some centimeters, and keyframes are 0.25 m apart.
+constexpr double kKnownPath = 20.0;
+
 /// [-]: keyframes between those of two visits of a place. Source: initial choice; 2 m of path.
 constexpr std::size_t kBetweenVisits = 8;
 
@@ -179,14 +183,16 @@ bool GlobalMap::has_enough_views(const KeyframeRecord& record,
     next = i + kBetweenVisits;
   }
   if (is_recognized) return visits >= kMaxVisits;
-  return visits >= kMaxUnrecognizedVisits && is_place_known(next - kBetweenVisits);
+  return visits >= kMaxUnrecognizedVisits && is_place_known();
 }
 
-/// Whether the place of the next keyframe relative to an earlier one is known well.
-bool GlobalMap::is_place_known(std::size_t earlier) const {
-  const std::optional<Matrix6d> covariance = graph_.relative_covariance(earlier, records_.size());
-  return covariance && covariance->topLeftCorner<3, 3>().diagonal().maxCoeff() <
-                           kMaxNearbySigma * kMaxNearbySigma;
+/// Whether a loop within the present session tells where the next keyframe is.
+bool GlobalMap::is_place_known() const {
+  const std::size_t first = graph_.first_recent(kKnownPath);
+  return std::any_of(graph_.loops().rbegin(), graph_.loops().rend(), [&](const Loop& loop) {
+    return loop.outcome == LoopOutcome::kAccepted && loop.query >= first &&
+           records_[loop.candidate].session == session();
+  });
 }
 
 /// Joins a session to the place where a relocalization began it.
@@ -224,7 +230,11 @@ std::vector<std::size_t> GlobalMap::nearby(std::size_t end) const {
   std::vector<std::size_t> keyframes;
   for (const auto& [unused, keyframe] : near) {
     if (keyframes.size() == kMaxNearby) break;
-    if (is_place_known(keyframe)) keyframes.push_back(keyframe);
+    const std::optional<Matrix6d> covariance =
+        graph_.relative_covariance(keyframe, records_.size());
+    if (!covariance) continue;
+    const double variance = covariance->topLeftCorner<3, 3>().diagonal().maxCoeff();
+    if (variance < kMaxNearbySigma * kMaxNearbySigma) keyframes.push_back(keyframe);
   }
   return keyframes;
 }

@@ -148,7 +148,7 @@ class GlobalMap {
   std::vector<Eigen::Isometry3d> poses_in_world() const;
   bool may_match(std::size_t candidate) const;
   bool has_enough_views(const KeyframeRecord& record, const std::vector<Loop>& accepted) const;
-  bool is_place_known(std::size_t earlier) const;
+  bool is_place_known() const;
   std::vector<std::size_t> nearby(std::size_t end) const;
   std::vector<std::size_t> around(const Transform<Global, Sensor>& expected) const;
   std::vector<Loop> find_loop(const KeyframeRecord& record,
