@@ -17,7 +17,7 @@ class DiskBuffer {
   DiskBuffer(const DiskBuffer&) = delete;
   DiskBuffer& operator=(const DiskBuffer&) = delete;
 
-  void append(std::string_view bytes);  ///< never fails
+  void append(std::string_view bytes);  ///< also on a full disk
 
   std::size_t size() const { return on_disk_ + rest_.size(); }  ///< [B]
   std::size_t in_memory() const { return rest_.size(); }        ///< of them [B]
