@@ -4,7 +4,7 @@ its results. usage: graph_test.py MMS PARTNER WORK_DIR
 
 Checks that the poses and the map are those of `mms run` of the recording, bit for bit; that the
 partner gets all results, which the libraries of Foxglove decode (where Node is installed); what
-nodes of ROS 2 see of the node; the service; and that the node goes on when the partner is killed
+nodes of ROS 2 see of the node; the services; and that the node goes on when the partner is killed
 and another one starts. WORK_DIR keeps the packages of Node.
 """
 
@@ -275,6 +275,42 @@ def check_restart():
     print(f"ok: {len(stamps)} poses with a partner that was killed, up to {stamps[-1]} s")
 
 
+def check_next_runs():
+    """A run with frames is reset, and the next one goes on in a map. After check_map."""
+    node = start_node("runs", "--save-map", "runs.mmsmap")
+    odometry = ("topics", "/mms_slam/odometry=nav_msgs/Odometry")
+
+    def call(service, name, *words):
+        return finish(start_partner("receive", name, *odometry, "call", "/mms_slam/" + service,
+                                    *words), service)
+
+    finish(start_partner("play", "x.mcap", "receive", "runs_1", *odometry, "expect", "20"),
+           "the partner of the first run")
+    for name, content, result in (("none.mmsmap", None, 1), ("text.mmsmap", "text", 2)):
+        if content:
+            Path(name).write_text(content)
+        output = call("load_map", "refused", "map", os.path.abspath(name))
+        check(f"reply: result {result}" in output, f"load_map of {name}: {output}")
+    output = call("reset", "reset")
+    check("reply: success 1" in output, f"reset: {output}")
+    wait_for(Path("runs.mmsmap").exists, "the map of the first run")
+    wait_for(lambda: Path("runs.log").read_text().count("waits for frames") == 2, "the next run")
+    output = call("load_map", "load", "map", "file://" + os.path.abspath("x.mmsmap"))
+    check("reply: result 0" in output, f"load_map: {output}")
+    wait_for(lambda: Path("runs.log").read_text().count("waits for frames") == 3, "the third run")
+    finish(start_partner("play", "long.mcap", "receive", "runs_3", *odometry, "expect", "40"),
+           "the partner of the third run")
+    node.send_signal(signal.SIGINT)
+    finish(node, "the node with three runs")
+    for folder, saved in (("runs", "runs.mmsmap"), ("runs_2", "runs_2.mmsmap")):
+        check(len(poses(folder)) >= 20, f"poses in {folder}")
+        check(Path(saved).exists(), saved)
+    in_map = subprocess.run([MMS, "info", "runs_2.mmsmap"], capture_output=True, text=True,
+                            check=True).stdout
+    check("2 sessions" in in_map, f"the map of the third run: {in_map}")
+    print("ok: after ~/reset and ~/load_map the next runs begin, and all results are kept")
+
+
 run_mms("convert", f"sim:warehouse_loop?frames={FRAMES}&width=320", "-o", "x.mcap")
 run_mms("run", "x.mcap", "--segmenter", "masks", "--mcap", "-o", "run")
 check_same_results()
@@ -283,4 +319,5 @@ check_map()
 check_decoded()
 check_discovery()
 check_restart()
+check_next_runs()
 check_settings()

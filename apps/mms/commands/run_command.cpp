@@ -40,13 +40,14 @@ void run_camera(const RunOptions& options, const ConsoleOptions& console,
   reject_for_camera(!options.motion.wheels.empty() || !options.motion.imu.empty(),
                     "--wheels, --imu");
   const InterruptGuard interrupt;
-  run_live(
-      options, console,
-      std::make_unique<CameraSource>(
-          options.data, LiveCameraOptions{.calibration = options.camera,
-                                          .record = record,
-                                          .frames = options.frames,
-                                          .stop = [] { return InterruptGuard::requested(); }}));
+  auto camera = std::make_unique<CameraSource>(
+      options.data, LiveCameraOptions{.calibration = options.camera,
+                                      .record = record,
+                                      .frames = options.frames,
+                                      .stop = [] { return InterruptGuard::requested(); }});
+  if (!run_live(options, console, std::move(camera))) {
+    throw DataError(options.data, "ended before its first frame");
+  }
 }
 
 }  // namespace

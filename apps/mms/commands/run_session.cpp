@@ -121,7 +121,8 @@ void play_and_write(SlamRun& run, const ConsoleOptions& console) {
     throw DataError(options.data, run.failure(),
                     "check its calibration and depth with mms info, and see the warnings above");
   }
-  if (run.view() != nullptr) keep_showing(run, folder.path());
+  const bool continues = console.continues && console.continues();
+  if (run.view() != nullptr && !continues) keep_showing(run, folder.path());
 }
 
 /// Finds faults before the wait for the first frame.
@@ -133,17 +134,18 @@ void check_settings(const RunOptions& options) {
   }
 }
 
-void run_live(const RunOptions& options, const ConsoleOptions& console,
+bool run_live(const RunOptions& options, const ConsoleOptions& console,
               std::unique_ptr<LiveSource> source, SlamRun::ResultSink sink) {
   const InterruptGuard interrupt;
   check_settings(options);
   if (!source->wait([](const std::string& message) { print_warnings({message}); })) {
-    if (!InterruptGuard::requested()) throw DataError(options.data, "ended before its first frame");
+    if (!InterruptGuard::requested()) return false;
     throw Interrupted("no frame was received, so there are no results");
   }
   SlamRun run(options, std::move(source));
   run.on_result(std::move(sink));
   play_and_write(run, console);
+  return true;
 }
 
 }  // namespace mms

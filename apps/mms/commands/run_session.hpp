@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -15,6 +16,8 @@ namespace mms {
 struct ConsoleOptions {
   bool quiet = false;
   bool json = false;
+  /// Whether another run follows, whose viewer takes the place of this one's; empty: none.
+  std::function<bool()> continues{};
 };
 
 /// The word after --view.
@@ -40,8 +43,9 @@ void play_and_write(SlamRun& run, const ConsoleOptions& console);
 
 /// The same on a live sensor, whose first frame it waits for.
 /// @param sink  receives every result; may be empty
-/// @throws Interrupted, DataError if no frame arrives.
-void run_live(const RunOptions& options, const ConsoleOptions& console,
+/// @returns false if the source ended before its first frame
+/// @throws Interrupted before the first frame
+bool run_live(const RunOptions& options, const ConsoleOptions& console,
               std::unique_ptr<LiveSource> source, SlamRun::ResultSink sink = {});
 
 }  // namespace mms

@@ -10,6 +10,7 @@
 //   topics LIST     the topics received, as /odometry=nav_msgs/Odometry,...
 //   expect N        end after N messages of the first of them
 //   call SERVICE    call it (std_srvs/Trigger, with the header of rmw_cyclonedds_cpp) at the end
+//   map FILE        call it as nav2_msgs/LoadMap with this map
 //   timeout S       end with status 1 after S seconds (60)
 // The domain is ROS_DOMAIN_ID.
 
@@ -312,13 +313,20 @@ void wait_until(const Condition& condition, Clock::time_point end, const std::st
 /// A call of a service, with the header of rmw_cyclonedds_cpp: identifier of the client, number.
 class Call {
  public:
-  Call(Partner& partner, const std::string& service, const std::string& folder,
-       Clock::time_point end)
-      : service_(service), replies_(folder, "reply"), end_(end) {
-    requests_ = partner.write_to("rq" + service + "Request",
-                                 "std_srvs::srv::dds_::Trigger_Request_", true, false);
-    partner.read_from("rr" + service + "Reply", "std_srvs::srv::dds_::Trigger_Response_", false,
-                      &replies_);
+  /// @param map  of nav2_msgs/LoadMap; empty: std_srvs/Trigger
+  Call(Partner& partner, const std::string& service, const std::string& map,
+       const std::string& folder, Clock::time_point end)
+      : service_(service), loads_map_(!map.empty()), replies_(folder, "reply"), end_(end) {
+    const std::string type =
+        loads_map_ ? "nav2_msgs::srv::dds_::LoadMap_" : "std_srvs::srv::dds_::Trigger_";
+    requests_ = partner.write_to("rq" + service + "Request", type + "Request_", true, false);
+    partner.read_from("rr" + service + "Reply", type + "Response_", false, &replies_);
+    if (loads_map_) {
+      const auto size = static_cast<std::uint32_t>(map.size() + 1);
+      request_.resize(20);
+      request_.append(reinterpret_cast<const char*>(&size), 4);
+      request_.append(map.c_str(), size);
+    }
     wait_for_match({requests_}, end);
   }
   void send() { requests_->write(&request_); }
@@ -327,6 +335,13 @@ class Call {
     const std::string reply = replies_.last();
     if (reply.size() < 28 || reply.compare(4, 16, request_, 4, 16) != 0) {
       throw std::runtime_error("the reply has another header than the request");
+    }
+    if (loads_map_) {
+      // Behind an empty grid: its header, the time, size and pose of its map, no cells.
+      constexpr std::size_t kResult = 4 + 16 + 16 + 20 + 4 + 56 + 4;
+      if (reply.size() <= kResult) throw std::runtime_error("the reply is too short");
+      std::printf("reply: result %d\n", static_cast<unsigned char>(reply[kResult]));
+      return;
     }
     std::printf("reply: success %d, %s\n", reply[20], reply.c_str() + 28);
   }
@@ -339,6 +354,7 @@ class Call {
       "\0",
       21);
   std::string service_;
+  bool loads_map_;
   Receiver replies_;
   Clock::time_point end_;
   DataWriter* requests_ = nullptr;
@@ -369,7 +385,9 @@ int run(int argc, char** argv) {
                         receivers.back().second.get());
     }
   }
-  if (!options["call"].empty()) call.emplace(partner, options["call"], folder, end);
+  if (!options["call"].empty()) {
+    call.emplace(partner, options["call"], options["map"], folder, end);
+  }
   const auto send = [&] {
     if (call) call->send();
   };

@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "apps/mms/commands/live/ros2_map_saver.hpp"
+#include "apps/mms/commands/live/ros2_restart.hpp"
 #include "apps/mms/commands/run_session.hpp"
 #include "apps/mms/console/common_options.hpp"
 #include "apps/mms/console/interrupt.hpp"
@@ -50,18 +52,24 @@ void add_diagnosis(Ros2Node& node, Ros2Source& source, Ros2Results& results) {
   });
 }
 
-void run_node(const Ros2CommandOptions& options) {
-  const InterruptGuard interrupt;
+/// A node with one run.
+/// @returns the options of the next one, if the services ask for it
+std::optional<RunOptions> run_once(const Ros2CommandOptions& options, const RunOptions& run) {
   std::vector<std::string> warnings;  // the run has them again
-  const SystemConfig config =
-      sensor_settings(nullptr, options.run.config, options.run.set, "--set", warnings);
+  const SystemConfig config = sensor_settings(nullptr, run.config, run.set, "--set", warnings);
   Ros2Source* source = nullptr;  // set before the node starts
   Ros2Node node(options.node,
                 [&source](const std::string& fault) { source->count_damaged(fault); });
   Ros2Results results(node, options.results);
-  auto owned = std::make_unique<Ros2Source>(node, options.inputs, options.queue,
-                                            [] { return InterruptGuard::requested(); });
+  Ros2Restart restart([&source](const std::string& message) { source->warn(message); });
+  auto owned = std::make_unique<Ros2Source>(node, options.inputs, options.queue, [&restart] {
+    return InterruptGuard::requested() || restart.is_requested();
+  });
   source = owned.get();
+  node.serve("~/reset", [&restart](const Ros2Node::Reply& reply) { reply(restart.reset()); });
+  node.answer<msg::LoadMapRequest, msg::LoadMapReply>(
+      "~/load_map", "nav2_msgs/LoadMap",
+      [&restart](const msg::LoadMapRequest& request) { return restart.load(request.map_url); });
   Ros2MapSaver saver(options.save_folder, source->is_camera());
   node.serve("~/save_map", [&saver](const Ros2Node::Reply& reply) { saver.request(reply); });
   node.every(1.0, [&saver] { saver.refuse_late(); });
@@ -71,11 +79,22 @@ void run_node(const Ros2CommandOptions& options) {
   if (!options.console.quiet) {
     fmt::print(stderr, "node {} in domain {} waits for frames\n", node.full_name(), node.domain());
   }
-  run_live(options.run, options.console, std::move(owned),
-           [&](const Processed& processed, const SlamSystem& system) {
-             results.publish(processed, system, source->sensor_frame(), source->is_camera());
-             saver.add(processed, system);
-           });
+  ConsoleOptions console = options.console;
+  console.continues = [&restart] { return restart.is_requested(); };
+  const bool had_frames = run_live(
+      run, console, std::move(owned), [&](const Processed& processed, const SlamSystem& system) {
+        results.publish(processed, system, source->sensor_frame(), source->is_camera());
+        saver.add(processed, system);
+      });
+  if (restart.is_requested() && !InterruptGuard::requested()) return restart.next(options.run);
+  if (!had_frames) throw DataError(run.data, "ended before its first frame");
+  return std::nullopt;
+}
+
+void run_node(const Ros2CommandOptions& options) {
+  const InterruptGuard interrupt;
+  std::optional<RunOptions> run = options.run;
+  while (run) run = run_once(options, *run);
 }
 
 #else
