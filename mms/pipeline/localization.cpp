@@ -2,6 +2,8 @@
 
 #include <cassert>
 #include <chrono>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "mms/geometry/se3.hpp"
@@ -70,6 +72,7 @@ Localization::Session::Session(const SystemConfig& config)
 Localization::Localization(const SystemConfig& config)
     : config_(config),
       odometry_(config.odometry, config.noise.depth),
+      robot_body_(for_mode(config.robot_body, config.fusion.mode), config.noise.depth),
       session_(config),
       closes_loops_(config.global_map.enabled) {}
 
@@ -85,10 +88,14 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   result.odometry = timed(result.stage_ms, Stage::kOdometry, [&] {
     const auto [from, to] = times_of(result.cloud, frame.features);
     odometry_.sense(frame.motion, frame.motion_calibration, result.cloud.organised());
+    robot_body_.sense(frame.motion, frame.motion_calibration);
     const Vector6d expected = odometry_.velocity(from, to);
     deskew(result.cloud, expected);
+    robot_body_.exclude(result.cloud, frame.features);
+    const std::optional<RobotBody::SeenFrame> seen = robot_body_.see(result.cloud, frame.features);
     exclude_moving_points(result.cloud, frame.features);
-    const OdometryEstimate estimate = estimate_pose(frame, result.cloud, std::move(frame.features));
+    OdometryEstimate estimate = estimate_pose(frame, result.cloud, std::move(frame.features));
+    if (seen) search_robot_body(*seen, result, estimate);
     const std::optional<Vector6d>& velocity = odometry_.unexpected_velocity();
     if (velocity) deskew(result.cloud, Vector6d(*velocity - expected));
     return estimate;
@@ -98,7 +105,9 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     expected_ = {result.odometry.stamp, *given * result.odometry.T_world_sensor.inverse()};
   }
   result.expected_place = expected_place(result);
-  result.warnings = odometry_.take_warnings();
+  for (std::string& warning : odometry_.take_warnings()) {
+    result.warnings.push_back(std::move(warning));
+  }
   result.wants_relocalization = wants_relocalization(result);
   if (result.wants_relocalization) {
     result.has_pose_in_doubt = result.odometry.status != Status::kLost;
@@ -134,11 +143,28 @@ OdometryEstimate Localization::estimate_pose(const PerceivedFrame& frame, Labele
   if (verdict == MaskedStart::Verdict::kMasksAreRight) {
     odometry_ = masked_start_->following();
     estimate = masked_start_->estimate();
+    robot_body_.restart();
     session_ = Session(config_);
     cloud.overruled = {};
   }
   masked_start_.reset();
   return estimate;
+}
+
+/// An odometry that a part of the robot held begins anew, with all that compares frames with those
+/// before.
+void Localization::search_robot_body(const RobotBody::SeenFrame& seen, FrameResult& result,
+                                     OdometryEstimate& estimate) {
+  RobotBody::Found found = robot_body_.search(seen, odometry_, estimate);
+  if (!found.is_new) return;
+  const auto percent = std::lround(100.0 * robot_body_.share());
+  result.warnings.push_back(std::to_string(percent) +
+                            " % of the image show the robot itself: they are ignored");
+  if (!found.correction) return;
+  odometry_ = std::move(found.correction->odometry);
+  estimate = found.correction->estimate;
+  session_ = Session(config_);
+  masked_start_.reset();
 }
 
 FrameResult Localization::relocate(FrameResult lost, const Relocalization& place) {
@@ -155,6 +181,7 @@ FrameResult Localization::relocate(FrameResult lost, const Relocalization& place
   } else {
     lost.odometry =
         odometry_.relocate(lost.odometry.stamp, place.T_world_sensor, place.surroundings);
+    robot_body_.restart();
     lost.relocalized = true;
   }
   lost_frames_ = 0;
@@ -182,6 +209,7 @@ bool Localization::is_lost_for_long(Timestamp stamp, const FeatureCloud& feature
 void Localization::begin_session() {
   ++session_number_;
   odometry_.restart();
+  robot_body_.restart();
   session_ = Session(config_);
   corrections_.reset(std::nullopt);
   searches_place_ = true;

@@ -7,6 +7,7 @@
 #include "mms/core/time.hpp"
 #include "mms/global_map/global_map.hpp"
 #include "mms/localization/odometry.hpp"
+#include "mms/localization/robot_body/robot_body.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation.hpp"
 #include "mms/mapping/static_map/keyframe_selector.hpp"
 #include "mms/pipeline/correction_feed.hpp"
@@ -66,6 +67,8 @@ class Localization {
 
   OdometryEstimate estimate_pose(const PerceivedFrame& frame, LabeledCloud& cloud,
                                  FeatureCloud features);
+  void search_robot_body(const RobotBody::SeenFrame& seen, FrameResult& result,
+                         OdometryEstimate& estimate);
   void search_again(Timestamp stamp);
   std::optional<Transform<Global, Sensor>> expected_place(const FrameResult& result);
   bool is_lost_for_long(Timestamp stamp, const FeatureCloud& features);
@@ -78,6 +81,7 @@ class Localization {
   SystemConfig config_;
   Odometry odometry_;
   std::optional<MaskedStart> masked_start_;
+  RobotBody robot_body_;
   Session session_;
   std::uint32_t session_number_ = 0;
   CorrectionFeed corrections_{MapCorrection{Transform<Global, World>()}};

@@ -13,6 +13,7 @@ void SystemConfig::visit(ConfigVisitor& v) {
   v.group({"fusion", "", "masks and geometry into static and dynamic points (III-B)"}, fusion);
   v.group({"features", "", "edge and planar features (III-C.1)"}, features);
   v.group({"odometry", "", "data association and pose (III-C.2, III-C.3)"}, odometry);
+  v.group({"robot_body", "", "parts of the robot in the view of the depth camera"}, robot_body);
   v.group({"motion_segmentation", "", "moving objects without a mask", "movement"},
           motion_segmentation);
   v.group({"mask_check", "", "masks that recent views contradict"}, mask_check);

@@ -6,6 +6,7 @@
 #include "mms/global_map/global_map.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
 #include "mms/localization/odometry.hpp"
+#include "mms/localization/robot_body/robot_body_config.hpp"
 #include "mms/mapping/motion_segmentation/mask_check_config.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation_config.hpp"
 #include "mms/mapping/occupancy/occupancy_config.hpp"
@@ -25,6 +26,7 @@ struct SystemConfig {
   FusionConfig fusion;
   FeatureConfig features;
   OdometryConfig odometry;
+  RobotBodyConfig robot_body;
   MotionSegmentationConfig motion_segmentation;
   MaskCheckConfig mask_check;
   KeyframeConfig keyframes;

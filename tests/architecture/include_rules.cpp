@@ -203,7 +203,7 @@ IncludeRules make_rules() {
        {"solo", "weights", "detection", "engine/graph", "engine", "engine/calibration", "network",
         "onnx", "segmenters"}},
       {"fusion", {"config", "clouds", "planes", "clusters", "masks", ""}},
-      {"localization", {"features", "motion", "photometric", "registration", ""}},
+      {"localization", {"features", "motion", "photometric", "registration", "", "robot_body"}},
       {"mapping",
        {"free_space", "motion_segmentation", "static_map", "occupancy", "ground", "tracking"}},
       {"global_map", {"places", "keyframes", "loops", "graph", ""}},

@@ -1,0 +1,425 @@
+#include "mms/localization/robot_body/robot_body.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "mms/geometry/se3.hpp"
+#include "mms/localization/features/feature_exclusion.hpp"
+
+namespace mms {
+namespace {
+
+using Seen = DepthView::Seen;
+
+/// [-]: share of the nodes with a return that a part must have. Source: initial choice; smaller
+/// ones do not hold the pose.
+constexpr double kMinShare = 0.02;
+
+/// [s]: time before the next reference frame; it doubles where two poses were estimated without a
+/// result. Source: computing time.
+constexpr Duration kMinInterval = std::chrono::milliseconds(500);
+
+/// [s]: its limit. Source: computing time; half of the frames are registered twice at most.
+constexpr Duration kMaxInterval = std::chrono::seconds(2);
+
+/// [s]: age of the reference frame. Source: initial choice; the pose of a sensor at rest drifts.
+constexpr Duration kMaxAge = std::chrono::seconds(10);
+
+/// [s]: time for which parts that the pose contradicts must be constant. Source: initial choice;
+/// people who walk ahead are so for less.
+constexpr Duration kMinAge = std::chrono::seconds(1);
+
+/// [m]: motion after which the search begins anew. Source: initial choice; parts contradict it
+/// clearly then.
+constexpr double kMaxMotion = 0.3;
+
+/// [rad]: the same of turns. Source: as `kMaxMotion`, at 1 m.
+constexpr double kMaxTurn = 0.3;
+
+/// [-]: share of the compared nodes of parts that must contradict the motion. Source: initial
+/// choice; those beside each other on a plane do not.
+constexpr double kMinContradiction = 0.6;
+
+/// [-]: share of the other compared nodes that must agree with it. Source: initial choice.
+constexpr double kMinAgreement = 0.7;
+
+/// [-]: share of the nodes of parts that must be compared. Source: initial choice.
+constexpr double kMinCompared = 0.2;
+
+/// [-]: share of the nodes beside constant ones that must have changed before a pose without these
+/// is estimated. Source: initial choice; the sensor has moved then.
+constexpr double kMinChange = 0.1;
+
+/// [s]: time for which it is. Source: computing time; both poses differ by then.
+constexpr Duration kMaxIgnoring = std::chrono::seconds(2);
+
+/// [-]: share of the nodes on which two poses differ that must support the one that ignores the
+/// constant nodes. Source: initial choice; people who pass a camera at rest do not cover all of it.
+constexpr double kMinSupport = 0.9;
+
+/// [-]: share of the compared nodes on which both poses must differ. Source: at most 0.06 without
+/// parts of the robot on `desk_crowd`, 0.2 to 0.4 with them in `crowd`.
+constexpr double kMinDecided = 0.2;
+
+/// [-]: the same where the constant nodes contradict the pose that ignores them. Source: 0.13 with
+/// parts of the robot in `warehouse_loop`.
+constexpr double kMinDecidedContrary = 0.1;
+
+/// [-]: ratio of the photometric residuals at both poses that supports the one that ignores the
+/// constant nodes, where these contradict it. Source: 1.7 to 3.7 in `warehouse_loop`.
+constexpr double kMinResidualRatio = 1.5;
+
+/// [frames]: in a row in which a node of a part shows what is behind it, so that it is none.
+/// Source: initial choice; single ones are noise.
+constexpr int kMaxMisses = 5;
+
+/// [m]: depth behind a part up to which points belong to it. Source: initial choice; the robot's
+/// vibrations and mixed pixels.
+constexpr float kDepthMargin = 0.05F;
+
+/// Compared nodes.
+struct Votes {
+  int same = 0;
+  int other = 0;
+
+  void add(Seen seen) {
+    same += seen == Seen::kSame;
+    other += seen == Seen::kOther;
+  }
+  int compared() const { return same + other; }
+};
+
+std::size_t index_of(const LabeledCloud& cloud, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
+         static_cast<std::size_t>(x);
+}
+
+int count(const Image<std::uint8_t>& nodes) {
+  return static_cast<int>(nodes.size() - static_cast<std::size_t>(std::count(
+                                             nodes.pixels().begin(), nodes.pixels().end(), 0)));
+}
+
+/// Calls visit(whether the node is constant, its point, whether it is of `now`) for the valid nodes
+/// of both views.
+template <class Visit>
+void for_each_pair(const DepthView& reference, const DepthView& now,
+                   const Image<std::uint8_t>& constant, const Visit& visit) {
+  for (int y = 0; y < constant.height(); ++y) {
+    for (int x = 0; x < constant.width(); ++x) {
+      const bool is_constant = constant(x, y) != 0;
+      if (now.nodes()(x, y).is_valid()) visit(is_constant, now.nodes()(x, y).point, true);
+      if (reference.nodes()(x, y).is_valid()) {
+        visit(is_constant, reference.nodes()(x, y).point, false);
+      }
+    }
+  }
+}
+
+/// What two views show of each other from a relative pose.
+class Comparison {
+ public:
+  Comparison(const DepthView& reference, const DepthView& now, const Image<std::uint8_t>& constant,
+             const Eigen::Isometry3d& T_reference_now)
+      : reference_(reference),
+        now_(now),
+        constant_(constant),
+        T_reference_now_(T_reference_now.cast<float>()),
+        T_now_reference_(T_reference_now.inverse().cast<float>()) {}
+
+  /// What the other view shows at a point, as far as no constant nodes hide it.
+  /// @param is_now  whether the point is of `now`, else of the reference
+  Seen seen(const Eigen::Vector3f& point, bool is_now) const {
+    return is_now ? reference_.at(T_reference_now_ * point, constant_)
+                  : now_.at(T_now_reference_ * point, constant_);
+  }
+
+  /// The same for points of constant nodes themselves.
+  Seen seen_constant(const Eigen::Vector3f& point, bool is_now) const {
+    return is_now ? reference_.at(T_reference_now_ * point, {})
+                  : now_.at(T_now_reference_ * point, {});
+  }
+
+ private:
+  const DepthView& reference_;
+  const DepthView& now_;
+  const Image<std::uint8_t>& constant_;
+  Eigen::Isometry3f T_reference_now_;
+  Eigen::Isometry3f T_now_reference_;
+};
+
+bool contradict(const Votes& constant, int nodes) {
+  return constant.compared() >= kMinCompared * 2 * nodes &&
+         constant.other >= kMinContradiction * constant.compared();
+}
+
+bool moves(const Eigen::Isometry3d& motion) {
+  return motion.translation().norm() > kMaxMotion || se3::angle(motion) > kMaxTurn;
+}
+
+/// The features without those at constant nodes.
+FeatureCloud beside(const Image<std::uint8_t>& constant, const RobotBody::SeenFrame& frame) {
+  FeatureCloud features = frame.features;
+  LabeledCloud grid;
+  grid.camera = frame.view.camera();
+  grid.width = grid.camera.width;
+  grid.height = grid.camera.height;
+  Image<std::uint8_t> points(grid.width, grid.height);
+  for (int v = 0; v < points.height(); ++v) {
+    for (int u = 0; u < points.width(); ++u) {
+      const int x = u / kNodeStep;
+      const int y = v / kNodeStep;
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (constant.contains(x + dx, y + dy) && constant(x + dx, y + dy) != 0) points(u, v) = 1;
+        }
+      }
+    }
+  }
+  exclude(points, grid, features);
+  return features;
+}
+
+}  // namespace
+
+void RobotBody::exclude(LabeledCloud& cloud, FeatureCloud& features) {
+  const bool is_other_camera =
+      parts_.width() != cloud.width / kNodeStep || parts_.height() != cloud.height / kNodeStep;
+  if (parts_.empty() || !cloud.organised() || is_other_camera) return;
+  forget_uncovered(cloud);
+  Image<std::uint8_t> points(cloud.width, cloud.height);
+  for (int v = 0; v < cloud.height; ++v) {
+    for (int u = 0; u < cloud.width; ++u) {
+      const int x = std::min(u / kNodeStep, limits_.width() - 1);
+      const int y = std::min(v / kNodeStep, limits_.height() - 1);
+      const std::size_t i = index_of(cloud, u, v);
+      // Not so for NaN.
+      if (!(cloud.points[i].z() <= limits_(x, y))) continue;
+      cloud.labels[i] = PointLabel::kInvalid;
+      cloud.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+      if (!cloud.cluster.empty()) cloud.cluster[i] = -1;
+      points[i] = 1;
+    }
+  }
+  mms::exclude(points, cloud, features);
+}
+
+void RobotBody::forget_uncovered(const LabeledCloud& cloud) {
+  bool are_any = false;
+  for (int y = 0; y < parts_.height(); ++y) {
+    for (int x = 0; x < parts_.width(); ++x) {
+      if (parts_(x, y) <= 0.0F) continue;
+      const int u = kNodeStep * x + kNodeStep / 2;
+      const int v = kNodeStep * y + kNodeStep / 2;
+      const float z = cloud.points[index_of(cloud, u, v)].z();
+      misses_(x, y) = z > parts_(x, y) + kDepthMargin ? misses_(x, y) + 1 : 0;
+      if (misses_(x, y) < kMaxMisses) continue;
+      parts_(x, y) = 0.0F;
+      are_any = true;
+    }
+  }
+  if (are_any) set_limits();
+}
+
+double RobotBody::share() const {
+  if (parts_.empty()) return 0.0;
+  const auto nodes = std::count_if(parts_.pixels().begin(), parts_.pixels().end(),
+                                   [](float depth) { return depth > 0.0F; });
+  return static_cast<double>(nodes) / static_cast<double>(parts_.size());
+}
+
+Image<std::uint8_t> RobotBody::near_nodes(const DepthView& view) const {
+  const Image<DepthView::Node>& nodes = view.nodes();
+  Image<std::uint8_t> near(nodes.width(), nodes.height());
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    near[i] = nodes[i].is_valid() && nodes[i].point.z() < config_.max_distance ? 1 : 0;
+  }
+  return near;
+}
+
+std::optional<RobotBody::SeenFrame> RobotBody::see(const LabeledCloud& cloud,
+                                                   const FeatureCloud& features) const {
+  if (!config_.enabled || !cloud.organised()) return std::nullopt;
+  DepthView view(cloud, noise_);
+  if (count(near_nodes(view)) < kMinShare * view.valid_nodes()) return std::nullopt;
+  return SeenFrame{std::move(view), features};
+}
+
+RobotBody::Found RobotBody::search(const SeenFrame& frame, const Odometry& odometry,
+                                   const OdometryEstimate& estimate) {
+  if (reference_) {
+    keep_constant(frame.view);
+    if (is_over(frame.view, estimate)) end(estimate.stamp);
+  } else if (estimate.status != Status::kLost) {
+    begin(frame, odometry, estimate);
+  }
+  if (!reference_) return {};
+  const Eigen::Isometry3d motion =
+      (reference_->estimate.T_world_sensor.inverse() * estimate.T_world_sensor).isometry();
+  Found found;
+  if (ignore_constant(frame, estimate.stamp) && is_supported(frame, motion)) {
+    found.correction = Correction{reference_->ignoring->odometry, reference_->ignoring->estimate};
+  }
+  const bool is_old = estimate.stamp - reference_->estimate.stamp >= kMinAge;
+  found.is_new = found.correction || (is_old && is_contradicted(frame.view, motion));
+  if (found.is_new) add_constant();
+  if (found.is_new || moves(motion)) end(estimate.stamp);
+  if (found.is_new) interval_ = Duration::zero();
+  return found;
+}
+
+void RobotBody::sense(const MotionSamples& samples, const MotionCalibration& calibration) {
+  if (!reference_) return;
+  constexpr bool kIsCamera = true;
+  reference_->odometry.sense(samples, calibration, kIsCamera);
+  if (reference_->ignoring) reference_->ignoring->odometry.sense(samples, calibration, kIsCamera);
+}
+
+void RobotBody::begin(const SeenFrame& frame, const Odometry& odometry,
+                      const OdometryEstimate& estimate) {
+  if (estimate.stamp - last_end_ < interval_) return;
+  Image<std::uint8_t> near = near_nodes(frame.view);
+  const int nodes = count(near);
+  reference_.emplace(Reference{frame, odometry, estimate, std::move(near), nodes});
+  reference_->odometry.restart();
+}
+
+bool RobotBody::is_over(const DepthView& view, const OdometryEstimate& estimate) const {
+  const std::optional<Ignoring>& ignoring = reference_->ignoring;
+  return estimate.status == Status::kLost || reference_->nodes < kMinShare * view.valid_nodes() ||
+         estimate.stamp - reference_->estimate.stamp > kMaxAge ||
+         (ignoring && estimate.stamp - ignoring->since > kMaxIgnoring);
+}
+
+void RobotBody::end(Timestamp stamp) {
+  const bool was_costly = reference_->ignoring.has_value();
+  reference_.reset();
+  last_end_ = stamp;
+  interval_ = was_costly ? std::clamp(2 * interval_, kMinInterval, kMaxInterval) : kMinInterval;
+}
+
+/// Constant nodes are those that have been so in all frames.
+void RobotBody::keep_constant(const DepthView& view) {
+  reference_->nodes = 0;
+  Image<std::uint8_t>& constant = reference_->constant;
+  if (!view.nodes().same_size(constant)) return;
+  for (int y = 0; y < constant.height(); ++y) {
+    for (int x = 0; x < constant.width(); ++x) {
+      if (constant(x, y) != 0 && !reference_->frame.view.is_constant(x, y, view))
+        constant(x, y) = 0;
+      reference_->nodes += constant(x, y);
+    }
+  }
+}
+
+/// Whether the image has changed beside the constant nodes since the reference.
+bool RobotBody::has_changed(const DepthView& view) const {
+  const DepthView& before = reference_->frame.view;
+  const Image<std::uint8_t>& constant = reference_->constant;
+  int compared = 0, changed = 0;
+  for (int y = 0; y < constant.height(); ++y) {
+    for (int x = 0; x < constant.width(); ++x) {
+      const bool are_valid = before.nodes()(x, y).is_valid() && view.nodes()(x, y).is_valid();
+      if (constant(x, y) != 0 || !are_valid) continue;
+      ++compared;
+      changed += before.is_constant(x, y, view) ? 0 : 1;
+    }
+  }
+  return changed > kMinChange * compared;
+}
+
+/// Estimates the pose without constant nodes, once the image has changed.
+/// @returns whether there is one
+bool RobotBody::ignore_constant(const SeenFrame& frame, Timestamp stamp) {
+  std::optional<Ignoring>& ignoring = reference_->ignoring;
+  if (!ignoring) {
+    if (!has_changed(frame.view)) return false;
+    Odometry& odometry = reference_->odometry;
+    const OdometryEstimate begin =
+        odometry.estimate(beside(reference_->constant, reference_->frame));
+    ignoring.emplace(Ignoring{odometry, odometry, begin.T_world_sensor, stamp});
+  }
+  ignoring->estimate = ignoring->odometry.estimate(beside(reference_->constant, frame));
+  return ignoring->estimate.status != Status::kLost;
+}
+
+/// Whether the other nodes support the pose without constant ones, and not the given one.
+bool RobotBody::is_supported(const SeenFrame& frame,
+                             const Eigen::Isometry3d& T_reference_now) const {
+  const Ignoring& ignoring = *reference_->ignoring;
+  const Eigen::Isometry3d motion =
+      (ignoring.T_world_reference.inverse() * ignoring.estimate.T_world_sensor).isometry();
+  const DepthView& before = reference_->frame.view;
+  const Comparison holding(before, frame.view, reference_->constant, T_reference_now);
+  const Comparison without(before, frame.view, reference_->constant, motion);
+  Votes constant;
+  int compared = 0, decided = 0, supporting = 0;
+  for_each_pair(before, frame.view, reference_->constant,
+                [&](bool is_constant, const Eigen::Vector3f& point, bool is_now) {
+                  if (is_constant) return constant.add(without.seen_constant(point, is_now));
+                  const Seen ours = without.seen(point, is_now);
+                  const Seen theirs = holding.seen(point, is_now);
+                  if (ours == Seen::kNothing || theirs == Seen::kNothing) return;
+                  ++compared;
+                  if (ours == theirs) return;
+                  ++decided;
+                  supporting += ours == Seen::kSame;
+                });
+  const bool are_contrary = contradict(constant, reference_->nodes);
+  const double least = (are_contrary ? kMinDecidedContrary : kMinDecided) * compared;
+  if (decided >= least && supporting >= kMinSupport * decided) return true;
+  if (!are_contrary) return false;
+  const FeatureCloud features = beside(reference_->constant, frame);
+  const auto residual = [&](const Eigen::Isometry3d& T_begin_now) {
+    const Eigen::Isometry3d pose = ignoring.T_world_reference.isometry() * T_begin_now;
+    return ignoring.at_reference.fit(features, pose).intensity_sigma;
+  };
+  const double own = residual(motion);
+  return own > 0.0 && residual(T_reference_now) > kMinResidualRatio * own;
+}
+
+/// Whether the constant nodes contradict the pose, and the others do not.
+bool RobotBody::is_contradicted(const DepthView& view,
+                                const Eigen::Isometry3d& T_reference_now) const {
+  const DepthView& before = reference_->frame.view;
+  const Comparison comparison(before, view, reference_->constant, T_reference_now);
+  Votes constant, others;
+  for_each_pair(before, view, reference_->constant,
+                [&](bool is_constant, const Eigen::Vector3f& point, bool is_now) {
+                  if (is_constant) return constant.add(comparison.seen_constant(point, is_now));
+                  others.add(comparison.seen(point, is_now));
+                });
+  return contradict(constant, reference_->nodes) &&
+         others.same >= kMinAgreement * others.compared();
+}
+
+/// The constant nodes are parts of the robot.
+void RobotBody::add_constant() {
+  const Image<std::uint8_t>& constant = reference_->constant;
+  if (!parts_.same_size(constant)) {
+    parts_ = Image<float>(constant.width(), constant.height());
+    misses_ = Image<std::uint8_t>(constant.width(), constant.height());
+  }
+  for (std::size_t i = 0; i < constant.size(); ++i) {
+    if (constant[i] != 0) parts_[i] = reference_->frame.view.nodes()[i].point.z();
+  }
+  set_limits();
+}
+
+/// The points around a node of a part are of the part, too, as far as they are not behind it.
+void RobotBody::set_limits() {
+  limits_ = Image<float>(parts_.width(), parts_.height());
+  for (int y = 0; y < parts_.height(); ++y) {
+    for (int x = 0; x < parts_.width(); ++x) {
+      if (parts_(x, y) <= 0.0F) continue;
+      for (int v = std::max(0, y - 1); v <= std::min(y + 1, parts_.height() - 1); ++v) {
+        for (int u = std::max(0, x - 1); u <= std::min(x + 1, parts_.width() - 1); ++u) {
+          limits_(u, v) = std::max(limits_(u, v), parts_(x, y) + kDepthMargin);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace mms
