@@ -135,6 +135,7 @@ OdometryEstimate Odometry::accept(Alignment alignment) {
   estimate.stamp = alignment.stamp;
   estimate.T_world_sensor =
       Transform<World, Sensor>(motion_.predict(alignment.stamp).T_world_sensor);
+  looks_right_ = alignment.looks_right;
   unexpected_velocity_ = alignment.velocity;
   if (alignment.velocity) {
     const double seconds = to_seconds(alignment.stamp - motion_.stamp());
@@ -158,6 +159,7 @@ Odometry::Alignment Odometry::align_at_pose_time(FeatureCloud features) const {
                                    .usual_intensity_sigma = usual_intensity_sigma_});
   alignment.registration = choice.best();
   alignment.is_valid = choice.is_valid(*alignment.registration);
+  alignment.looks_right = choice.looks_right(*alignment.registration);
   return alignment;
 }
 

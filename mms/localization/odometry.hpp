@@ -31,6 +31,7 @@ class Odometry {
     FeatureCloud features;                           ///< at the time of the pose
     std::optional<RegistrationResult> registration;  ///< nothing before the first frame
     bool is_valid = false;                           ///< whether the frame is not lost
+    bool looks_right = true;  ///< whether the photometric residuals spread as usual
     /// Of the sensor during a scan [m/s, rad/s], where the expected one does not de-skew it.
     std::optional<Vector6d> velocity{};
   };
@@ -77,6 +78,9 @@ class Odometry {
   void sense(const MotionSamples& samples, const MotionCalibration& calibration, bool is_camera) {
     motion_.sense(samples, calibration, is_camera);
   }
+
+  /// Whether the photometric residuals of the last frame spread as usual.
+  bool looks_right() const { return looks_right_; }
 
   /// What was found about wheels and gyroscope since the last call, one line each.
   std::vector<std::string> take_warnings() { return motion_.take_warnings(); }
@@ -127,6 +131,7 @@ class Odometry {
   double turn_change_ = 0.0;            ///< from the turn before the last to the last one [rad]
   double usual_intensity_sigma_ = 0.0;  ///< running mean of `intensity_sigma` [grey levels]
   bool lost_ = false;
+  bool looks_right_ = true;
   std::optional<Vector6d> unexpected_velocity_;
 };
 

@@ -40,12 +40,14 @@ class RegistrationChoice {
   /// Whether enough features agree, and the sensor can have moved so.
   bool is_valid(const RegistrationResult& result) const;
 
+  /// Whether the photometric residuals spread as usual.
+  bool looks_right(const RegistrationResult& result) const;
+
  private:
   RegistrationResult register_sensed(const PosePrediction& prediction) const;
   RegistrationResult register_predicted(const PosePrediction& prediction) const;
   RegistrationResult register_turned(RegistrationResult best) const;
   std::vector<Eigen::Isometry3d> turn_guesses(bool at_predicted_place) const;
-  bool looks_right(const RegistrationResult& result) const;
   RegistrationResult register_near(const PosePrediction& prediction,
                                    const RegistrationConfig& config) const;
 

@@ -1,5 +1,6 @@
 #include "mms/pipeline/localization.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <cmath>
@@ -17,6 +18,14 @@ namespace {
 /// [-]: lost frames in a row after which the place is searched for in the global map. Source: the
 /// odometry recovers from fewer by itself.
 constexpr int kMinLostFrames = 3;
+
+/// [s]: time without frames after which the motion since is not known, so that a similar place
+/// could be taken for the right one. Source: at 1 m/s the right pose is a meter away.
+constexpr Duration kMaxGap = std::chrono::seconds(1);
+
+/// [-]: the same as a multiple of the time between the frames before. Source: initial choice; some
+/// recordings have less than a frame a second.
+constexpr int kMaxGapOfInterval = 5;
 
 /// [m]: distance of a recognized place from the pose of the odometry up to which they agree.
 /// Source: errors of poses from keypoints, far below the distance of similar places.
@@ -78,7 +87,11 @@ Localization::Localization(const SystemConfig& config)
 
 FrameResult Localization::localize(PerceivedFrame frame) {
   assert(thread_.is_owner());
-  if (is_lost_for_long(frame.cloud.stamp, frame.features)) begin_session();
+  const Duration interval = frame.cloud.stamp - last_stamp_;
+  const Duration last_interval = std::exchange(last_interval_, interval);
+  last_stamp_ = frame.cloud.stamp;
+  const bool is_gap = interval > std::max(kMaxGap, kMaxGapOfInterval * last_interval);
+  if (is_lost_for_long(interval, frame.features)) begin_session();
   const auto given = closes_loops_ ? frame.expected_place : std::nullopt;
   if (given) search_again(frame.cloud.stamp);
   FrameResult result;
@@ -95,6 +108,7 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     const std::optional<RobotBody::SeenFrame> seen = robot_body_.see(result.cloud, frame.features);
     exclude_moving_points(result.cloud, frame.features);
     OdometryEstimate estimate = estimate_pose(frame, result.cloud, std::move(frame.features));
+    is_in_doubt_ |= is_gap && has_global_keyframe_ && !odometry_.looks_right();
     if (seen) search_robot_body(*seen, result, estimate);
     const std::optional<Vector6d>& velocity = odometry_.unexpected_velocity();
     if (velocity) deskew(result.cloud, Vector6d(*velocity - expected));
@@ -193,8 +207,7 @@ FrameResult Localization::relocate(FrameResult lost, const Relocalization& place
 
 /// Counts the time of frames with enough features. Without loop closure, nothing would tell where
 /// a new session is.
-bool Localization::is_lost_for_long(Timestamp stamp, const FeatureCloud& features) {
-  const Duration interval = stamp - std::exchange(last_stamp_, stamp);
+bool Localization::is_lost_for_long(Duration interval, const FeatureCloud& features) {
   if (!closes_loops_ || !has_global_keyframe_ || !is_lost_) {
     lost_for_ = Duration::zero();
     return false;

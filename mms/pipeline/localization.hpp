@@ -71,7 +71,7 @@ class Localization {
                          OdometryEstimate& estimate);
   void search_again(Timestamp stamp);
   std::optional<Transform<Global, Sensor>> expected_place(const FrameResult& result);
-  bool is_lost_for_long(Timestamp stamp, const FeatureCloud& features);
+  bool is_lost_for_long(Duration interval, const FeatureCloud& features);
   void begin_session();
   void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
   bool wants_relocalization(const FrameResult& result);
@@ -93,10 +93,11 @@ class Localization {
   std::optional<ExpectedPlace> expected_;
   bool has_global_keyframe_ = false;
   int lost_frames_ = 0;       // in a row
-  bool is_in_doubt_ = false;  // since a loss: the place is not recognized yet
+  bool is_in_doubt_ = false;  // since a loss or a gap: the place is not recognized yet
   bool is_lost_ = false;      // the last frame
   Timestamp last_stamp_;
-  Duration lost_for_ = Duration::zero();  // of lost frames with enough features
+  Duration last_interval_ = Duration::zero();  // between the last two frames
+  Duration lost_for_ = Duration::zero();       // of lost frames with enough features
   ThreadConfinement thread_;
 };
 
