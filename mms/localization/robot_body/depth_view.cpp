@@ -10,8 +10,9 @@ namespace {
 /// of two measurements.
 constexpr float kSigmas = 4.24F;
 
-/// [m]: further difference of the depth at one pixel. Source: resolution of depth images.
-constexpr float kConstantMargin = 0.005F;
+/// [m]: further difference of the depth at one pixel. Source: initial choice; vibrations of the
+/// robot.
+constexpr float kConstantMargin = 0.01F;
 
 /// [m]: further difference of the depth in one direction. Source: initial choice; inclined surfaces
 /// between pixels.
@@ -64,13 +65,13 @@ DepthView::Seen DepthView::at(const Eigen::Vector3f& point,
   return std::abs(depth_(u, v) - point.z()) < limit ? Seen::kSame : Seen::kOther;
 }
 
-bool DepthView::is_constant(int x, int y, const DepthView& other) const {
+bool DepthView::has_changed(int x, int y, const DepthView& other) const {
   const Node& here = nodes_(x, y);
   const Node& there = other.nodes_(x, y);
   if (!here.is_valid() || !there.is_valid()) return false;
   const float limit = kConstantMargin + kSigmas * noise_.sigma(here.point.z());
-  return std::abs(here.point.z() - there.point.z()) < limit &&
-         std::abs(here.grey - there.grey) <= kMaxGreyChange;
+  return std::abs(here.point.z() - there.point.z()) >= limit ||
+         std::abs(here.grey - there.grey) > kMaxGreyChange;
 }
 
 }  // namespace mms

@@ -42,9 +42,8 @@ class DepthView {
   /// @param hidden  non-zero at nodes around which nothing is known; may be empty
   Seen at(const Eigen::Vector3f& point, const Image<std::uint8_t>& hidden) const;
 
-  /// Whether depth and brightness at a node are those of another view, as if nothing there moved
-  /// relative to the sensor.
-  bool is_constant(int x, int y, const DepthView& other) const;
+  /// Whether depth or brightness at a node differ from those of another view. Unknown ones do not.
+  bool has_changed(int x, int y, const DepthView& other) const;
 
  private:
   CameraModel camera_;
