@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "mms/geometry/camera.hpp"
 #include "mms/localization/features/feature_extractor.hpp"
@@ -120,6 +122,21 @@ TEST(RobotBody, IsForgottenOnceItIsGone) {
   EXPECT_EQ(camera.share(), 0.0);
   EXPECT_EQ(camera.valid_share(), 1.0);
   EXPECT_LT(camera.error(), 0.02);
+}
+
+TEST(RobotBody, IsNotIgnoredWhereTheReferenceShowsLittleElse) {
+  constexpr int kLowestRow = 74;  // above it there are no returns at first
+  constexpr int kFrames = 25;
+  Camera camera(true);
+  for (int frame = 0; frame < kFrames; ++frame) {
+    LabeledCloud cloud = view(frame, true);
+    for (int i = 0; frame < kFrames / 2 + 5 && i < kLowestRow * cloud.width; ++i) {
+      cloud.points[static_cast<std::size_t>(i)].setConstant(std::nanf(""));
+      cloud.labels[static_cast<std::size_t>(i)] = PointLabel::kInvalid;
+    }
+    camera.add(std::move(cloud));
+  }
+  EXPECT_EQ(camera.found(), 0);
 }
 
 TEST(RobotBody, IsNotSearchedForInScans) {

@@ -353,6 +353,7 @@ bool RobotBody::ignore_constant(const SeenFrame& frame, Timestamp stamp) {
     Odometry& odometry = reference_->odometry;
     const OdometryEstimate begin =
         odometry.estimate(beside(reference_->constant, reference_->frame));
+    if (begin.status == Status::kLost) return false;
     ignoring.emplace(Ignoring{odometry, odometry, begin.T_world_sensor, stamp});
   }
   ignoring->estimate = ignoring->odometry.estimate(beside(reference_->constant, frame));
