@@ -99,10 +99,11 @@ class RobotBody {
   std::optional<Reference> reference_;
   Duration interval_ = Duration::zero();  // between two reference frames
   Timestamp last_end_;                    // of one
-  Image<float> parts_;                    // of nodes: depth of the part there [m], 0 for none
-  Image<float> limits_;  // depth up to which points are of the parts around [m], 0 for none
-  Image<std::uint8_t>
-      misses_;  // frames in a row in which a node of a part showed what is behind it
+
+  // Of nodes:
+  Image<float> parts_;          // depth of the part there [m], 0 for none
+  Image<float> limits_;         // depth up to which points are of the parts around [m], 0 for none
+  Image<std::uint8_t> misses_;  // frames in a row that showed what is behind the part
 };
 
 }  // namespace mms
