@@ -1,7 +1,7 @@
 // Makes a variant of a recording of a depth camera in which it sees a part of the robot, which is
 // fixed to it. usage: mms_robot_body RECORDING FOLDER SHAPE TEXTURE [FRAMES]
-//   SHAPE    bumper: a plate over the lower fifth; arm: a bar from below; frame: a post at both
-//   sides TEXTURE  plain or checkered
+//   SHAPE    bumper: a plate over the lower fifth; arm: a bar from below; frame: two posts
+//   TEXTURE  plain or checkered
 #include <cmath>
 #include <cstdlib>
 #include <exception>

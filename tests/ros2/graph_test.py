@@ -286,7 +286,8 @@ def check_next_runs():
 
     finish(start_partner("play", "x.mcap", "receive", "runs_1", *odometry, "expect", "20"),
            "the partner of the first run")
-    for name, content, result in (("none.mmsmap", None, 1), ("text.mmsmap", "text", 2)):
+    for name, content, result in (("none.mmsmap", None, 1), ("x" * 300, None, 1),
+                                  ("text.mmsmap", "text", 2)):
         if content:
             Path(name).write_text(content)
         output = call("load_map", "refused", "map", os.path.abspath(name))

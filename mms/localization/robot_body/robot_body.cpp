@@ -254,7 +254,7 @@ std::optional<RobotBody::SeenFrame> RobotBody::see(const LabeledCloud& cloud,
                                                    const FeatureCloud& features) const {
   if (!config_.enabled || !cloud.organised()) return std::nullopt;
   DepthView view(cloud, noise_);
-  if (count(near_nodes(view)) < kMinShare * view.valid_nodes()) return std::nullopt;
+  if (count(near_nodes(view)) <= kMinShare * view.valid_nodes()) return std::nullopt;
   return SeenFrame{std::move(view), features};
 }
 
@@ -303,7 +303,7 @@ void RobotBody::begin(const SeenFrame& frame, const Odometry& odometry,
 
 bool RobotBody::is_over(const DepthView& view, const OdometryEstimate& estimate) const {
   const std::optional<Ignoring>& ignoring = reference_->ignoring;
-  return estimate.status == Status::kLost || reference_->nodes < kMinShare * view.valid_nodes() ||
+  return estimate.status == Status::kLost || reference_->nodes <= kMinShare * view.valid_nodes() ||
          estimate.stamp - reference_->estimate.stamp > kMaxAge ||
          (ignoring && estimate.stamp - ignoring->since > kMaxIgnoring);
 }

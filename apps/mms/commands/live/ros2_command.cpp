@@ -61,7 +61,9 @@ std::optional<RunOptions> run_once(const Ros2CommandOptions& options, const RunO
   Ros2Node node(options.node,
                 [&source](const std::string& fault) { source->count_damaged(fault); });
   Ros2Results results(node, options.results);
-  Ros2Restart restart([&source](const std::string& message) { source->warn(message); });
+  const bool closes_loops = run.loops.empty() ? config.global_map.enabled : run.loops == "on";
+  Ros2Restart restart(closes_loops,
+                      [&source](const std::string& message) { source->warn(message); });
   auto owned = std::make_unique<Ros2Source>(node, options.inputs, options.queue, [&restart] {
     return InterruptGuard::requested() || restart.is_requested();
   });

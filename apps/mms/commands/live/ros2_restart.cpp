@@ -1,6 +1,7 @@
 #include "apps/mms/commands/live/ros2_restart.hpp"
 
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "mms/core/error.hpp"
@@ -42,8 +43,12 @@ msg::LoadMapReply Ros2Restart::load(const std::string& url) {
     return Reply{{}, result};
   };
   if (requested_) return refuse(Reply::kUndefinedFailure, "the run ends already");
+  if (!closes_loops_) return refuse(Reply::kUndefinedFailure, "needs loop closure, but it is off");
   const fs::path path = path_of(url);
-  if (!fs::exists(path)) return refuse(Reply::kDoesNotExist, path.string() + ": no such file");
+  std::error_code fault;  // as of a name that is too long
+  if (!fs::exists(path, fault)) {
+    return refuse(Reply::kDoesNotExist, "'" + path.string() + "': no such file");
+  }
   try {
     const MapFile file(path, MapFile::Mode::kRead);
   } catch (const Error& error) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "mms/ros2/map_messages.hpp"
 #include "mms/ros2/ros2_node.hpp"
@@ -18,8 +19,10 @@ class Ros2Restart {
  public:
   using Report = std::function<void(const std::string& message)>;
 
-  /// @param report  receives why a map is refused, in the node's thread
-  explicit Ros2Restart(Report report) : report_(std::move(report)) {}
+  /// @param closes_loops  whether the runs can localize in a map
+  /// @param report        receives why a map is refused, in the node's thread
+  Ros2Restart(bool closes_loops, Report report)
+      : closes_loops_(closes_loops), report_(std::move(report)) {}
 
   // In the node's thread:
 
@@ -38,6 +41,7 @@ class Ros2Restart {
   RunOptions next(RunOptions first) const;
 
  private:
+  bool closes_loops_;
   Report report_;
   std::optional<std::filesystem::path> map_;  ///< of the next run; none: that of the first one
   std::atomic<bool> requested_ = false;       ///< set after `map_`
