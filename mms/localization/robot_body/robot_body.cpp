@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <utility>
 
 #include "mms/geometry/se3.hpp"
 #include "mms/localization/features/feature_exclusion.hpp"
+#include "mms/localization/robot_body/view_comparison.hpp"
 
 namespace mms {
 namespace {
 
 using Seen = DepthView::Seen;
+using Votes = ViewComparison::Votes;
 
 /// [-]: share of the nodes with a return that a part must have. Source: initial choice; smaller
 /// ones do not hold the pose.
@@ -78,83 +79,10 @@ constexpr double kMinHold = 0.03;
 /// [rad]: the same of the angle. Source: as `kMinHold`, at 1.5 m.
 constexpr double kMinHoldTurn = 0.02;
 
-/// [frames]: in a row in which a node of a part shows what is behind it, so that it is none.
-/// Source: initial choice; single ones are noise.
-constexpr int kMaxMisses = 5;
-
-/// [m]: depth behind a part up to which points belong to it. Source: initial choice; the robot's
-/// vibrations and mixed pixels.
-constexpr float kDepthMargin = 0.05F;
-
-/// Compared nodes.
-struct Votes {
-  int same = 0;
-  int other = 0;
-
-  void add(Seen seen) {
-    same += seen == Seen::kSame;
-    other += seen == Seen::kOther;
-  }
-  int compared() const { return same + other; }
-};
-
-std::size_t index_of(const LabeledCloud& cloud, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
-         static_cast<std::size_t>(x);
-}
-
 int count(const Image<std::uint8_t>& nodes) {
   return static_cast<int>(nodes.size() - static_cast<std::size_t>(std::count(
                                              nodes.pixels().begin(), nodes.pixels().end(), 0)));
 }
-
-/// Calls visit(whether the node is constant, its point, whether it is of `now`) for the valid nodes
-/// of both views.
-template <class Visit>
-void for_each_pair(const DepthView& reference, const DepthView& now,
-                   const Image<std::uint8_t>& constant, const Visit& visit) {
-  for (int y = 0; y < constant.height(); ++y) {
-    for (int x = 0; x < constant.width(); ++x) {
-      const bool is_constant = constant(x, y) != 0;
-      if (now.nodes()(x, y).is_valid()) visit(is_constant, now.nodes()(x, y).point, true);
-      if (reference.nodes()(x, y).is_valid()) {
-        visit(is_constant, reference.nodes()(x, y).point, false);
-      }
-    }
-  }
-}
-
-/// What two views show of each other from a relative pose.
-class Comparison {
- public:
-  Comparison(const DepthView& reference, const DepthView& now, const Image<std::uint8_t>& constant,
-             const Eigen::Isometry3d& T_reference_now)
-      : reference_(reference),
-        now_(now),
-        constant_(constant),
-        T_reference_now_(T_reference_now.cast<float>()),
-        T_now_reference_(T_reference_now.inverse().cast<float>()) {}
-
-  /// What the other view shows at a point, as far as no constant nodes hide it.
-  /// @param is_now  whether the point is of `now`, else of the reference
-  Seen seen(const Eigen::Vector3f& point, bool is_now) const {
-    return is_now ? reference_.at(T_reference_now_ * point, constant_)
-                  : now_.at(T_now_reference_ * point, constant_);
-  }
-
-  /// The same for points of constant nodes themselves.
-  Seen seen_constant(const Eigen::Vector3f& point, bool is_now) const {
-    return is_now ? reference_.at(T_reference_now_ * point, {})
-                  : now_.at(T_now_reference_ * point, {});
-  }
-
- private:
-  const DepthView& reference_;
-  const DepthView& now_;
-  const Image<std::uint8_t>& constant_;
-  Eigen::Isometry3f T_reference_now_;
-  Eigen::Isometry3f T_now_reference_;
-};
 
 bool contradict(const Votes& constant, int nodes) {
   return constant.compared() >= kMinCompared * 2 * nodes &&
@@ -195,52 +123,6 @@ FeatureCloud beside(const Image<std::uint8_t>& constant, const RobotBody::SeenFr
 
 }  // namespace
 
-void RobotBody::exclude(LabeledCloud& cloud, FeatureCloud& features) {
-  const bool is_other_camera =
-      parts_.width() != cloud.width / kNodeStep || parts_.height() != cloud.height / kNodeStep;
-  if (parts_.empty() || !cloud.organised() || is_other_camera) return;
-  forget_uncovered(cloud);
-  Image<std::uint8_t> points(cloud.width, cloud.height);
-  for (int v = 0; v < cloud.height; ++v) {
-    for (int u = 0; u < cloud.width; ++u) {
-      const int x = std::min(u / kNodeStep, limits_.width() - 1);
-      const int y = std::min(v / kNodeStep, limits_.height() - 1);
-      const std::size_t i = index_of(cloud, u, v);
-      // Not so for NaN.
-      if (!(cloud.points[i].z() <= limits_(x, y))) continue;
-      cloud.labels[i] = PointLabel::kInvalid;
-      cloud.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
-      if (!cloud.cluster.empty()) cloud.cluster[i] = -1;
-      points[i] = 1;
-    }
-  }
-  mms::exclude(points, cloud, features);
-}
-
-void RobotBody::forget_uncovered(const LabeledCloud& cloud) {
-  bool are_any = false;
-  for (int y = 0; y < parts_.height(); ++y) {
-    for (int x = 0; x < parts_.width(); ++x) {
-      if (parts_(x, y) <= 0.0F) continue;
-      const int u = kNodeStep * x + kNodeStep / 2;
-      const int v = kNodeStep * y + kNodeStep / 2;
-      const float z = cloud.points[index_of(cloud, u, v)].z();
-      misses_(x, y) = z > parts_(x, y) + kDepthMargin ? misses_(x, y) + 1 : 0;
-      if (misses_(x, y) < kMaxMisses) continue;
-      parts_(x, y) = 0.0F;
-      are_any = true;
-    }
-  }
-  if (are_any) set_limits();
-}
-
-double RobotBody::share() const {
-  if (parts_.empty()) return 0.0;
-  const auto nodes = std::count_if(parts_.pixels().begin(), parts_.pixels().end(),
-                                   [](float depth) { return depth > 0.0F; });
-  return static_cast<double>(nodes) / static_cast<double>(parts_.size());
-}
-
 Image<std::uint8_t> RobotBody::near_nodes(const DepthView& view) const {
   const Image<DepthView::Node>& nodes = view.nodes();
   Image<std::uint8_t> near(nodes.width(), nodes.height());
@@ -279,7 +161,7 @@ RobotBody::Found RobotBody::search(const SeenFrame& frame, const Odometry& odome
   }
   const bool is_old = estimate.stamp - reference_->estimate.stamp >= kMinAge;
   found.is_new = found.is_new || (is_old && is_contradicted(frame.view, motion));
-  if (found.is_new) add_constant();
+  if (found.is_new) parts_.add(reference_->frame.view, reference_->constant);
   if (found.is_new || moves(motion)) end(estimate.stamp);
   if (found.is_new) interval_ = Duration::zero();
   return found;
@@ -367,21 +249,20 @@ bool RobotBody::is_supported(const SeenFrame& frame,
   const Eigen::Isometry3d motion =
       (ignoring.T_world_reference.inverse() * ignoring.estimate.T_world_sensor).isometry();
   const DepthView& before = reference_->frame.view;
-  const Comparison holding(before, frame.view, reference_->constant, T_reference_now);
-  const Comparison without(before, frame.view, reference_->constant, motion);
+  const ViewComparison holding(before, frame.view, reference_->constant, T_reference_now);
+  const ViewComparison without(before, frame.view, reference_->constant, motion);
   Votes constant;
   int compared = 0, decided = 0, supporting = 0;
-  for_each_pair(before, frame.view, reference_->constant,
-                [&](bool is_constant, const Eigen::Vector3f& point, bool is_now) {
-                  if (is_constant) return constant.add(without.seen_constant(point, is_now));
-                  const Seen ours = without.seen(point, is_now);
-                  const Seen theirs = holding.seen(point, is_now);
-                  if (ours == Seen::kNothing || theirs == Seen::kNothing) return;
-                  ++compared;
-                  if (ours == theirs) return;
-                  ++decided;
-                  supporting += ours == Seen::kSame;
-                });
+  without.for_each_node([&](bool is_constant, const Eigen::Vector3f& point, bool is_now) {
+    if (is_constant) return constant.add(without.seen_constant(point, is_now));
+    const Seen ours = without.seen(point, is_now);
+    const Seen theirs = holding.seen(point, is_now);
+    if (ours == Seen::kNothing || theirs == Seen::kNothing) return;
+    ++compared;
+    if (ours == theirs) return;
+    ++decided;
+    supporting += ours == Seen::kSame;
+  });
   const bool are_contrary = contradict(constant, reference_->nodes);
   const double least = (are_contrary ? kMinDecidedContrary : kMinDecided) * compared;
   if (decided >= least && supporting >= kMinSupport * decided) return true;
@@ -399,43 +280,14 @@ bool RobotBody::is_supported(const SeenFrame& frame,
 bool RobotBody::is_contradicted(const DepthView& view,
                                 const Eigen::Isometry3d& T_reference_now) const {
   const DepthView& before = reference_->frame.view;
-  const Comparison comparison(before, view, reference_->constant, T_reference_now);
+  const ViewComparison comparison(before, view, reference_->constant, T_reference_now);
   Votes constant, others;
-  for_each_pair(before, view, reference_->constant,
-                [&](bool is_constant, const Eigen::Vector3f& point, bool is_now) {
-                  if (is_constant) return constant.add(comparison.seen_constant(point, is_now));
-                  others.add(comparison.seen(point, is_now));
-                });
+  comparison.for_each_node([&](bool is_constant, const Eigen::Vector3f& point, bool is_now) {
+    if (is_constant) return constant.add(comparison.seen_constant(point, is_now));
+    others.add(comparison.seen(point, is_now));
+  });
   return contradict(constant, reference_->nodes) &&
          others.same >= kMinAgreement * others.compared();
-}
-
-/// The constant nodes are parts of the robot.
-void RobotBody::add_constant() {
-  const Image<std::uint8_t>& constant = reference_->constant;
-  if (!parts_.same_size(constant)) {
-    parts_ = Image<float>(constant.width(), constant.height());
-    misses_ = Image<std::uint8_t>(constant.width(), constant.height());
-  }
-  for (std::size_t i = 0; i < constant.size(); ++i) {
-    if (constant[i] != 0) parts_[i] = reference_->frame.view.nodes()[i].point.z();
-  }
-  set_limits();
-}
-
-/// The points around a node of a part are of the part, too, as far as they are not behind it.
-void RobotBody::set_limits() {
-  limits_ = Image<float>(parts_.width(), parts_.height());
-  for (int y = 0; y < parts_.height(); ++y) {
-    for (int x = 0; x < parts_.width(); ++x) {
-      if (parts_(x, y) <= 0.0F) continue;
-      for (int v = std::max(0, y - 1); v <= std::min(y + 1, parts_.height() - 1); ++v) {
-        for (int u = std::max(0, x - 1); u <= std::min(x + 1, parts_.width() - 1); ++u) {
-          limits_(u, v) = std::max(limits_(u, v), parts_(x, y) + kDepthMargin);
-        }
-      }
-    }
-  }
 }
 
 }  // namespace mms

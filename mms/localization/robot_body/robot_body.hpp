@@ -9,6 +9,7 @@
 #include "mms/core/odometry_estimate.hpp"
 #include "mms/localization/odometry.hpp"
 #include "mms/localization/robot_body/depth_view.hpp"
+#include "mms/localization/robot_body/known_parts.hpp"
 #include "mms/localization/robot_body/robot_body_config.hpp"
 
 namespace mms {
@@ -23,12 +24,11 @@ class RobotBody {
   RobotBody(const RobotBodyConfig& config, const DepthNoise& noise)
       : config_(config), noise_(noise) {}
 
-  /// Makes the points of known parts invalid. Nodes that show something behind a part for some
-  /// frames are none of it.
-  void exclude(LabeledCloud& cloud, FeatureCloud& features);
+  /// Makes the points of known parts invalid.
+  void exclude(LabeledCloud& cloud, FeatureCloud& features) { parts_.exclude(cloud, features); }
 
   /// Share of the image that is known to show the robot, in [0, 1].
-  double share() const;
+  double share() const { return parts_.share(); }
 
   /// A frame as far as `search` needs it.
   struct SeenFrame {
@@ -89,21 +89,14 @@ class RobotBody {
   bool ignore_constant(const SeenFrame& frame, Timestamp stamp);
   bool is_supported(const SeenFrame& frame, const Eigen::Isometry3d& T_reference_now) const;
   bool is_contradicted(const DepthView& view, const Eigen::Isometry3d& T_reference_now) const;
-  void add_constant();
-  void forget_uncovered(const LabeledCloud& cloud);
-  void set_limits();
   void end(Timestamp stamp);
 
   RobotBodyConfig config_;
   DepthNoise noise_;
+  KnownParts parts_;
   std::optional<Reference> reference_;
   Duration interval_ = Duration::zero();  // between two reference frames
   Timestamp last_end_;                    // of one
-
-  // Of nodes:
-  Image<float> parts_;          // depth of the part there [m], 0 for none
-  Image<float> limits_;         // depth up to which points are of the parts around [m], 0 for none
-  Image<std::uint8_t> misses_;  // frames in a row that showed what is behind the part
 };
 
 }  // namespace mms
