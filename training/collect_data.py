@@ -34,6 +34,8 @@ SAME_DISTANCE = 10  # of perceptual hashes to a hold-out: dropped
 NEAR_DISTANCE = 12  # listed in near_pairs.csv
 TWIN_DISTANCE = 4  # to an image that is taken already: dropped
 EMPTY_HOLDOUT = 500
+WIDE_CROWD, TALL_CROWD = 3, 8  # people in a box that is one of a crowd; most people are tall
+CROWD_PART = 0.35  # largest area of such a person relative to the box
 PICTURES = (".jpg", ".jpeg", ".png")
 COCO_LABELS = "insigh1+Interactive_ABCs_with_American_Sign_Language_using_Yolov5"
 COCO_LABELS_COMMIT = "a10d74895"
@@ -238,6 +240,22 @@ def checked(objects, name, width, height, report):
     return good
 
 
+def mark_crowds(objects):
+    """Boxes around many people are of crowds, which count neither as a person nor as background."""
+    for entry in objects:
+        x, y, w, h = entry.box
+        if entry.category != PERSON or entry.polygons or entry.mask is not None:
+            continue
+        inside = sum(
+            x < other.box[0] + other.box[2] / 2 < x + w
+            and y < other.box[1] + other.box[3] / 2 < y + h
+            and other.box[2] * other.box[3] < CROWD_PART * w * h
+            for other in objects
+            if other is not entry and other.category == PERSON
+        )
+        entry.crowd |= inside >= (WIDE_CROWD if w > h else TALL_CROWD)
+
+
 # ---------------------------------------------------------------- formats
 
 
@@ -284,6 +302,35 @@ def yolo_txt(repo, report, folder, classes, label_of, label_repo=None, unlabelle
             continue
         text = label.decode("utf-8", "replace")
         yield Picture(name, lambda w, h, name=name, text=text: objects_of(name, text, w, h))
+
+
+def corners_txt(repo, report, folder, classes, label_of):
+    """Pictures with text files of lines 'class left top right bottom' [px]."""
+
+    def objects_of(name, text):
+        objects = []
+        for number, line in enumerate(text.splitlines(), 1):
+            if not line.strip():
+                continue
+            try:
+                word, *corners = line.split()
+                left, top, right, bottom = (float(value) for value in corners)
+            except ValueError:
+                report.bad_annotation(name, f"line {number}: is not 'class left top right bottom'")
+                continue
+            if word in classes:
+                box = [left, top, right - left, bottom - top]
+                objects.append(Object(f"line {number}", classes[word], box))
+        return objects
+
+    for name in repo.below(folder, PICTURES):
+        label = repo.read(label_of(name))
+        if label is None:
+            report.images += 1
+            report.bad_image(name, "has no label file")
+            continue
+        text = label.decode("utf-8", "replace")
+        yield Picture(name, lambda w, h, name=name, text=text: objects_of(name, text))
 
 
 def coco_json(repo, report, file, folder, classes):
@@ -589,6 +636,34 @@ TRAINING = [
             repo, report, "data/yolo_pose/images/train/", [PERSON] + [0] * 79, coco_label, labels
         ),
         coco=True,
+    ),
+    *(
+        Source(
+            "hard_hat", "Especializacion-IA+yolov8-hard-hat_test",
+            lambda repo, report, _, part=part: yolo_txt(
+                repo, report, f"dataset/{part}/images/", [0, 0, 0, PERSON],
+                beside("/images/", "/labels/"),
+            ),
+        )
+        for part in ("train", "valid", "test")
+    ),
+    *(
+        Source(  # half of it: statues and mannequins
+            "statues", "nishamurthy-22+Pedestrian_yolo",
+            lambda repo, report, _, part=part: yolo_txt(
+                repo, report, f"data/images/{part}/", [PERSON, 0], beside("/images/", "/labels/")
+            ),
+            keep_empty=True,
+        )
+        for part in ("train", "val")
+    ),
+    Source(  # cars, cats, trains and people, from PASCAL VOC 2007
+        "traffic", "BernieChen96+ImageClassification",
+        lambda repo, report, _: corners_txt(
+            repo, report, "JPEGImages/", {"person": PERSON},
+            beside("JPEGImages/", "HandledText/initTxt/"),
+        ),
+        keep_empty=True,
     ),
 ]
 
@@ -955,6 +1030,7 @@ class Collection:
         objects = checked(
             picture.objects(*image.size), picture.name, *image.size, report
         )
+        mark_crowds(objects)
         key, small = self.small_image(source, picture.name, image)
         scale = (small.width / image.width, small.height / image.height)
         found = [annotation_of(entry, scale, small.size) for entry in objects]

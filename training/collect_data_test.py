@@ -131,6 +131,27 @@ class Formats(Sources):
         person, = self.result()["annotations"]
         self.assertEqual(person["bbox"], [30, 15, 20, 30])
 
+    def test_corners_in_pixels(self):
+        repository = "BernieChen96+ImageClassification"
+        for number, text in enumerate(["car 1 2 30 40\nperson 10 5 40 50 \n", "cat 1 1 9 9\n", "car 1"]):
+            self.at(repository, f"JPEGImages/00000{number}.jpg", noise(90 + number))
+            self.at(repository, f"HandledText/initTxt/00000{number}.txt", text)
+        self.assertIn(
+            "traffic: JPEGImages/000002.jpg: line 1: is not 'class left top right bottom'",
+            self.collect(),
+        )
+        self.assertEqual(len(self.result()["images"]), 3)
+        self.assertEqual([e["bbox"] for e in self.result()["annotations"]], [[10, 5, 30, 45]])
+
+    def test_boxes_around_many_people_are_crowds(self):
+        people = "".join(f"1 {0.2 + 0.2 * i} 0.5 0.1 0.3\n" for i in range(3))
+        self.forklift(1, f"{people}1 0.4 0.5 0.8 0.5\n")
+        self.forklift(2, f"{people}1 0.4 0.5 0.6 0.9\n")  # taller than wide: a person in front
+        self.forklift(3, f"{people}0 0.4 0.5 0.8 0.5\n")  # a vehicle
+        self.collect()
+        crowds = [e["id"] for e in self.result()["annotations"] if e["iscrowd"]]
+        self.assertEqual(crowds, [4])
+
     def test_large_images_are_scaled_with_their_annotations(self):
         self.forklift(1, "0 0.5 0.5 0.25 0.5\n", noise(1, 896, 448))
         self.collect()
