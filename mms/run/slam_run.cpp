@@ -134,10 +134,15 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
                [&](Processed&& processed) { finish_frame(std::move(processed), observer); });
   end_map();
   report_implausible(observer);
+  if (repeated_.count() > 0) {
+    warn(fmt::format("{} frames that repeat images of the one before were left out",
+                     repeated_.count()),
+         observer);
+  }
   observer.on_end();
   interrupted_ = observer.stop_requested();
   if (interrupted_) warn("interrupted, writing the results so far", observer);
-  log_->finish(source_->skipped(), source_->dropped(), pipeline, system_);
+  log_->finish(source_->skipped() + repeated_.count(), source_->dropped(), pipeline, system_);
   warn_if_not_localized(observer);
   warn_of_sessions_outside(observer);
   if (log_->size() == 0) {
@@ -148,14 +153,26 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   compare_with_truth(observer);
 }
 
-/// The requested frames; none after the observer ended the run, or the run gave up.
+/// The requested frames but repeated ones; none after the observer ended the run, or the run gave
+/// up.
 AsyncPipeline::Source SlamRun::frames_for(RunObserver& observer) {
   return [this, &observer, left = options_.frames]() mutable -> std::optional<Frame> {
-    if (left == 0 || observer.stop_requested() || gave_up_) return std::nullopt;
-    --left;
-    std::optional<Frame> frame = first_ ? std::exchange(first_, std::nullopt) : source_->next();
-    if (frame) check_plausibility(*frame, observer);
-    return frame;
+    while (left > 0 && !observer.stop_requested() && !gave_up_) {
+      --left;
+      std::optional<Frame> frame = first_ ? std::exchange(first_, std::nullopt) : source_->next();
+      if (!frame) return std::nullopt;
+      if (repeated_.omits(*frame)) {
+        if (repeated_.count() == 1) {
+          warn(fmt::format("frame {} repeats an image of the one before: such frames are left out",
+                           frame->name),
+               observer);
+        }
+        continue;
+      }
+      check_plausibility(*frame, observer);
+      return frame;
+    }
+    return std::nullopt;
   };
 }
 

@@ -16,6 +16,7 @@
 #include "mms/run/record/run_log.hpp"
 #include "mms/run/record/run_options.hpp"
 #include "mms/run/record/run_recorder.hpp"
+#include "mms/run/repeated_frames.hpp"
 #include "mms/run/results/run_map.hpp"
 #include "mms/run/run_observer.hpp"
 #include "mms/run/view/live_view.hpp"
@@ -84,6 +85,7 @@ class SlamRun {
   std::vector<std::string> warnings_;  // of the settings, then of the run
   std::mutex warnings_mutex_;
   std::optional<Frame> first_;  // read for the settings, null once processed
+  RepeatedFrames repeated_;     // of the reading thread
   SystemConfig config_;
   SlamSystem system_;
   RunMap map_;

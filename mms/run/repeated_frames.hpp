@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "mms/core/frame.hpp"
+
+namespace mms {
+
+/// Finds frames whose color or depth image, or scan, is that of the frame before, value by value.
+/// Drivers and recorders without a new image give the last one again; the noise of a sensor never
+/// does. The pose would stand still with them, and jump afterwards.
+class RepeatedFrames {
+ public:
+  /// Whether a frame is to be left out. The next one that is not gets its motion samples and place.
+  bool omits(Frame& frame);
+
+  std::size_t count() const { return count_; }  ///< frames to be left out so far
+
+ private:
+  bool repeats(const Frame& frame) const;
+
+  // Of the last frame that was not left out:
+  Timestamp stamp_;
+  Image<Rgb> color_;
+  Image<float> depth_;
+  std::vector<Eigen::Vector3f> points_;
+  MotionSamples motion_;  // of frames that were left out
+  std::optional<Transform<Global, Sensor>> expected_place_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace mms
