@@ -8,9 +8,10 @@
 namespace mms {
 namespace {
 
-/// [s]: time for which frames are left out of which one image alone is repeated. Source: initial
-/// choice; a slower camera has at least 4 Hz, and the other camera of a broken one must go on.
-constexpr Duration kMaxOneRepeated = std::chrono::milliseconds(250);
+/// [s]: age of a color image up to which frames are left out that repeat it with another depth.
+/// Source: initial choice; a slower camera has at least 4 Hz, and a broken one does not end the
+/// run.
+constexpr Duration kMaxSameColor = std::chrono::milliseconds(250);
 
 /// Bit by bit, since NaN does not equal itself.
 template <class T>
@@ -41,18 +42,6 @@ void put_before(std::vector<T>&& earlier, std::vector<T>& samples) {
 
 }  // namespace
 
-bool RepeatedFrames::repeats(const Frame& frame) const {
-  if (!frame.has_depth()) {
-    return shows_anything(frame) && are_same(frame.scan.points, points_);
-  }
-  if (!shows_anything(frame)) return false;
-  const bool same_depth = are_same(frame.depth.pixels(), depth_.pixels());
-  const bool same_color =
-      are_same(frame.color.pixels(), color_.pixels()) && !is_uniform(frame.color);
-  if (same_depth && same_color) return true;
-  return (same_depth || same_color) && frame.stamp - stamp_ <= kMaxOneRepeated;
-}
-
 bool RepeatedFrames::omits(Frame& frame) {
   put_before(std::move(motion_.wheels), frame.motion.wheels);
   put_before(std::move(motion_.imu), frame.motion.imu);
@@ -64,11 +53,28 @@ bool RepeatedFrames::omits(Frame& frame) {
     ++count_;
     return true;
   }
-  stamp_ = frame.stamp;
-  color_ = frame.color;
+  keep(frame);
+  if (has_old_color_) frame.color = {};
+  return false;
+}
+
+bool RepeatedFrames::repeats(const Frame& frame) {
+  const bool same_color = frame.has_depth() && !is_uniform(frame.color) &&
+                          are_same(frame.color.pixels(), color_.pixels());
+  has_old_color_ = same_color && frame.stamp - color_since_ > kMaxSameColor;
+  if (!shows_anything(frame)) return false;
+  const bool same_points = frame.has_depth() ? are_same(frame.depth.pixels(), depth_.pixels())
+                                             : are_same(frame.scan.points, points_);
+  return same_points || (same_color && !has_old_color_);
+}
+
+void RepeatedFrames::keep(const Frame& frame) {
+  if (!are_same(frame.color.pixels(), color_.pixels())) {
+    color_ = frame.color;
+    color_since_ = frame.stamp;
+  }
   depth_ = frame.depth;
   points_ = frame.scan.points;
-  return false;
 }
 
 }  // namespace mms

@@ -11,7 +11,8 @@ namespace mms {
 
 /// Finds frames whose color or depth image, or scan, is that of the frame before, value by value.
 /// Drivers and recorders without a new image give the last one again; the noise of a sensor never
-/// does. The pose would stand still with them, and jump afterwards.
+/// does. The pose would stand still with them, and jump afterwards. A color image that does not
+/// change any more, though the depth does, is removed.
 class RepeatedFrames {
  public:
   /// Whether a frame is to be left out. The next one that is not gets its motion samples and place.
@@ -19,17 +20,22 @@ class RepeatedFrames {
 
   std::size_t count() const { return count_; }  ///< frames to be left out so far
 
+  /// Whether the color image of the last frame was removed.
+  bool has_old_color() const { return has_old_color_; }
+
  private:
-  bool repeats(const Frame& frame) const;
+  bool repeats(const Frame& frame);
+  void keep(const Frame& frame);
 
   // Of the last frame that was not left out:
-  Timestamp stamp_;
   Image<Rgb> color_;
+  Timestamp color_since_;
   Image<float> depth_;
   std::vector<Eigen::Vector3f> points_;
   MotionSamples motion_;  // of frames that were left out
   std::optional<Transform<Global, Sensor>> expected_place_;
   std::size_t count_ = 0;
+  bool has_old_color_ = false;
 };
 
 }  // namespace mms

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -135,8 +136,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   end_map();
   report_implausible(observer);
   if (repeated_.count() > 0) {
-    warn(fmt::format("{} frames that repeat images of the one before were left out",
-                     repeated_.count()),
+    warn(fmt::format("{} frames that repeat an image or scan were left out", repeated_.count()),
          observer);
   }
   observer.on_end();
@@ -161,19 +161,28 @@ AsyncPipeline::Source SlamRun::frames_for(RunObserver& observer) {
       --left;
       std::optional<Frame> frame = first_ ? std::exchange(first_, std::nullopt) : source_->next();
       if (!frame) return std::nullopt;
-      if (repeated_.omits(*frame)) {
-        if (repeated_.count() == 1) {
-          warn(fmt::format("frame {} repeats an image of the one before: such frames are left out",
-                           frame->name),
-               observer);
-        }
-        continue;
-      }
+      if (is_repeated(*frame, observer)) continue;
       check_plausibility(*frame, observer);
       return frame;
     }
     return std::nullopt;
   };
+}
+
+/// Whether a frame is to be left out. Called in the reading thread.
+bool SlamRun::is_repeated(Frame& frame, RunObserver& observer) {
+  const bool had_old_color = repeated_.has_old_color();
+  const bool is_omitted = repeated_.omits(frame);
+  const auto tell = [&](std::string_view what) {
+    warn(fmt::format("frame {}: {}", frame.name, what), observer);
+  };
+  if (is_omitted && repeated_.count() == 1) {
+    tell("repeats an image or scan of the frame before: such frames are left out");
+  }
+  if (repeated_.has_old_color() && !had_old_color) {
+    tell("the color image does not change any more: the depth is used alone");
+  }
+  return is_omitted;
 }
 
 /// Shows a warning, and keeps it for the report, which has at most so many.

@@ -69,6 +69,7 @@ class SlamRun {
   void process(const std::filesystem::path& folder, RunObserver& observer);
   void compare_with_truth(RunObserver& observer);
   void warn(const std::string& message, RunObserver& observer);
+  bool is_repeated(Frame& frame, RunObserver& observer);
   void check_plausibility(const Frame& frame, RunObserver& observer);
   void report_implausible(RunObserver& observer);
   void check_lost();
