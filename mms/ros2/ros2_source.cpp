@@ -48,11 +48,12 @@ std::vector<Sample> take_samples(std::deque<Sample>& samples, Timestamp end) {
 }  // namespace
 
 Ros2Source::Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t queue,
-                       std::function<bool()> stop)
+                       std::function<bool()> stop, std::function<void()> on_clock_back)
     : LiveSource(queue),
       node_(node),
       inputs_(inputs),
       stop_(std::move(stop)),
+      on_clock_back_(std::move(on_clock_back)),
       assembler_(sensor_of(inputs)),
       depth_known_(inputs.depth_info.empty()) {
   if (!inputs_.color.empty()) subscribe_color();
@@ -201,6 +202,10 @@ void Ros2Source::advance() {
 void Ros2Source::take_frames() {
   if (!is_placed() && !(is_camera() ? find_depth_camera() : find_extrinsics())) return;
   while (std::optional<Frame> frame = assembler_.next()) {
+    if (last_stamp_ && frame->stamp + FrameAssembler::kMaxStepBack < *last_stamp_) {
+      on_clock_back_();
+      return;
+    }
     if (last_stamp_ && frame->stamp <= *last_stamp_) {
       warn("frame " + frame->name + " skipped: its stamp is not later than the previous one, " +
            last_stamp_->to_string());

@@ -50,8 +50,9 @@ class Ros2Source final : public LiveSource {
   /// Subscribes to the topics.
   /// @param queue  frames that may wait
   /// @param stop   whether the source should end; called in the node's thread
+  /// @param on_clock_back  called there where the clock of the stamps went back
   Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t queue,
-             std::function<bool()> stop);
+             std::function<bool()> stop, std::function<void()> on_clock_back);
   ~Ros2Source() override { node_.stop(); }
 
   bool has_masks() const override { return !inputs_.mask.empty(); }
@@ -97,6 +98,7 @@ class Ros2Source final : public LiveSource {
   Ros2Node& node_;
   Ros2Inputs inputs_;
   std::function<bool()> stop_;
+  std::function<void()> on_clock_back_;
 
   // Of the node's thread:
   FrameAssembler assembler_;

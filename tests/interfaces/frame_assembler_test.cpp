@@ -51,6 +51,21 @@ class Assembly {
   FrameAssembler assembler;
 };
 
+TEST(FrameAssembler, GoesOnWhereTheClockGoesBack) {
+  Assembly a(Sensor::kDepth);
+  a.color(5000);
+  a.depth(5000);
+  a.color(5100);  // its depth image never comes
+  EXPECT_EQ(a.frames(), "5000+0");
+  a.depth(4500);  // late, but of the same clock
+  a.color(100);
+  a.depth(100);
+  EXPECT_EQ(a.frames(), "100+0");
+  a.color(200);
+  a.depth(200);
+  EXPECT_EQ(a.frames(), "200+0");
+}
+
 TEST(FrameAssembler, PairsImagesInAnyOrder) {
   Assembly a(Sensor::kDepth);
   a.color(100);

@@ -312,6 +312,22 @@ def check_next_runs():
     print("ok: after ~/reset and ~/load_map the next runs begin, and all results are kept")
 
 
+def check_clock_back():
+    """Where another recording begins with earlier stamps, so does another run. After check_map."""
+    node = start_node("again")
+    for recording, count in (("x.mcap", "20"), ("long.mcap", "10")):
+        finish(start_partner("play", recording, "receive", "again_" + recording,
+                             "topics", "/mms_slam/odometry=nav_msgs/Odometry", "expect", count),
+               "the partner with " + recording)
+    node.send_signal(signal.SIGINT)
+    finish(node, "the node with stamps that went back")
+    log = Path("again.log").read_text()
+    check("the clock went back: another run begins" in log, f"the log: {log}")
+    for folder, count in (("again", 20), ("again_2", 5)):
+        check(len(poses(folder)) >= count, f"poses in {folder}")
+    print("ok: where the clock goes back, the run ends with its results and another one begins")
+
+
 run_mms("convert", f"sim:warehouse_loop?frames={FRAMES}&width=320", "-o", "x.mcap")
 run_mms("run", "x.mcap", "--segmenter", "masks", "--mcap", "-o", "run")
 check_same_results()
@@ -321,4 +337,5 @@ check_decoded()
 check_discovery()
 check_restart()
 check_next_runs()
+check_clock_back()
 check_settings()

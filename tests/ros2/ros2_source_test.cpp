@@ -72,7 +72,8 @@ class Ros2SourceTest : public ::testing::Test {
   void start(const Ros2Inputs& inputs, const std::vector<Ros2Writer*>& used) {
     node_ = std::make_unique<Ros2Node>(
         options_, [this](const std::string& fault) { source_->count_damaged(fault); });
-    source_ = std::make_unique<Ros2Source>(*node_, inputs, 100, [this] { return stop_.load(); });
+    source_ = std::make_unique<Ros2Source>(
+        *node_, inputs, 100, [this] { return stop_.load(); }, [this] { went_back_ = true; });
     node_->every(0.02, [this, source = source_.get()] {
       const std::scoped_lock lock(report_mutex_);
       report_ = source->report();
@@ -132,6 +133,7 @@ class Ros2SourceTest : public ::testing::Test {
 
   Ros2NodeOptions options_;
   std::atomic<bool> stop_ = false;
+  std::atomic<bool> went_back_ = false;  // the clock of the stamps
   std::mutex report_mutex_;
   std::string report_;  ///< the last one
   std::unique_ptr<Ros2Node> robot_, node_;
@@ -139,6 +141,22 @@ class Ros2SourceTest : public ::testing::Test {
   Ros2Writer color_, depth_, camera_info_, depth_info_, compressed_color_, compressed_depth_,
       points_, imu_, wheels_, mask_, initial_pose_, tf_static_;
 };
+
+TEST_F(Ros2SourceTest, ClockThatGoesBack) {
+  start({.color = "color", .depth = "depth", .camera_info = "camera_info"},
+        {&color_, &depth_, &camera_info_});
+  publish_images(5.0);
+  ASSERT_TRUE(source_->next());
+  publish_images(4.5);  // late, but of the same clock
+  publish_images(5.1);
+  ASSERT_TRUE(source_->next());
+  EXPECT_FALSE(went_back_);
+  publish_images(0.0);
+  for (int i = 0; i < 500 && !went_back_; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_TRUE(went_back_);
+}
 
 TEST_F(Ros2SourceTest, GivesFramesOfImages) {
   start({.color = "color", .depth = "depth", .camera_info = "camera_info"},

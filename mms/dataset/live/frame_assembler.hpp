@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -16,6 +17,10 @@ namespace mms {
 /// without which masks would be misplaced. Reports what is missing.
 class FrameAssembler {
  public:
+  /// [s]: step back of the stamps that is one of the clock. Source: initial choice; far above the
+  /// delay of messages that come out of order.
+  static constexpr Duration kMaxStepBack = std::chrono::seconds(1);
+
   enum class Sensor { kDepth, kCloud, kCloudWithCamera };
 
   explicit FrameAssembler(Sensor sensor) : sensor_(sensor) {}
@@ -27,7 +32,8 @@ class FrameAssembler {
   void set_extrinsics(const Transform<Camera, Lidar>& T_camera_lidar);
   bool extrinsics_known() const { return extrinsics_known_; }
 
-  /// Images must arrive in order of stamps; others are dropped.
+  /// Images must arrive in order of stamps; others are dropped. Where the clock of the stamps goes
+  /// back by more than 1 s, as of recordings that are played again, all that waits is dropped.
   void add_color(Timestamp stamp, Image<Rgb> color);
   void add_depth(Timestamp stamp, Image<float> depth);
   void add_cloud(Timestamp stamp, LidarScan scan);
@@ -56,6 +62,7 @@ class FrameAssembler {
     void add(Timestamp stamp, T data);
   };
 
+  void follow_clock(Timestamp stamp);
   template <class T>
   bool is_decided(Timestamp stamp, const Stream<T>& partners, Duration reach) const;
   template <class T>
@@ -71,6 +78,7 @@ class FrameAssembler {
   Stream<Image<Rgb>> color_;
   Stream<Image<float>> depth_;
   Stream<LidarScan> cloud_;
+  std::optional<Timestamp> latest_;  ///< of all that arrived since the clock went back
   std::size_t unmatched_ = 0;
   std::size_t made_ = 0;  ///< since the last report
   std::int64_t count_ = 0;

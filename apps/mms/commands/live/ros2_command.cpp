@@ -64,9 +64,12 @@ std::optional<RunOptions> run_once(const Ros2CommandOptions& options, const RunO
   const bool closes_loops = run.loops.empty() ? config.global_map.enabled : run.loops == "on";
   Ros2Restart restart(closes_loops,
                       [&source](const std::string& message) { source->warn(message); });
-  auto owned = std::make_unique<Ros2Source>(node, options.inputs, options.queue, [&restart] {
-    return InterruptGuard::requested() || restart.is_requested();
-  });
+  auto owned = std::make_unique<Ros2Source>(
+      node, options.inputs, options.queue,
+      [&restart] { return InterruptGuard::requested() || restart.is_requested(); },
+      [&restart, &source] {
+        if (restart.reset().success) source->warn("the clock went back: another run begins");
+      });
   source = owned.get();
   node.serve("~/reset", [&restart](const Ros2Node::Reply& reply) { reply(restart.reset()); });
   node.answer<msg::LoadMapRequest, msg::LoadMapReply>(
