@@ -66,6 +66,16 @@ TEST(FrameAssembler, GoesOnWhereTheClockGoesBack) {
   EXPECT_EQ(a.frames(), "200+0");
 }
 
+TEST(FrameAssembler, ReportsClocksThatDiffer) {
+  Assembly a(Sensor::kDepth);
+  for (int t = 20000; t < 21000; t += 100) {
+    a.color(t);
+    a.depth(t + 10000);
+    EXPECT_EQ(a.frames(), "");
+  }
+  expect_in("no two within 0.02 s, the last ones are 9.100 s apart", a.assembler.report(1.0));
+}
+
 TEST(FrameAssembler, PairsImagesInAnyOrder) {
   Assembly a(Sensor::kDepth);
   a.color(100);

@@ -39,6 +39,11 @@ std::string rate_text(const char* what, std::size_t arrived, double seconds) {
 template <class T>
 void FrameAssembler::Stream<T>::add(Timestamp stamp, T data) {
   ++arrived;
+  if (latest && stamp + kMaxStepBack < *latest) {
+    waiting.clear();
+    latest.reset();
+  }
+  latest = latest ? std::max(*latest, stamp) : stamp;
   if (!waiting.empty() && stamp <= waiting.back().stamp) return;
   waiting.push_back({stamp, std::move(data)});
   if (waiting.size() > kMaxUnmatched) waiting.pop_front();
@@ -61,26 +66,13 @@ void FrameAssembler::set_extrinsics(const Transform<Camera, Lidar>& T_camera_lid
   shared_.reset();
 }
 
-void FrameAssembler::follow_clock(Timestamp stamp) {
-  if (latest_ && stamp + kMaxStepBack < *latest_) {
-    color_.waiting.clear();
-    depth_.waiting.clear();
-    cloud_.waiting.clear();
-    latest_.reset();
-  }
-  latest_ = latest_ ? std::max(*latest_, stamp) : stamp;
-}
-
 void FrameAssembler::add_color(Timestamp stamp, Image<Rgb> color) {
-  follow_clock(stamp);
   color_.add(stamp, std::move(color));
 }
 void FrameAssembler::add_depth(Timestamp stamp, Image<float> depth) {
-  follow_clock(stamp);
   depth_.add(stamp, std::move(depth));
 }
 void FrameAssembler::add_cloud(Timestamp stamp, LidarScan scan) {
-  follow_clock(stamp);
   cloud_.add(stamp, std::move(scan));
 }
 

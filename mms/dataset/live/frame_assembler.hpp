@@ -33,7 +33,7 @@ class FrameAssembler {
   bool extrinsics_known() const { return extrinsics_known_; }
 
   /// Images must arrive in order of stamps; others are dropped. Where the clock of the stamps goes
-  /// back by more than 1 s, as of recordings that are played again, all that waits is dropped.
+  /// back by more than 1 s, as of recordings that are played again, those that wait are dropped.
   void add_color(Timestamp stamp, Image<Rgb> color);
   void add_depth(Timestamp stamp, Image<float> depth);
   void add_cloud(Timestamp stamp, LidarScan scan);
@@ -57,12 +57,12 @@ class FrameAssembler {
   template <class T>
   struct Stream {
     std::deque<Stamped<T>> waiting;
-    std::size_t arrived = 0;  ///< since the last report
+    std::size_t arrived = 0;            ///< since the last report
+    std::optional<Timestamp> latest{};  ///< since its clock went back
 
     void add(Timestamp stamp, T data);
   };
 
-  void follow_clock(Timestamp stamp);
   template <class T>
   bool is_decided(Timestamp stamp, const Stream<T>& partners, Duration reach) const;
   template <class T>
@@ -78,7 +78,6 @@ class FrameAssembler {
   Stream<Image<Rgb>> color_;
   Stream<Image<float>> depth_;
   Stream<LidarScan> cloud_;
-  std::optional<Timestamp> latest_;  ///< of all that arrived since the clock went back
   std::size_t unmatched_ = 0;
   std::size_t made_ = 0;  ///< since the last report
   std::int64_t count_ = 0;
