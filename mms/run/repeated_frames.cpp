@@ -35,24 +35,22 @@ bool shows_anything(const Frame& frame) {
 }
 
 template <class T>
-void put_before(std::vector<T>&& earlier, std::vector<T>& samples) {
-  samples.insert(samples.begin(), earlier.begin(), earlier.end());
-  earlier.clear();
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
 }  // namespace
 
 bool RepeatedFrames::omits(Frame& frame) {
-  put_before(std::move(motion_.wheels), frame.motion.wheels);
-  put_before(std::move(motion_.imu), frame.motion.imu);
-  if (!frame.expected_place) frame.expected_place = expected_place_;
-  expected_place_.reset();
+  append(motion_.wheels, frame.motion.wheels);
+  append(motion_.imu, frame.motion.imu);
+  if (frame.expected_place) expected_place_ = frame.expected_place;
   if (repeats(frame)) {
-    motion_ = std::move(frame.motion);
-    expected_place_ = frame.expected_place;
     ++count_;
     return true;
   }
+  frame.motion = std::exchange(motion_, {});
+  frame.expected_place = std::exchange(expected_place_, std::nullopt);
   keep(frame);
   if (has_old_color_) frame.color = {};
   return false;
