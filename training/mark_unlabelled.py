@@ -2,8 +2,9 @@
 """Finds people without annotation in a COCO file, with another detector.
 
 NanoDet-m (Apache-2.0, trained on COCO; `nanodet_m.onnx` for 416x416 of the repository
-hpc203/nanodet-opncv-dnn-cpp-python) detects people; it needs Debian's python3-opencv. Each one that no annotation explains is added
-as a crowd: during training it counts neither as a person nor as background.
+hpc203/nanodet-opncv-dnn-cpp-python) detects people; it needs Debian's python3-opencv. Each one that
+no annotation explains is added as a crowd: during training it counts neither as a person nor as
+background.
 """
 
 import argparse
