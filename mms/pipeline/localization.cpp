@@ -109,7 +109,7 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     exclude_moving_points(result.cloud, frame.features);
     OdometryEstimate estimate = estimate_pose(frame, result.cloud, std::move(frame.features));
     is_in_doubt_ |= is_gap && has_global_keyframe_ && !odometry_.looks_right();
-    if (seen) search_robot_body(*seen, result, estimate);
+    search_robot_body(seen, result, estimate);
     const std::optional<Vector6d>& velocity = odometry_.unexpected_velocity();
     if (velocity) deskew(result.cloud, Vector6d(*velocity - expected));
     return estimate;
@@ -167,8 +167,8 @@ OdometryEstimate Localization::estimate_pose(const PerceivedFrame& frame, Labele
 
 /// An odometry that a part of the robot held begins anew, with all that compares frames with those
 /// before.
-void Localization::search_robot_body(const RobotBody::SeenFrame& seen, FrameResult& result,
-                                     OdometryEstimate& estimate) {
+void Localization::search_robot_body(const std::optional<RobotBody::SeenFrame>& seen,
+                                     FrameResult& result, OdometryEstimate& estimate) {
   RobotBody::Found found = robot_body_.search(seen, odometry_, estimate);
   if (!found.is_new) return;
   const auto percent = std::lround(100.0 * robot_body_.share());

@@ -67,7 +67,7 @@ class Localization {
 
   OdometryEstimate estimate_pose(const PerceivedFrame& frame, LabeledCloud& cloud,
                                  FeatureCloud features);
-  void search_robot_body(const RobotBody::SeenFrame& seen, FrameResult& result,
+  void search_robot_body(const std::optional<RobotBody::SeenFrame>& seen, FrameResult& result,
                          OdometryEstimate& estimate);
   void search_again(Timestamp stamp);
   std::optional<Transform<Global, Sensor>> expected_place(const FrameResult& result);

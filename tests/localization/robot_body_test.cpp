@@ -62,13 +62,11 @@ class Camera {
     body_.exclude(cloud, features);
     const auto seen = body_.see(cloud, features);
     OdometryEstimate estimate = odometry_.estimate(std::move(features));
-    if (seen) {
-      RobotBody::Found found = body_.search(*seen, odometry_, estimate);
-      found_ += found.is_new;
-      if (found.correction) {
-        odometry_ = std::move(found.correction->odometry);
-        estimate = found.correction->estimate;
-      }
+    RobotBody::Found found = body_.search(seen, odometry_, estimate);
+    found_ += found.is_new;
+    if (found.correction) {
+      odometry_ = std::move(found.correction->odometry);
+      estimate = found.correction->estimate;
     }
     error_ = position_error(estimate.T_world_sensor.isometry(), truth_at(cloud.stamp));
     const auto valid = std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kStatic);
@@ -137,6 +135,25 @@ TEST(RobotBody, IsNotIgnoredWhereTheReferenceShowsLittleElse) {
     camera.add(std::move(cloud));
   }
   EXPECT_EQ(camera.found(), 0);
+}
+
+/// What masks cover is not constant: it was not compared.
+TEST(RobotBody, IsNotWhatMasksCoverBetweenTwoFrames) {
+  const auto found_with = [](bool has_masks) {
+    constexpr int kSecondFrame = 40;  // the camera has moved by 0.28 m then
+    Camera camera(true);
+    for (int frame = 0; frame <= kSecondFrame; ++frame) {
+      LabeledCloud cloud = view(frame, true);
+      const auto plate = static_cast<std::ptrdiff_t>(kTopOfPlate) * cloud.width;
+      if (has_masks && frame != 0 && frame != kSecondFrame) {
+        std::fill(cloud.labels.begin() + plate, cloud.labels.end(), PointLabel::kDynamic);
+      }
+      camera.add(std::move(cloud));
+    }
+    return camera.found();
+  };
+  EXPECT_GE(found_with(false), 1);
+  EXPECT_EQ(found_with(true), 0);
 }
 
 TEST(RobotBody, IsNotSearchedForInScans) {

@@ -40,9 +40,10 @@ DepthView::DepthView(const LabeledCloud& cloud, const DepthNoise& noise)
     for (int x = 0; x < nodes_.width(); ++x) {
       const int u = kNodeStep * x + kNodeStep / 2;
       const int v = kNodeStep * y + kNodeStep / 2;
-      if (depth_(u, v) <= 0.0F) continue;
       const auto i = static_cast<std::size_t>(v) * static_cast<std::size_t>(cloud.width) +
                      static_cast<std::size_t>(u);
+      nodes_(x, y).is_masked = cloud.labels[i] == PointLabel::kDynamic;
+      if (depth_(u, v) <= 0.0F) continue;
       nodes_(x, y).point = cloud.points[i];
       if (!cloud.colors.empty()) nodes_(x, y).grey = grey_of(cloud.colors[i]);
       ++valid_nodes_;

@@ -19,6 +19,7 @@ class DepthView {
   struct Node {
     Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< [m]; zero without a static return
     std::uint8_t grey = 0;                            ///< [grey levels]; 0 without a color image
+    bool is_masked = false;                           ///< by a moving object
 
     bool is_valid() const { return point.z() > 0.0F; }
   };

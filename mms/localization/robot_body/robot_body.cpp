@@ -140,15 +140,19 @@ std::optional<RobotBody::SeenFrame> RobotBody::see(const LabeledCloud& cloud,
   return SeenFrame{std::move(view), features};
 }
 
-RobotBody::Found RobotBody::search(const SeenFrame& frame, const Odometry& odometry,
+RobotBody::Found RobotBody::search(const std::optional<SeenFrame>& frame, const Odometry& odometry,
                                    const OdometryEstimate& estimate) {
   if (reference_) {
-    keep_constant(frame.view);
-    if (is_over(frame.view, estimate)) end(estimate.stamp);
-  } else if (estimate.status != Status::kLost) {
-    begin(frame, odometry, estimate);
+    if (frame) keep_constant(frame->view);
+    if (!frame || is_over(frame->view, estimate)) end(estimate.stamp);
+  } else if (frame && estimate.status != Status::kLost) {
+    begin(*frame, odometry, estimate);
   }
-  if (!reference_) return {};
+  return reference_ ? compare(*frame, estimate) : Found{};
+}
+
+/// The frame with the reference.
+RobotBody::Found RobotBody::compare(const SeenFrame& frame, const OdometryEstimate& estimate) {
   const Eigen::Isometry3d motion =
       (reference_->estimate.T_world_sensor.inverse() * estimate.T_world_sensor).isometry();
   Found found;
@@ -204,7 +208,8 @@ void RobotBody::keep_constant(const DepthView& view) {
   if (!view.nodes().same_size(constant)) return;
   for (int y = 0; y < constant.height(); ++y) {
     for (int x = 0; x < constant.width(); ++x) {
-      if (reference_->frame.view.has_changed(x, y, view)) constant(x, y) = 0;
+      const bool is_masked = view.nodes()(x, y).is_masked;
+      if (is_masked || reference_->frame.view.has_changed(x, y, view)) constant(x, y) = 0;
       reference_->nodes += constant(x, y);
     }
   }

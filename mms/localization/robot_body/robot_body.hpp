@@ -55,8 +55,10 @@ class RobotBody {
   void sense(const MotionSamples& samples, const MotionCalibration& calibration);
 
   /// Searches for parts with the next frame.
+  /// @param frame     by `see`; without one, the search begins anew
   /// @param odometry  after the frame
-  Found search(const SeenFrame& frame, const Odometry& odometry, const OdometryEstimate& estimate);
+  Found search(const std::optional<SeenFrame>& frame, const Odometry& odometry,
+               const OdometryEstimate& estimate);
 
   /// Where the pose jumps, frames before are not compared any more.
   void restart() { reference_.reset(); }
@@ -83,6 +85,7 @@ class RobotBody {
 
   Image<std::uint8_t> near_nodes(const DepthView& view) const;
   bool is_over(const DepthView& view, const OdometryEstimate& estimate) const;
+  Found compare(const SeenFrame& frame, const OdometryEstimate& estimate);
   void begin(const SeenFrame& frame, const Odometry& odometry, const OdometryEstimate& estimate);
   void keep_constant(const DepthView& view);
   bool has_changed(const DepthView& view) const;
