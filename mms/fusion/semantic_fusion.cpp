@@ -83,7 +83,7 @@ LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& 
   const std::vector<Plausibility> judged =
       drop_impossible_masks(mask.raw.pixels(), segmentation.instances, present_, mask, cloud);
   std::vector<Instance> instances = segmentation.instances;
-  memory_.recall(cloud, mask, instances);
+  memory_.recall(cloud, mask, instances, is_computed(segmentation));
   std::vector<DynamicObjects::Object> objects;
   if (!instances.empty()) {
     objects = fuse_geometry(mask, instances, present_, cloud);

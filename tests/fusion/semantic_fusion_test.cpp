@@ -102,8 +102,10 @@ View person_at(double seconds, float x) {
 
 TEST(SemanticFusion, RemembersLostMaskForHalfASecond) {
   SemanticFusion fusion{FusionConfig{}};
-  const View masked = person_at(10.0, -0.25F);
-  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Surface::kPerson)}));
+  for (int i = -8; i <= 0; ++i) {
+    const View masked = person_at(10.0 + i / 15.0, -0.25F);
+    fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Surface::kPerson)}));
+  }
   for (int i = 1; i <= 7; ++i) {
     const View view = person_at(10.0 + i / 15.0, -0.25F + 0.1F * static_cast<float>(i));
     const LabeledCloud cloud = fusion.fuse(view.frame, segmentation_of(view, {}));
@@ -115,6 +117,31 @@ TEST(SemanticFusion, RemembersLostMaskForHalfASecond) {
   }
   const View late = person_at(10.6, 0.6F);
   EXPECT_EQ(dynamic_share(fusion.fuse(late.frame, segmentation_of(late, {}))), 0.0);
+}
+
+TEST(SemanticFusion, RemembersLostMaskForAsLongAsItWasThereAndOneFrame) {
+  for (const int masked_frames : {1, 3}) {
+    SemanticFusion fusion{FusionConfig{}};
+    for (int i = 0; i < masked_frames; ++i) {
+      const View masked = person_at(10.0 + i / 15.0, -0.25F);
+      fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Surface::kPerson)}));
+    }
+    for (int i = masked_frames; i <= 2 * masked_frames; ++i) {
+      const View view = person_at(10.0 + i / 15.0, -0.25F);
+      const double share = dynamic_share(fusion.fuse(view.frame, segmentation_of(view, {})));
+      EXPECT_EQ(share > 0.0, i < 2 * masked_frames) << i << " of " << masked_frames;
+    }
+  }
+}
+
+TEST(SemanticFusion, RemembersMasksWhereNoneWereComputed) {
+  SemanticFusion fusion{FusionConfig{}};
+  const View masked = person_at(10.0, -0.25F);
+  fusion.fuse(masked.frame, segmentation_of(masked, {mask_of(masked, Surface::kPerson)}));
+  for (int i = 1; i <= 7; ++i) {
+    const View view = person_at(10.0 + i / 15.0, -0.25F);
+    EXPECT_GT(dynamic_share(fusion.fuse(view.frame, Segmentation{})), 0.0) << i;
+  }
 }
 
 TEST(SemanticFusion, SaysHowLongAnObjectWasFollowed) {

@@ -19,9 +19,8 @@ std::string size_text(int width, int height) {
 }
 
 void check(const Segmentation& segmentation, int width, int height) {
-  const bool absent =
-      segmentation.instances.empty() && segmentation.width == 0 && segmentation.height == 0;
-  if (absent || (segmentation.width == width && segmentation.height == height)) return;
+  if (!is_computed(segmentation)) return;
+  if (segmentation.width == width && segmentation.height == height) return;
   throw DataError("segmentation",
                   "masks are " + size_text(segmentation.width, segmentation.height) +
                       " px, the image is " + size_text(width, height) + " px",

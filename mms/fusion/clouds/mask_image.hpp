@@ -16,8 +16,13 @@ struct MaskImage {
   int radius = 0;                ///< of the dilation [blocks]
 };
 
+/// Whether masks of the image were computed: not in a segmentation of size 0 x 0.
+inline bool is_computed(const Segmentation& segmentation) {
+  return segmentation.width > 0 || segmentation.height > 0 || !segmentation.instances.empty();
+}
+
 /// Draws `segmentation` on blocks of stride x stride pixels; a block is dynamic when any of its
-/// pixels is. An empty segmentation of size 0 x 0 gives an empty mask of the size asked for.
+/// pixels is. One that was not computed gives an empty mask of the size asked for.
 /// @param width, height  of the image [px]
 /// @param dilation       radius [share of the image width]
 /// @throws DataError when the segmentation is of another size than the image

@@ -79,8 +79,9 @@ void FusionConfig::visit(ConfigVisitor& v) {
            relabel_radius, {0.0, 2.0});
   v.boolean({"plausibility", "", "drop masks of depth images that cannot be objects in 3D"},
             plausibility);
-  v.number({"memory", "s", "how long an object stays dynamic without a mask; 0: not at all"},
-           memory, {0.0, 60.0});
+  v.number(
+      {"memory", "s", "how long an object stays dynamic without a mask at most; 0: not at all"},
+      memory, {0.0, 60.0});
   v.number({"lidar_max_range", "m", "farthest LiDAR return used"}, lidar_max_range, {1.0, 500.0});
   v.number({"lidar_voxel", "m", "voxel that thins a LiDAR scan before clustering"}, lidar_voxel,
            {0.01, 2.0});

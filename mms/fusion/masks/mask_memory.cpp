@@ -37,15 +37,21 @@ std::vector<MaskMemory::Present> MaskMemory::find_present(const LabeledCloud& cl
   return present;
 }
 
-bool MaskMemory::is_missing(const Object& object, const Present& present, Timestamp now) const {
+/// A mask that is missing is as likely wrong as one that was there for as long.
+bool MaskMemory::is_missing(const Object& object, const Present& present, Timestamp now,
+                            Duration interval) const {
   const int covered = std::accumulate(present.under.begin(), present.under.end(), 0);
-  const double unmasked = to_seconds(now - object.masked);
-  const bool is_recent = unmasked > 0.0 && unmasked <= config_.memory;
+  const Duration unmasked = now - object.masked;
+  const Duration followed = object.masked - object.since;
+  const bool is_recent = unmasked > Duration::zero() && to_seconds(unmasked) <= config_.memory &&
+                         unmasked <= followed + interval;
   return is_recent && present.pixels > 0 && covered < kMinCovered * present.pixels;
 }
 
 void MaskMemory::recall(const LabeledCloud& cloud, MaskImage& mask,
-                        std::vector<Instance>& instances) {
+                        std::vector<Instance>& instances, bool is_segmented) {
+  const Duration interval = is_segmented ? cloud.stamp - last_segmented_ : Duration::max() / 2;
+  if (is_segmented) last_segmented_ = cloud.stamp;
   instances_.clear();
   for (const Instance& instance : instances) {
     instances_.push_back({instance.object_class, cloud.stamp, cloud.stamp});
@@ -60,7 +66,7 @@ void MaskMemory::recall(const LabeledCloud& cloud, MaskImage& mask,
         continue;
       instances_[m].since = std::min(instances_[m].since, objects_[k].since);
     }
-    if (!is_missing(objects_[k], present[k], cloud.stamp)) continue;
+    if (!is_missing(objects_[k], present[k], cloud.stamp, interval)) continue;
     Instance& instance = instances.emplace_back();
     instance.object_class = objects_[k].object_class;
     instance.score = 0.0F;
