@@ -33,6 +33,8 @@ class PoseHypotheses {
   }
 
  private:
+  Odometry::Alignment align_judged(const Odometry& odometry, LabeledCloud& cloud,
+                                   FeatureCloud features, double masked) const;
   Odometry::Alignment reconsider(const Odometry& odometry, LabeledCloud& cloud,
                                  Odometry::Alignment first, double overruled,
                                  bool may_be_poor) const;

@@ -54,9 +54,11 @@ struct Votes {
   int nodes = 0;
   int surface = 0;
   int against = 0;
+  int free = 0;
 
   void add(Seen seen) {
     ++nodes;
+    free += seen == Seen::kFree;
     surface += seen == Seen::kSurface;
     against += is_against(seen);
   }
@@ -181,16 +183,35 @@ std::vector<ClusterVerdict> judge_clusters(const LabeledCloud& cloud, const Seen
   return verdicts;
 }
 
-/// Whether the views agree with the nodes around one.
-bool agree_around(const SeenNodes& nodes, int x, int y, const Limits& least) {
-  if (is_against(nodes(x, y))) return false;
+Votes votes_around(const SeenNodes& nodes, int x, int y) {
   Votes votes;
   for (int v = std::max(0, y - kReach); v <= std::min(y + kReach, nodes.height() - 1); ++v) {
     for (int u = std::max(0, x - kReach); u <= std::min(x + kReach, nodes.width() - 1); ++u) {
       votes.add(nodes(u, v));
     }
   }
-  return votes.are_static(least);
+  return votes;
+}
+
+/// Whether the views agree with the nodes around one.
+bool agree_around(const SeenNodes& nodes, int x, int y, const Limits& least) {
+  return !is_against(nodes(x, y)) && votes_around(nodes, x, y).are_static(least);
+}
+
+/// Calls body(index) for the dynamic points that count to a node. Points beyond the last whole node
+/// count to that one.
+template <class Body>
+void for_each_dynamic_point(const LabeledCloud& cloud, const SeenNodes& nodes, int u, int v,
+                            const Body& body) {
+  const int right = u + 1 == nodes.width() ? cloud.width : kStep * (u + 1);
+  const int bottom = v + 1 == nodes.height() ? cloud.height : kStep * (v + 1);
+  for (int y = kStep * v; y < bottom; ++y) {
+    for (int x = kStep * u; x < right; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
+                            static_cast<std::size_t>(x);
+      if (cloud.labels[i] == PointLabel::kDynamic) body(i);
+    }
+  }
 }
 
 /// Share of the nodes with a return, masked or not, that are on static surfaces.
@@ -214,22 +235,14 @@ Image<std::uint8_t> overruled_points(const LabeledCloud& cloud, const SeenNodes&
   Image<std::uint8_t> overruled(cloud.width, cloud.height);
   for_each_node(cloud, [&](int u, int v) {
     std::optional<bool> agreed;
-    // Points beyond the last whole node count to that one.
-    const int right = u + 1 == nodes.width() ? cloud.width : kStep * (u + 1);
-    const int bottom = v + 1 == nodes.height() ? cloud.height : kStep * (v + 1);
-    for (int y = kStep * v; y < bottom; ++y) {
-      for (int x = kStep * u; x < right; ++x) {
-        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
-                              static_cast<std::size_t>(x);
-        if (cloud.labels[i] != PointLabel::kDynamic) continue;
-        const int cluster = cloud.cluster[i];
-        const ClusterVerdict& verdict =
-            cluster < 0 ? without_cluster : verdicts[static_cast<std::size_t>(cluster)];
-        const bool with_cluster = verdict.is_static && !is_against(nodes(u, v));
-        if (!with_cluster && !agreed) agreed = agree_around(nodes, u, v, verdict.limits);
-        overruled[i] = with_cluster || *agreed ? 1 : 0;
-      }
-    }
+    for_each_dynamic_point(cloud, nodes, u, v, [&](std::size_t i) {
+      const int cluster = cloud.cluster[i];
+      const ClusterVerdict& verdict =
+          cluster < 0 ? without_cluster : verdicts[static_cast<std::size_t>(cluster)];
+      const bool with_cluster = verdict.is_static && !is_against(nodes(u, v));
+      if (!with_cluster && !agreed) agreed = agree_around(nodes, u, v, verdict.limits);
+      overruled[i] = with_cluster || *agreed ? 1 : 0;
+    });
   });
   return overruled;
 }
@@ -254,6 +267,21 @@ MaskEvidence MaskCheck::compare(const LabeledCloud& cloud,
   evidence.overruled_share = overruled_share(cloud, evidence.overruled);
   if (evidence.overruled_share == 0.0) evidence.overruled = {};
   return evidence;
+}
+
+Image<std::uint8_t> MaskCheck::uncontradicted(
+    const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor) const {
+  const SeenNodes nodes = observe(cloud, views_.query(cloud.stamp, T_world_sensor),
+                                  places_.query(cloud.stamp, config_.memory, T_world_sensor),
+                                  nodes_around_masks(cloud));
+  Image<std::uint8_t> points(cloud.width, cloud.height);
+  for_each_node(cloud, [&](int u, int v) {
+    if (nodes(u, v) == Seen::kFree) return;
+    const Votes around = votes_around(nodes, u, v);
+    if (2 * around.free >= around.nodes) return;
+    for_each_dynamic_point(cloud, nodes, u, v, [&](std::size_t i) { points[i] = 1; });
+  });
+  return points;
 }
 
 void MaskCheck::remember(const LabeledCloud& cloud,

@@ -50,6 +50,11 @@ class MaskCheck {
   MaskEvidence compare(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor,
                        Points points = Points::kAll) const;
 
+  /// Non-zero at the dynamic points that may stand still: no free space was observed there, nor at
+  /// most of the points around.
+  Image<std::uint8_t> uncontradicted(const LabeledCloud& cloud,
+                                     const Transform<World, Sensor>& T_world_sensor) const;
+
   /// Adds a view with its estimated pose; a view too soon after the last one is ignored. Its
   /// overruled points count as static.
   void remember(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
