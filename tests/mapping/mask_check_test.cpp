@@ -90,6 +90,18 @@ TEST(MaskCheck, BelievesAMaskBehindASurfaceSeenBefore) {
   EXPECT_TRUE(compare(wall_with_box(0.0, 2.0F), cloud).overruled.empty());
 }
 
+TEST(MaskCheck, ContradictsMasksInFreeSpaceOnly) {
+  const LabeledCloud cloud = masked(wall_with_box(0.5, 2.0F));
+  const auto uncontradicted = [&](const LabeledCloud& view) {
+    return count(check_with(view).uncontradicted(cloud, pose({0, 0, 0})));
+  };
+  const auto all = static_cast<std::size_t>(kWidth * kHeight);
+  EXPECT_EQ(uncontradicted(masked(wall_with_box(0.0, 2.0F))), all) << "masked there before";
+  EXPECT_EQ(uncontradicted(wall_with_box(0.0, 2.0F)), all) << "unmasked there before";
+  EXPECT_EQ(uncontradicted(wall_with_box(0.0, 1.5F)), all) << "hidden before";
+  EXPECT_EQ(uncontradicted(wall_with_box(0.0, 3.0F)), 0U) << "free before";
+}
+
 TEST(MaskCheck, BelievesMasksWithoutAView) {
   const MaskCheck check({}, {});
   EXPECT_FALSE(check.has_views());
