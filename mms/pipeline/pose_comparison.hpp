@@ -17,4 +17,9 @@ bool fits_better(const Odometry::Fit& fit, const Odometry::Fit& other);
 bool support_masks(const FeatureCloud& beside, const Odometry::Fit& following,
                    const Odometry::Fit& ignoring);
 
+/// Whether nearly all of many features and pixels fit, by which the pose is right even if no
+/// vehicle or person could move so: the pose before has an error.
+/// @param alignment  of a frame, with more points than `other`
+bool explains_more(const Odometry::Alignment& alignment, const Odometry::Alignment& other);
+
 }  // namespace mms

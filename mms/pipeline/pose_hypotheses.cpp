@@ -217,6 +217,7 @@ Odometry::Alignment PoseHypotheses::reconsider(const Odometry& odometry, Labeled
   }
   if (evidence.overruled_share >= overruled + kMinOverruledShare) {
     Odometry::Alignment checked = align_overruled(odometry, cloud, evidence.overruled);
+    if (!checked.is_valid) checked.is_valid = explains_more(checked, first);
     if (checked.is_valid) return checked;
   }
   if (is_better || (!first.is_valid && ignoring && ignoring->is_valid)) {
