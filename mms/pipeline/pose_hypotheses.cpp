@@ -153,8 +153,10 @@ Odometry::Alignment PoseHypotheses::align(const Odometry& odometry, LabeledCloud
     return odometry.fit(beside, alignment.registration->T_world_sensor);
   };
   const bool may_be_right = used.is_valid && (is_poor(judged) || !is_poor(used));
-  const bool are_right = judged.is_valid && support_masks(beside, fit(judged), fit(used));
-  if (may_be_right && !are_right) return used;
+  const auto are_right = [&] {
+    return judged.is_valid && support_masks(beside, fit(judged), fit(used));
+  };
+  if (may_be_right && !are_right()) return used;
   cloud.overruled = std::move(overruled);
   return judged;
 }

@@ -151,7 +151,7 @@ RobotBody::Found RobotBody::search(const std::optional<SeenFrame>& frame, const 
   return reference_ ? compare(*frame, estimate) : Found{};
 }
 
-/// The frame with the reference.
+/// Compares the frame with the reference.
 RobotBody::Found RobotBody::compare(const SeenFrame& frame, const OdometryEstimate& estimate) {
   const Eigen::Isometry3d motion =
       (reference_->estimate.T_world_sensor.inverse() * estimate.T_world_sensor).isometry();
