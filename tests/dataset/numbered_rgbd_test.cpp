@@ -83,7 +83,7 @@ TEST(ScanNet, ErrorNamesDamagedCamera) {
   const TempFolder folder;
   write_scannet(folder, 1);
   folder.write("intrinsic/intrinsic_depth.txt", "10 0 4\n");
-  expect_in("intrinsic_depth.txt: has 3 numbers (expected a 4x4 camera matrix)",
+  expect_in("intrinsic_depth.txt: has 3 numbers (expected a 3x3 or 4x4 camera matrix)",
             message_of<DataError>([&] { open_dataset(folder.path()); }));
 }
 

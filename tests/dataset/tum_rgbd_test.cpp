@@ -134,6 +134,66 @@ TEST(TumRgbd, SortsUnsortedLists) {
   EXPECT_TRUE(any_has(played.source->describe(), "stamps: not in order in the list, sorted"));
 }
 
+TEST(TumRgbd, KeepsOrderWhereStampsAreNoTimes) {
+  const TempFolder folder;
+  write_tum(folder, 5);
+  std::string color;
+  std::string depth;
+  const char* intervals[] = {"0.0021", "0.0019", "0.0030", "0.0018", "0.0020"};
+  for (int i = 0; i < 5; ++i) {
+    color += std::string(intervals[i]) + " rgb/" + file_of(i) + "\n";
+    depth += std::string(intervals[i]) + " depth/" + file_of(i) + "\n";
+  }
+  folder.write("rgb.txt", color);
+  folder.write("depth.txt", depth);
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "f0 f1 f2 f3 f4");
+  EXPECT_EQ(played.frames[3].stamp, Timestamp(100'000'000));
+  EXPECT_TRUE(any_has(played.warnings, "5 images within 0.0012 s; they are no times"));
+}
+
+TEST(TumRgbd, ReadsPairsOfImages) {
+  for (const char* name : {"associations.txt", "association.txt", "associate.txt"}) {
+    const TempFolder folder;
+    write_tum(folder, 2);
+    std::filesystem::remove(folder.path() / "rgb.txt");
+    std::filesystem::remove(folder.path() / "depth.txt");
+    folder.write(name, "5.0 depth/f0.png 5.0 rgb/f0.png\n5.1 depth/f1.png 5.1 rgb/f1.png\n");
+    const Playback played(open_dataset(folder.path()));
+    EXPECT_EQ(played.names(), "f0 f1") << name;
+  }
+}
+
+TEST(TumRgbd, OpensNumberedImagesWithoutLists) {
+  const TempFolder folder;
+  for (const int i : {9, 10, 11}) {
+    write_color(folder.path() / "rgb" / ("color_" + std::to_string(i) + ".png"));
+    write_depth(folder.path() / "depth" / (std::to_string(i) + "-depth.png"));
+  }
+  write_depth(folder.path() / "depth" / "12-depth.png");
+  expect_in("has no camera calibration", error_of(folder));
+  const SourceOptions options{.camera = {.intrinsics = {{10, 10, 4, 3}}, .depth_scale = 1000.0}};
+  const Playback played(open_dataset(folder.path(), options));
+  EXPECT_EQ(played.names(), "color_9 color_10 color_11");
+  EXPECT_EQ(played.frames[1].stamp, Timestamp(333'333'333));
+  EXPECT_TRUE(any_has(played.source->describe(), "stamps: none, 30 Hz assumed"));
+}
+
+TEST(TumRgbd, MatchesImagesByStampsInTheirNames) {
+  const TempFolder folder;
+  folder.write("calibration.yaml", kCalibration);
+  for (const char* stamp : {"1305031102.175304", "1305031102.211214"}) {
+    write_color(folder.path() / "rgb" / (std::string(stamp) + ".png"));
+  }
+  for (const char* stamp : {"1305031102.160407", "1305031102.226738"}) {
+    write_depth(folder.path() / "depth" / (std::string(stamp) + ".png"));
+  }
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_EQ(played.names(), "1305031102.175304 1305031102.211214");
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(1'305'031'102'175'304'000));
+  EXPECT_EQ(played.frames[0].depth_offset, Duration(-14'897'000));
+}
+
 TEST(TumRgbd, SkipsDamagedLines) {
   const TempFolder folder;
   write_tum(folder, 2);
@@ -178,6 +238,7 @@ TEST(TumRgbd, ErrorsNameMissingLists) {
   std::filesystem::remove(folder.path() / "depth.txt");
   expect_in("is a TUM-layout sequence, but depth.txt is missing", error_of(folder));
   std::filesystem::remove(folder.path() / "rgb.txt");
+  std::filesystem::rename(folder.path() / "rgb/f0.png", folder.path() / "rgb/first.png");
   expect_in("rgb.txt and depth.txt are missing", error_of(folder));
   folder.write("depth.txt", "1 depth/f0.png\n");
   expect_in("but rgb.txt is missing", error_of(folder));

@@ -2,6 +2,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/camera/oni_records.hpp"
+#include "mms/dataset/folder/sensor_info.hpp"
 #include "mms/dataset/lidar/kitti_calibration.hpp"
 #include "mms/dataset/lidar/scan_format.hpp"
 #include "mms/dataset/open_dataset.hpp"
@@ -375,6 +376,18 @@ void read_kitti_calibration_bytes(std::string_view bytes) {
   read_kitti_calibration(as_file(bytes, "calib.txt"), {});
 }
 
+Seeds sensor_info_seeds() {
+  return {
+      "m_colorWidth = 8\nm_colorHeight = 6\nm_depthWidth = 4\nm_depthHeight = 3\n"
+      "m_depthShift = 1000\nm_calibrationColorIntrinsic = 9 0 4 0 0 9 3 0 0 0 1 0 0 0 0 1\n"
+      "m_calibrationDepthIntrinsic = 5 0 2 0 5 1 0 0 1\n"
+      "m_calibrationColorExtrinsic = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n"};
+}
+
+void read_sensor_info_bytes(std::string_view bytes) {
+  read_sensor_info(as_file(bytes, "info.txt"));
+}
+
 }  // namespace
 
 std::vector<FuzzTarget> recording_targets() {
@@ -391,7 +404,8 @@ std::vector<FuzzTarget> recording_targets() {
       {"scan", scan_seeds, read_scan_bytes},
       {"image_list", list_seeds, read_list_bytes},
       {"oni_records", oni_seeds, read_oni_bytes},
-      {"kitti_calibration", kitti_calibration_seeds, read_kitti_calibration_bytes}};
+      {"kitti_calibration", kitti_calibration_seeds, read_kitti_calibration_bytes},
+      {"sensor_info", sensor_info_seeds, read_sensor_info_bytes}};
   if (MMS_WITH_LIBPCAP) targets.push_back({"capture", capture_seeds, read_capture_bytes});
   if (kHasVideo) targets.push_back({"video", video_seeds, read_video_bytes});
   return targets;

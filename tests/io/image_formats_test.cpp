@@ -66,13 +66,23 @@ TEST(ImageFormats, ReadsColorOfEachFormat) {
 
 TEST(ImageFormats, ReadsWholeNumbersOfDepth) {
   const TempFolder folder;
-  for (const std::string ending : {".png", ".tif"}) {
+  for (const std::string ending : {".png", ".tif", ".pgm"}) {
     const fs::path file = folder.write("a" + ending, encoded(ending, pattern(CV_16UC1)));
     const StoredDepth depth = read_stored_depth(file);
     ASSERT_TRUE(std::holds_alternative<Image<std::uint16_t>>(depth)) << ending;
     EXPECT_EQ(std::get<Image<std::uint16_t>>(depth)(3, 2), 2003) << ending;
     EXPECT_EQ(read_depth16(file)(3, 2), 2003) << ending;
   }
+}
+
+TEST(ImageFormats, ReadsPgmWithComments) {
+  const TempFolder folder;
+  const std::string pixels("\x03\xE8\x07\xD0", 4);  // high bytes first
+  const fs::path file = folder.write("a.pgm", "P5\n# by a tool\n2 1 # width\n65535\n" + pixels);
+  EXPECT_EQ(read_depth16(file)(1, 0), 2000);
+  expect_in("is 99999x1 pixels, allowed: up to 16384x16384", message_of<DataError>([&] {
+              read_depth16(folder.write("b.pgm", "P5 99999 1 65535\n" + pixels));
+            }));
 }
 
 TEST(ImageFormats, ReadsFloatingPointDepth) {
@@ -101,11 +111,9 @@ TEST(ImageFormats, RejectsOtherDepth) {
 TEST(ImageFormats, RejectsTruncatedFiles) {
   enable_exr();
   const TempFolder folder;
-  const std::pair<std::string, int> files[] = {{".bmp", CV_8UC3},
-                                               {".webp", CV_8UC3},
-                                               {".tif", CV_16UC1},
-                                               {".pfm", CV_32FC1},
-                                               {".exr", CV_32FC1}};
+  const std::pair<std::string, int> files[] = {{".bmp", CV_8UC3},  {".webp", CV_8UC3},
+                                               {".tif", CV_16UC1}, {".pgm", CV_16UC1},
+                                               {".pfm", CV_32FC1}, {".exr", CV_32FC1}};
   for (const auto& [ending, type] : files) {
     const std::string whole = encoded(ending, pattern(type));
     for (std::size_t size = 0; size < whole.size() / 2; size += 3) {

@@ -17,6 +17,44 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
+/// The name without its ending; nullopt for other files.
+std::optional<std::string> stem_of(const std::string& name,
+                                   const std::vector<std::string>& endings) {
+  for (const std::string& ending : endings) {
+    if (name.ends_with(ending)) return name.substr(0, name.size() - ending.size());
+  }
+  return std::nullopt;
+}
+
+/// The parts of a name before and after its number.
+struct NameParts {
+  std::string before;
+  std::string after;
+};
+
+/// Of a single image: its last number counts.
+NameParts parts_of(const std::string& stem) {
+  const std::size_t end = stem.find_last_of("0123456789") + 1;  // 0 without digits
+  const std::size_t begin = stem.substr(0, end).find_last_not_of("0123456789") + 1;
+  return {stem.substr(0, begin), stem.substr(end)};
+}
+
+/// The parts that all names have in common.
+NameParts common_parts(const std::vector<std::string>& stems) {
+  if (stems.size() == 1) return parts_of(stems.front());
+  std::string before = stems.front();
+  std::string after = stems.front();
+  for (const std::string& stem : stems) {
+    const auto differs = std::mismatch(before.begin(), before.end(), stem.begin(), stem.end());
+    before.erase(differs.first, before.end());
+    const auto ends = std::mismatch(after.rbegin(), after.rend(), stem.rbegin(), stem.rend());
+    after.erase(after.begin(), ends.first.base());
+  }
+  while (!before.empty() && is_digit(before.back())) before.pop_back();
+  after.erase(after.begin(), std::find_if_not(after.begin(), after.end(), is_digit));
+  return {before, after};
+}
+
 /// Number of a file of the series; nullopt for other files.
 std::optional<std::int64_t> number_of(std::string_view name, const ImageSeries& series) {
   if (!name.starts_with(series.prefix)) return std::nullopt;
@@ -44,6 +82,18 @@ std::string text_of(const ImageSeries& series) {
 }
 
 }  // namespace
+
+ImageSeries find_series(const fs::path& folder, const std::vector<std::string>& endings) {
+  std::vector<std::string> stems;
+  for (const std::string& name : list_folder(folder)) {
+    if (auto stem = stem_of(name, endings)) stems.push_back(std::move(*stem));
+  }
+  if (stems.empty()) return {folder, "", endings};
+  const NameParts parts = common_parts(stems);
+  ImageSeries series{folder, parts.before, endings};
+  for (std::string& ending : series.endings) ending.insert(0, parts.after);
+  return series;
+}
 
 std::map<std::int64_t, fs::path> find_numbered(const ImageSeries& series) {
   std::map<std::int64_t, fs::path> files;

@@ -19,6 +19,12 @@ struct ImageSeries {
   std::vector<std::string> endings{};  ///< as ".jpg"
 };
 
+/// The series of a folder whose images have one number each, between a common beginning and ending,
+/// as rgb_0001.png or 0001_color.png.
+/// @throws FileError if the folder cannot be read.
+ImageSeries find_series(const std::filesystem::path& folder,
+                        const std::vector<std::string>& endings);
+
 /// The files of a series by number; other files are ignored.
 /// @throws FileError if the folder cannot be read.
 std::map<std::int64_t, std::filesystem::path> find_numbered(const ImageSeries& series);

@@ -5,17 +5,42 @@
 #include <string>
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/source/assumed_stamp.hpp"
 #include "mms/dataset/source/frame_association.hpp"
+#include "mms/io/text/numbers.hpp"
 
 namespace mms {
 namespace {
 
 constexpr Duration kMaxDifference = std::chrono::milliseconds(20);
 
+/// [Hz]: rate above which stamps are no times of images.
+/// Source: no depth camera is that fast; time steps that a script wrote as stamps are.
+constexpr double kMaxRate = 1000.0;
+
+/// [-]: frames from which on the rate is judged. Source: initial choice.
+constexpr std::size_t kMinFrames = 5;
+
 std::vector<Timestamp> stamps_of(const std::vector<ListedImage>& images) {
   std::vector<Timestamp> stamps;
   for (const ListedImage& image : images) stamps.push_back(image.stamp);
   return stamps;
+}
+
+/// Stamps of images without times, at the assumed rate.
+void count_frames(RgbdRecording& recording) {
+  std::int64_t number = 0;
+  for (RgbdFiles& frame : recording.frames) {
+    frame.stamp = assumed_stamp(number++);
+    frame.depth_offset = Duration::zero();
+  }
+}
+
+/// The time from the earliest to the latest frame.
+Duration span_of(const std::vector<RgbdFiles>& frames) {
+  const auto earlier = [](const RgbdFiles& a, const RgbdFiles& b) { return a.stamp < b.stamp; };
+  const auto [first, last] = std::minmax_element(frames.begin(), frames.end(), earlier);
+  return last->stamp - first->stamp;
 }
 
 }  // namespace
@@ -49,6 +74,15 @@ void add_matched_frames(RgbdRecording& recording, const std::vector<ListedImage>
 }
 
 void sort_by_stamp(RgbdRecording& recording) {
+  const double count = static_cast<double>(recording.frames.size());
+  if (recording.frames.size() >= kMinFrames &&
+      count > kMaxRate * to_seconds(span_of(recording.frames))) {
+    recording.warnings.push_back(
+        "stamps: " + std::to_string(recording.frames.size()) + " images within " +
+        format_number(to_seconds(span_of(recording.frames))) +
+        " s; they are no times, so 30 Hz in the order of the list is assumed");
+    return count_frames(recording);
+  }
   const auto earlier = [](const RgbdFiles& a, const RgbdFiles& b) { return a.stamp < b.stamp; };
   if (std::is_sorted(recording.frames.begin(), recording.frames.end(), earlier)) return;
   std::stable_sort(recording.frames.begin(), recording.frames.end(), earlier);

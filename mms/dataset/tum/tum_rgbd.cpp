@@ -1,5 +1,8 @@
 #include "mms/dataset/tum/tum_rgbd.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/assumed_stamp.hpp"
 #include "mms/dataset/source/calibration_choice.hpp"
@@ -9,6 +12,7 @@
 #include "mms/dataset/source/rgbd_source.hpp"
 #include "mms/dataset/tum/matched_lists.hpp"
 #include "mms/dataset/tum/tum_calibration.hpp"
+#include "mms/dataset/tum/unlisted_images.hpp"
 #include "mms/io/config/calibration_formats.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/files.hpp"
@@ -25,6 +29,27 @@ struct ListNames {
 constexpr ListNames kListNames[] = {{"rgb.txt", "depth.txt"},
                                     {"color.txt", "aligned_depth.txt"}};  // OpenLORIS
 
+/// Pairs of color and depth images, for ORB-SLAM and others.
+constexpr const char* kPairNames[] = {"associations.txt", "association.txt", "associate.txt",
+                                      "associated.txt", "assoc.txt"};
+
+/// Empty if there is none.
+fs::path find_pairs(const fs::path& folder) {
+  for (const char* name : kPairNames) {
+    if (fs::exists(folder / name)) return folder / name;
+  }
+  return {};
+}
+
+void read_pairs(RgbdRecording& recording, const fs::path& file) {
+  for (const ListedPair& pair : read_associations(file, recording.warnings)) {
+    add_frame(recording, pair.color, pair.depth);
+  }
+  recording.facts.push_back("images: " + std::to_string(recording.frames.size()) + " pairs in " +
+                            file.filename().string());
+  sort_by_stamp(recording);
+}
+
 void match_lists(RgbdRecording& recording, const ListNames& names) {
   const auto color = read_image_list(recording.folder / names.color, recording.warnings);
   const auto depth = read_image_list(recording.folder / names.depth, recording.warnings);
@@ -37,24 +62,15 @@ void read_lists(RgbdRecording& recording) {
     if (!fs::exists(recording.folder / names.depth)) continue;
     return match_lists(recording, names);
   }
+  const fs::path pairs = find_pairs(recording.folder);
+  if (!pairs.empty()) return read_pairs(recording, pairs);
   const bool color = fs::exists(recording.folder / "rgb.txt");
   const bool depth = fs::exists(recording.folder / "depth.txt");
-  const fs::path associations = recording.folder / "associations.txt";
-  if (fs::exists(associations)) {
-    for (const ListedPair& pair : read_associations(associations, recording.warnings)) {
-      add_frame(recording, pair.color, pair.depth);
-    }
-    sort_by_stamp(recording);
-    recording.facts.push_back("images: " + std::to_string(recording.frames.size()) +
-                              " pairs in associations.txt");
-  } else {
-    const std::string missing = !color && !depth ? "rgb.txt and depth.txt are"
-                                : color          ? "depth.txt is"
-                                                 : "rgb.txt is";
-    throw DataError(recording.folder.string(),
-                    "is a TUM-layout sequence, but " + missing + " missing",
-                    "expected rgb.txt and depth.txt, or associations.txt");
-  }
+  if (!color && !depth) return add_unlisted_frames(recording);
+  throw DataError(recording.folder.string(),
+                  std::string("is a TUM-layout sequence, but ") +
+                      (color ? "depth.txt" : "rgb.txt") + " is missing",
+                  "expected rgb.txt and depth.txt, or associations.txt");
 }
 
 /// The calibration of data sets in this layout.
@@ -113,8 +129,9 @@ Trajectory mirrored(Trajectory trajectory) {
 }  // namespace
 
 bool is_tum_rgbd_layout(const std::vector<std::string>& names) {
-  return has_name(names, "rgb.txt") || has_name(names, "depth.txt") ||
-         has_name(names, "associations.txt") ||
+  const bool has_pairs = std::any_of(std::begin(kPairNames), std::end(kPairNames),
+                                     [&](const char* list) { return has_name(names, list); });
+  return has_name(names, "rgb.txt") || has_name(names, "depth.txt") || has_pairs ||
          (has_name(names, "color.txt") && has_name(names, "aligned_depth.txt")) ||
          (has_name(names, "rgb") && has_name(names, "depth"));
 }

@@ -1,6 +1,7 @@
 #include "mms/io/image/image_container.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
@@ -179,6 +180,49 @@ bool pfm_is_whole(Bytes bytes) {
   return bytes.size() - header->second >= width * height * pixel;
 }
 
+/// The whole numbers at the start of a header of PGM, between blanks and comments; `at` moves to
+/// the byte after the last one. nullopt if there are fewer.
+std::optional<std::array<std::uint64_t, 3>> pgm_numbers(Bytes bytes, std::size_t& at) {
+  constexpr Bytes kBlanks = " \t\r\n";
+  constexpr Bytes kDigits = "0123456789";
+  std::array<std::uint64_t, 3> numbers{};
+  for (std::uint64_t& number : numbers) {
+    at = bytes.find_first_not_of(kBlanks, at);
+    while (at < bytes.size() && bytes[at] == '#') {
+      at = bytes.find_first_not_of(kBlanks, bytes.find('\n', at));
+    }
+    if (at >= bytes.size()) return std::nullopt;
+    const std::size_t end = std::min(bytes.find_first_not_of(kDigits, at), bytes.size());
+    const auto value = parse_integer(bytes.substr(at, end - at));
+    if (!value || *value <= 0) return std::nullopt;
+    number = static_cast<std::uint64_t>(*value);
+    at = end;
+  }
+  return numbers;
+}
+
+/// Width, height and largest value in the header "P5 WIDTH HEIGHT MAX ", and where the data begin.
+std::optional<std::pair<Size, std::size_t>> pgm_header(Bytes bytes) {
+  std::size_t at = 2;
+  const auto numbers = pgm_numbers(bytes, at);
+  if (!numbers) return std::nullopt;
+  const auto& [width, height, largest] = *numbers;
+  return {{Size{width, height, largest > UINT8_MAX ? 2U : 1U}, at + 1}};
+}
+
+std::optional<Size> pgm_size(Bytes bytes) {
+  const auto header = pgm_header(bytes);
+  return header ? std::optional(header->first) : std::nullopt;
+}
+
+bool pgm_is_whole(Bytes bytes) {
+  const auto header = pgm_header(bytes);
+  if (!header || header->second > bytes.size()) return false;
+  const auto& [width, height, pixel] = header->first;
+  if (width > kMaxImageSide || height > kMaxImageSide) return true;  // refused for its size
+  return bytes.size() - header->second >= width * height * pixel;
+}
+
 /// An attribute in the header of an EXR file: name, type, size and value.
 struct ExrAttribute {
   Bytes name;
@@ -257,6 +301,7 @@ constexpr Container kContainers[] = {{"PNG", kPngSignature, png_is_whole, png_si
                                      {"EXR", "\x76\x2F\x31\x01", exr_is_whole, exr_size},
                                      {"PFM", "Pf\n", pfm_is_whole, pfm_size},
                                      {"PFM", "PF\n", pfm_is_whole, pfm_size},
+                                     {"PGM", "P5", pgm_is_whole, pgm_size},
                                      {"WebP", "RIFF", webp_is_whole, webp_size}};
 
 const Container* container_of(Bytes bytes) {
@@ -308,7 +353,7 @@ void check_whole_image(std::string_view bytes, const std::string& where) {
   const Container* container = container_of(bytes);
   if (container == nullptr) {
     throw DataError(where, "is no image that can be read",
-                    "known: PNG, JPEG, BMP, WebP, TIFF, EXR, PFM");
+                    "known: PNG, JPEG, BMP, WebP, TIFF, EXR, PFM, PGM");
   }
   if (!container->is_whole(bytes)) {
     throw DataError(where, std::string("is a truncated ") + container->name + " of " +

@@ -16,7 +16,8 @@ const std::vector<std::string>& color_endings() {
 }
 
 const std::vector<std::string>& depth_endings() {
-  static const std::vector<std::string> endings = {".png", ".tif", ".tiff", ".exr", ".pfm", ".npy"};
+  static const std::vector<std::string> endings = {".png", ".pgm", ".tif", ".tiff",
+                                                   ".exr", ".pfm", ".npy"};
   return endings;
 }
 
