@@ -16,7 +16,7 @@ duration="$(awk -v n="$frames" 'BEGIN { print n / 30 + 10 }')"
 
 case "$scene" in *\?*) scene+="&" ;; *) scene+="?" ;; esac
 "$mms" run "sim:${scene}frames=$frames&duration=$duration" --realtime --segmenter none --view "$port" \
-  -o "$out/run" "$@" > "$out/log" 2>&1 &
+  --no-map-truth -o "$out/run" "$@" > "$out/log" 2>&1 &
 run=$!
 sleep 3
 (while kill -0 "$run" 2> /dev/null; do "$crowd" "$port" 8 10; sleep 1; done) > "$out/crowd" 2>&1 &

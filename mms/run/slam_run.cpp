@@ -47,6 +47,7 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
 std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
   auto source = open_dataset(options.data, {.masks = options.masks,
                                             .load_masks = options.segmenter != "none",
+                                            .map_truth = options.map_truth,
                                             .topics = options.topics,
                                             .camera = options.camera,
                                             .motion = options.motion});
@@ -294,6 +295,7 @@ void SlamRun::end_map() {
 
 /// Unreadable ground truth prevents the comparison, not the run.
 void SlamRun::compare_with_truth(RunObserver& observer) {
+  if (!options_.map_truth) return;
   const auto attempt = [&](const std::string& what, const auto& compare) {
     try {
       compare();

@@ -194,6 +194,23 @@ TEST(Run, OmitsTrajectoryErrorsWithoutGroundTruth) {
   EXPECT_FALSE(keys.contains("drift"));
 }
 
+TEST(Run, SkipsGroundTruthOfMapOnDemand) {
+  const TempFolder folder;
+  std::vector<std::string> run = {
+      "run", "sim:still_walker?frames=2&width=160", "--segmenter", "masks", "-o", "with"};
+  expect_success(run_mms(folder.path(), run));
+  run.back() = "without";
+  run.emplace_back("--no-map-truth");
+  expect_success(run_mms(folder.path(), run));
+  const Keys with = keys_of(json_file(folder.path() / "with/metrics.json"));
+  const Keys without = keys_of(json_file(folder.path() / "without/metrics.json"));
+  for (const char* key : {"map", "objects"}) {
+    EXPECT_EQ(with.count(key), 1U);
+    EXPECT_EQ(without.count(key), 0U);
+  }
+  EXPECT_EQ(without.count("trajectory"), 1U);
+}
+
 TEST(Run, ObjectsHaveIdClassBoxAndVelocity) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));

@@ -80,6 +80,10 @@ void add_run_command(CLI::App& app) {
   command->add_option("--start", options->start, "skip the first K frames")
       ->check(CLI::Range(std::size_t{0}, kMaxFrames))
       ->capture_default_str();
+  command->add_flag_callback(
+      "--no-map-truth", [=] { options->map_truth = false; },
+      "do not compare map and objects with the ground truth, which grows with the frames of a "
+      "simulation");
   command->add_flag("--realtime", options->realtime, "play in real time and drop late frames");
   const auto record = std::make_shared<std::filesystem::path>();
   command

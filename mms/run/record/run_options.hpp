@@ -40,6 +40,7 @@ struct RunOptions {
   bool localize = false;           ///< changes no map
   std::size_t frames = std::numeric_limits<std::size_t>::max();
   std::size_t start = 0;
+  bool map_truth = true;  ///< false: map and objects are not compared with the ground truth
   bool realtime = false;
   bool keep_journal = false;
   bool mcap = false;  ///< records the results for viewers of ROS 2
