@@ -51,7 +51,9 @@ std::optional<Line> principal_line(const std::vector<Neighbor>& n) {
   const auto axes = principal_axes(scatter.matrix, EigenMethod::kClosedForm);
   const Eigen::Vector3f& squares = axes.variances;
   if (squares(1) > kMaxLineAspect * kMaxLineAspect * squares(2)) return std::nullopt;
-  return Line{scatter.mean, axes.largest(), std::sqrt(squares(1) / static_cast<float>(n.size()))};
+  // By rounding, points that lie exactly on a line have a variance below zero.
+  const float across = std::max(0.0F, squares(1)) / static_cast<float>(n.size());
+  return Line{scatter.mean, axes.largest(), std::sqrt(across)};
 }
 
 std::optional<Plane> plane_of_three(const std::vector<Neighbor>& n, float min_separation) {
