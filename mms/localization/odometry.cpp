@@ -55,6 +55,7 @@ bool is_scan(const FeatureCloud& features) {
 Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
     : config_(config),
       keyframes_(config.registration.photometric, noise),
+      still_camera_(noise),
       noise_(noise),
       motion_(config.motion) {}
 
@@ -160,7 +161,20 @@ Odometry::Alignment Odometry::align_at_pose_time(FeatureCloud features) const {
   alignment.registration = choice.best();
   alignment.is_valid = choice.is_valid(*alignment.registration);
   alignment.looks_right = choice.looks_right(*alignment.registration);
+  hold_still(alignment);
   return alignment;
+}
+
+/// Where the image shows that the camera stands still, its pose does not change.
+void Odometry::hold_still(Alignment& alignment) const {
+  const PhotometricConfig& config = config_.registration.photometric;
+  if (!config.enabled || !config.hold_still) return;
+  RegistrationResult& registration = *alignment.registration;
+  const auto pose = still_camera_.pose(alignment.features.intensity, registration.T_world_sensor);
+  if (!pose) return;
+  registration.T_world_sensor = *pose;
+  registration.degenerate_directions = 0;
+  alignment.is_valid = alignment.looks_right = true;
 }
 
 /// A scan takes the time between two frames. Its pose is estimated at the center of that time,
@@ -204,6 +218,7 @@ OdometryEstimate Odometry::track(const Alignment& alignment) {
     motion_.measure(features.stamp, result.T_world_sensor, result.degenerate_directions == 0);
     turn_change_ = (motion_.velocity().tail<3>() - turn_rate_before).norm() * seconds;
     update_maps(features);
+    still_camera_.follow(features.intensity, motion_.pose());
   } else {
     estimate.status = Status::kLost;
     motion_.coast(features.stamp);
@@ -216,6 +231,7 @@ void Odometry::restart() {
   maps_.reset();
   first_scan_.reset();
   keyframes_.clear();
+  still_camera_.forget();
   origin_ = trimmed_at_ = motion_.pose();
   motion_.rest(motion_.stamp(), origin_);
   lost_ = false;
@@ -235,6 +251,7 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
   }
   make_maps(features);
   update_maps(features);
+  still_camera_.follow(features.intensity, motion_.pose());
   if (features.intensity.empty() && features.points_offset != Duration::zero()) {
     first_scan_ = features;
   }
@@ -266,6 +283,7 @@ OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud seco
 OdometryEstimate Odometry::relocate(Timestamp stamp, const Transform<World, Sensor>& T_world_sensor,
                                     const std::vector<PlacedFeatures>& surroundings) {
   motion_.rest(stamp, T_world_sensor.isometry());
+  still_camera_.forget();
   const bool is_new = !maps_;
   if (is_new) make_maps(last_features_);
   for (const PlacedFeatures& placed : surroundings) {

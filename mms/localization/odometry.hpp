@@ -10,6 +10,7 @@
 #include "mms/localization/motion/motion_model.hpp"
 #include "mms/localization/odometry_config.hpp"
 #include "mms/localization/photometric/reference_keyframes.hpp"
+#include "mms/localization/photometric/still_camera.hpp"
 #include "mms/localization/registration/registration.hpp"
 
 namespace mms {
@@ -113,6 +114,7 @@ class Odometry {
   std::optional<Vector6d> changed_velocity(const Alignment& alignment) const;
   OdometryEstimate initialize(const FeatureCloud& features);
   Alignment align_at_pose_time(FeatureCloud features) const;
+  void hold_still(Alignment& alignment) const;
   OdometryEstimate track(const Alignment& alignment);
   OdometryEstimate begin_in_motion(FeatureCloud first, FeatureCloud second);
   void make_maps(const FeatureCloud& features);
@@ -123,6 +125,7 @@ class Odometry {
   FeatureCloud last_features_;     ///< of the last frame, at the time of its pose
   std::optional<FeatureCloud> first_scan_;  ///< as measured, until the second one
   ReferenceKeyframes keyframes_;
+  StillCamera still_camera_;
   DepthNoise noise_;
   double map_radius_ = 0.0;
   MotionModel motion_;

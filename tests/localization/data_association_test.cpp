@@ -31,6 +31,23 @@ LocalMaps map_of(const FeatureCloud& features, Association association) {
   return maps;
 }
 
+/// By rounding, the variance across a line of exact points can be below zero.
+TEST(DataAssociation, LineOfExactPointsHasFiniteSpread) {
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3f begin(0.5F + 0.013F * static_cast<float>(i), 0.37F, 1.93F);
+    FeatureCloud edge;
+    for (int k = 0; k < 8; ++k) {
+      edge.edges.push_back(
+          {begin + static_cast<float>(k) * Eigen::Vector3f(0.0F, 0.05F, 0.02F), 0.003F});
+    }
+    const LocalMaps maps = map_of(edge, Association::kSurface);
+    for (const EdgeMatch& match :
+         associate(edge, maps, kOrigin, Association::kSurface, kGate).edges) {
+      EXPECT_TRUE(std::isfinite(match.sigma)) << i;
+    }
+  }
+}
+
 class AssociatedBy : public ::testing::TestWithParam<Association> {};
 INSTANTIATE_TEST_SUITE_P(Association, AssociatedBy,
                          ::testing::Values(Association::kPaper, Association::kSurface),

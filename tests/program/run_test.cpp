@@ -197,7 +197,7 @@ TEST(Run, OmitsTrajectoryErrorsWithoutGroundTruth) {
 TEST(Run, SkipsGroundTruthOfMapOnDemand) {
   const TempFolder folder;
   std::vector<std::string> run = {
-      "run", "sim:still_walker?frames=2&width=160", "--segmenter", "masks", "-o", "with"};
+      "run", "sim:still_walker?frames=4&width=160", "--segmenter", "masks", "-o", "with"};
   expect_success(run_mms(folder.path(), run));
   run.back() = "without";
   run.emplace_back("--no-map-truth");
@@ -209,6 +209,20 @@ TEST(Run, SkipsGroundTruthOfMapOnDemand) {
     EXPECT_EQ(without.count(key), 0U);
   }
   EXPECT_EQ(without.count("trajectory"), 1U);
+}
+
+TEST(Run, HoldsPoseOfStillCamera) {
+  const TempFolder folder;
+  const auto keeps_pose = [&](const std::string& hold) {
+    expect_success(run_mms(folder.path(),
+                           {"run", "sim:still_walker?frames=12", "--segmenter", "none", "-o", hold,
+                            "--set", "odometry.registration.photometric.hold_still=" + hold}));
+    const Trajectory trajectory = read_trajectory_tum(folder.path() / hold / "trajectory.tum");
+    return trajectory.back().T_world_sensor.isometry().isApprox(
+        trajectory[trajectory.size() - 2].T_world_sensor.isometry(), 1e-12);
+  };
+  EXPECT_TRUE(keeps_pose("true"));
+  EXPECT_FALSE(keeps_pose("false"));
 }
 
 TEST(Run, ObjectsHaveIdClassBoxAndVelocity) {

@@ -5,6 +5,8 @@ namespace mms {
 void PhotometricConfig::visit(ConfigVisitor& v) {
   v.boolean({"enabled", "", "add photometric residuals to the geometric ones (images with depth)"},
             enabled);
+  v.boolean({"hold_still", "", "hold the pose while the images show that the camera stands still"},
+            hold_still);
   v.number({"min_gradient", "1/px", "least intensity gradient of a textured pixel"}, min_gradient,
            {0.5, 100.0});
   v.integer({"cell_px", "px", "one textured pixel is taken from a cell of this side"}, cell_px,

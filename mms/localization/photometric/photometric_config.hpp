@@ -7,6 +7,7 @@ namespace mms {
 /// The photometric term and its keyframes.
 struct PhotometricConfig {
   bool enabled = true;
+  bool hold_still = true;
   double min_gradient = 6.0;
   int cell_px = 3;
   double min_sigma = 3.0;
