@@ -165,13 +165,14 @@ Odometry::Alignment Odometry::align_at_pose_time(FeatureCloud features) const {
   return alignment;
 }
 
-/// Where the image shows that the camera stands still, its pose does not change.
+/// Where the image shows that the camera stands still, its pose does not change, unless wheels or
+/// gyroscope say that it moves.
 void Odometry::hold_still(Alignment& alignment) const {
   const PhotometricConfig& config = config_.registration.photometric;
   if (!config.enabled || !config.hold_still) return;
   RegistrationResult& registration = *alignment.registration;
   const auto pose = still_camera_.pose(alignment.features.intensity, registration.T_world_sensor);
-  if (!pose) return;
+  if (!pose || motion_.contradiction(alignment.features.stamp, *pose)) return;
   registration.T_world_sensor = *pose;
   registration.degenerate_directions = 0;
   alignment.is_valid = alignment.looks_right = true;

@@ -70,6 +70,12 @@ TEST(StillView, IgnoresWhatCoversLessThanHalf) {
   EXPECT_TRUE(same({}, {.changed = kWidth * 3 / 10, .masked = kWidth * 2 / 10}));
 }
 
+TEST(StillView, DiffersFromViewWithoutTexture) {
+  IntensityLevel blank = wall({});
+  blank.intensity = Image<IntensitySample>(kWidth, kHeight, {128.0F, 0.0F, 0.0F});
+  EXPECT_FALSE(show_same_view(wall({}), blank, kNoise));
+}
+
 TEST(StillView, NeedsTextureInBothDirections) {
   EXPECT_FALSE(same({.stripes = true}, {.stripes = true}));
   EXPECT_FALSE(same({}, {.masked = kWidth}));

@@ -61,6 +61,10 @@ constexpr float kMaxResidual = 30.0F;
 /// [-]: passes of the exposure. Source: initial choice; the first one has pixels of moving objects.
 constexpr int kExposurePasses = 3;
 
+/// [-]: largest deviation of the gain from one. Source: as the photometric term; an image without
+/// texture would agree at a gain of zero.
+constexpr double kMaxGainChange = 0.5;
+
 /// [grey levels^2]: variance of the intensities that determines a gain. Source: as the photometric
 /// term, far above the resolution of an image.
 constexpr double kMinVariance = 100.0;
@@ -169,6 +173,7 @@ Exposure refined(const Exposure& exposure, const std::vector<TexturedPixel>& pix
   const double variance = n * bb - b * b;
   if (variance < kMinVariance * n * n) return exposure;
   const double gain = (n * bc - b * c) / variance;
+  if (std::abs(gain - 1.0) > kMaxGainChange) return exposure;
   return {static_cast<float>(gain), static_cast<float>((c - gain * b) / n)};
 }
 
