@@ -44,7 +44,7 @@ constexpr int kMinBlocks = 6;
 
 /// [-]: share of them that must be unchanged.
 /// Source: 0.8 and more between frames of a Kinect that stands still before a person without mask,
-/// 0.59 over 40 frames; at most 0.46 over three frames of five hand-held cameras.
+/// 0.59 over 40 frames; at most 0.46 over three frames of four hand-held cameras.
 constexpr double kMinUnchangedBlocks = 0.5;
 
 /// [-]: share of the depths that must be unchanged. Source: as `kMinUnchangedBlocks`.
