@@ -1,6 +1,5 @@
 #include "mms/dataset/source/camera_matrix.hpp"
 
-#include <string_view>
 #include <vector>
 
 #include "mms/core/error.hpp"
@@ -21,11 +20,8 @@ CameraIntrinsics camera_of_matrix(std::span<const double> numbers, int width, in
 
 CameraIntrinsics read_camera_matrix(const std::filesystem::path& file, int width, int height) {
   const TextTable table(file);
-  std::vector<std::string_view> fields;
-  for (const TextLine& line : table.lines()) {
-    fields.insert(fields.end(), line.fields.begin(), line.fields.end());
-  }
-  return camera_of_matrix(parse_finite(fields, file.string()), width, height, file.string());
+  return camera_of_matrix(parse_finite(table.fields(), file.string()), width, height,
+                          file.string());
 }
 
 }  // namespace mms

@@ -1,7 +1,6 @@
 #include "mms/dataset/source/pose_file.hpp"
 
 #include <string>
-#include <string_view>
 
 #include "mms/core/error.hpp"
 #include "mms/io/text/pose_text.hpp"
@@ -13,12 +12,8 @@ namespace {
 
 Transform<World, Sensor> read_pose(const fs::path& path) {
   const TextTable table(path);
-  std::vector<std::string_view> fields;
-  for (const TextLine& line : table.lines()) {
-    fields.insert(fields.end(), line.fields.begin(), line.fields.end());
-  }
   const std::string where = path.string();
-  return Transform<World, Sensor>(isometry_from_rows(parse_finite(fields, where), where));
+  return Transform<World, Sensor>(isometry_from_rows(parse_finite(table.fields(), where), where));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "mms/core/error.hpp"
@@ -73,11 +72,7 @@ Calibration icl_nuim_calibration() {
 
 Calibration read_eth3d_calibration(const std::filesystem::path& file, const Image<Rgb>& image) {
   const TextTable table(file);
-  std::vector<std::string_view> fields;
-  for (const TextLine& line : table.lines()) {
-    fields.insert(fields.end(), line.fields.begin(), line.fields.end());
-  }
-  const std::vector<double> k = parse_finite(fields, file.string());
+  const std::vector<double> k = parse_finite(table.fields(), file.string());
   if (k.size() != 4 || k[0] <= 0.0 || k[1] <= 0.0) {
     throw DataError(file.string(), "has " + std::to_string(k.size()) + " numbers",
                     "expected fx fy cx cy in pixels, focal lengths above 0");

@@ -35,6 +35,14 @@ TextTable::TextTable(const std::filesystem::path& path)
   }
 }
 
+std::vector<std::string_view> TextTable::fields() const {
+  std::vector<std::string_view> fields;
+  for (const TextLine& line : lines_) {
+    fields.insert(fields.end(), line.fields.begin(), line.fields.end());
+  }
+  return fields;
+}
+
 std::string TextTable::where(const TextLine& line) const {
   return file_ + ":" + std::to_string(line.number);
 }

@@ -24,6 +24,9 @@ class TextTable {
   /// In the order of the file.
   const std::vector<TextLine>& lines() const { return lines_; }
 
+  /// Those of all lines.
+  std::vector<std::string_view> fields() const;
+
   /// "file:12", for messages.
   std::string where(const TextLine& line) const;
 
