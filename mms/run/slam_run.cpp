@@ -125,6 +125,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   if (options_.mcap) recorder_ = std::make_unique<RunRecorder>(folder, handler);
   log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
                                   config_.dynamic_map, folder);
+  if (view_) view_->keep_on_disk(folder);
   observer.on_start(run_heading(options_, *source_, config_, frames_, folder), frames_);
   for (const std::string& warning : of_settings) warn(warning, observer);
   map_.load(system_, source_->calibration().get(), handler);

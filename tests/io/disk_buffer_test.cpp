@@ -54,6 +54,11 @@ TEST(DiskBuffer, KeepsAllBytesInOrderButFewInMemory) {
   const std::string all = fill(buffer, most_in_memory);
   EXPECT_EQ(buffer.size(), all.size());
   EXPECT_TRUE(buffer.read() == all);
+  const std::size_t on_disk = all.size() - buffer.in_memory();
+  for (const std::size_t begin : {std::size_t{0}, on_disk - 3, on_disk, on_disk + 2}) {
+    const std::size_t end = begin + 5;
+    EXPECT_EQ(buffer.read(begin, end), all.substr(begin, end - begin));
+  }
   EXPECT_LT(most_in_memory, kMegabyte / 2);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "the file has no name";
 }

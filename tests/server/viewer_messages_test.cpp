@@ -12,12 +12,6 @@ namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
 
-SceneFrames frames(std::size_t count) {
-  SceneFrames all;
-  for (std::size_t i = 0; i < count; ++i) all.push_back(std::make_shared<SceneFrame>(frame_at(i)));
-  return all;
-}
-
 TEST(Message, AlignsBuffersToFourBytes) {
   MessageWriter writer(nlohmann::json{{"type", "x"}});
   const std::vector<std::uint8_t> bytes = {1, 2, 3, 4, 5};
@@ -52,31 +46,31 @@ TEST(Message, HelloDescribesRun) {
 }
 
 TEST(Message, TrajectoryHasPosesStampsAndGroundTruth) {
-  SceneFrames run = frames(3);
-  auto without = std::make_shared<SceneFrame>(*run[2]);
-  without->truth.reset();
-  run[2] = without;
-  const DecodedMessage message = decode_message(*trajectory_message(run, 5, Timestamp(0), true));
-  EXPECT_EQ(message.json["first_frame"], 5);
+  const auto scene = finished_scene(5);
+  scene->change([](std::size_t index, SceneFrame& frame) {
+    if (index == 4) frame.truth.reset();
+  });
+  const DecodedMessage message = decode_message(*trajectory_message(*scene, 2, 5));
+  EXPECT_EQ(message.json["first_frame"], 2);
   const auto poses = message.values<float>("pose");
   ASSERT_EQ(poses.size(), 21U);
-  EXPECT_EQ(poses[7], 1.0F);   // x of the second
+  EXPECT_EQ(poses[7], 3.0F);   // x of the second
   EXPECT_EQ(poses[13], 1.0F);  // qw of the second
-  EXPECT_EQ(message.values<std::uint32_t>("stamp"), (std::vector<std::uint32_t>{0, 100, 200}));
+  EXPECT_EQ(message.values<std::uint32_t>("stamp"), (std::vector<std::uint32_t>{200, 300, 400}));
   const auto truth = message.values<float>("truth");
   EXPECT_EQ(truth[1], 0.25F);
   EXPECT_TRUE(std::isnan(truth[6]));
 }
 
 TEST(Message, SeriesHasRowPerFrame) {
-  const DecodedMessage message = decode_message(*series_message(scene_info(true), frames(2), 0));
+  const DecodedMessage message = decode_message(*series_message(*finished_scene(2), 0, 2));
   EXPECT_EQ(message.json["names"], (nlohmann::json{"read", "dynamic_share"}));
   EXPECT_EQ(message.json["units"], (nlohmann::json{"ms", "ratio"}));
   EXPECT_EQ(message.values<float>("values"), (std::vector<float>{0.0F, 0.5F, 1.0F, 0.5F}));
 }
 
 TEST(Message, TracksHaveRowPerObjectAndFrame) {
-  const DecodedMessage message = decode_message(*tracks_message(frames(2)));
+  const DecodedMessage message = decode_message(*tracks_message(*finished_scene(3), 2));
   EXPECT_EQ(message.json["ids"], nlohmann::json{7});
   EXPECT_EQ(message.json["classes"], nlohmann::json{1});
   EXPECT_EQ(message.values<std::uint32_t>("track"), (std::vector<std::uint32_t>{0, 0}));

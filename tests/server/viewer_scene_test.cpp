@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "mms/core/error.hpp"
+#include "tests/io/temp_folder.hpp"
 #include "tests/server/scenes.hpp"
 
 namespace mms {
@@ -14,13 +16,21 @@ namespace {
 
 using namespace testing;  // NOLINT: helpers of the tests
 
+std::vector<SceneFrame> frames_of(const Scene& scene, std::size_t first, std::size_t last) {
+  std::vector<SceneFrame> frames;
+  scene.for_each_frame(first, last, [&](const SceneFrame& frame) { frames.push_back(frame); });
+  return frames;
+}
+
 TEST(Scene, ReturnsFramesViewAndMap) {
   Scene scene(scene_info(true), 1);
   scene.add(frame_at(0), view_of(0), nullptr);
   scene.add(frame_at(1), view_of(1), floor_map(4));
   EXPECT_EQ(scene.size(), 2U);
-  EXPECT_EQ(scene.frames(1, 99).size(), 1U);
-  EXPECT_TRUE(scene.frames(2, 1).empty());
+  EXPECT_EQ(frames_of(scene, 1, 99).size(), 1U);
+  EXPECT_TRUE(frames_of(scene, 2, 1).empty());
+  EXPECT_EQ(scene.stamps(), (std::vector{frame_at(0).stamp, frame_at(1).stamp}));
+  EXPECT_THROW(scene.frame(2), DataError);
   EXPECT_EQ(scene.view(std::nullopt)->frame, 1U);
   EXPECT_EQ(scene.view(0), nullptr) << "the newest only";
   EXPECT_EQ(scene.read_map([](const MapChunks& map) { return map.size(); }), 16U);
@@ -54,7 +64,7 @@ TEST(Scene, LosesNothingWithConcurrentReaders) {
     readers.emplace_back([&] {
       while (!done) {
         const std::size_t size = scene.size();
-        EXPECT_EQ(scene.frames(0, size).size(), size);
+        EXPECT_EQ(frames_of(scene, 0, size).size(), size);
       }
     });
   }
@@ -63,22 +73,38 @@ TEST(Scene, LosesNothingWithConcurrentReaders) {
   scene.end("/nowhere");
   done = true;
   for (std::thread& reader : readers) reader.join();
-  const SceneFrames frames = scene.frames(0, kFrames + 1);
+  const std::vector<SceneFrame> frames = frames_of(scene, 0, kFrames + 1);
   ASSERT_EQ(frames.size(), kFrames);
-  for (std::size_t i = 0; i < kFrames; ++i) EXPECT_EQ(frames[i]->stamp, frame_at(i).stamp);
+  for (std::size_t i = 0; i < kFrames; ++i) EXPECT_EQ(frames[i].stamp, frame_at(i).stamp);
   EXPECT_EQ(scene.view(std::nullopt)->frame, kFrames - 1);
 }
 
-TEST(Scene, ReplacesTruthForLaterReaders) {
-  Scene scene(scene_info(true), 1);
-  scene.add(frame_at(0), nullptr, nullptr);
-  scene.add(frame_at(1), nullptr, nullptr);
-  const SceneFrames before = scene.frames(0, 2);
-  scene.replace_truth({std::nullopt, Eigen::Vector3d(9.0, 0.0, 0.0)});
-  EXPECT_EQ(scene.edition(), 1U);
-  EXPECT_FALSE(scene.frames(0, 1).front()->truth.has_value());
-  EXPECT_EQ(scene.frames(1, 2).front()->truth->x(), 9.0);
-  EXPECT_EQ(before[1]->truth->x(), 1.0);
+TEST(Scene, ChangesFramesInMemoryAndOnDisk) {
+  const TempFolder folder;
+  for (const std::filesystem::path& place : {folder.path(), std::filesystem::path()}) {
+    Scene scene(scene_info(true), 1);
+    scene.keep_on_disk(place);
+    constexpr std::size_t kFrames = 2000;  // several batches
+    for (std::size_t i = 0; i < kFrames; ++i) scene.add(frame_at(i), nullptr, nullptr);
+    scene.change([](std::size_t index, SceneFrame& frame) {
+      if (index % 2 == 0) frame.truth.reset();
+      frame.series = {static_cast<float>(2 * index)};
+      if (index == 5) frame.objects.clear();
+    });
+    EXPECT_EQ(scene.edition(), 1U);
+    const std::vector<SceneFrame> frames = frames_of(scene, 0, kFrames);
+    ASSERT_EQ(frames.size(), kFrames);
+    for (std::size_t i = 0; i < kFrames; ++i) {
+      EXPECT_EQ(frames[i].stamp, frame_at(i).stamp);
+      EXPECT_EQ(frames[i].truth.has_value(), i % 2 == 1);
+      EXPECT_EQ(frames[i].series, std::vector{static_cast<float>(2 * i)});
+      EXPECT_EQ(frames[i].objects.size(), i == 5 ? 0U : 1U);
+      EXPECT_EQ(frames[i].T_world_sensor.isometry().matrix(),
+                frame_at(i).T_world_sensor.isometry().matrix());
+    }
+    scene.add(frame_at(kFrames), nullptr, floor_map(4));
+    EXPECT_EQ(scene.frame(kFrames).truth->x(), static_cast<double>(kFrames));
+  }
 }
 
 }  // namespace

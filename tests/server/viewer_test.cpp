@@ -232,7 +232,10 @@ TEST(Viewer, ReportsEndOfLiveRun) {
   TestViewer viewer(scene);
   viewer.advance(33ms);
   viewer.drain();
-  scene->replace_truth({Eigen::Vector3d(5.0, 0.0, 0.0), std::nullopt});
+  scene->change([](std::size_t index, SceneFrame& frame) {
+    frame.truth.reset();
+    if (index == 0) frame.truth = Eigen::Vector3d(5.0, 0.0, 0.0);
+  });
   scene->end("/nowhere");
   viewer.advance(33ms);
   const auto messages = viewer.drain();
@@ -251,14 +254,13 @@ TEST(Viewer, ShowsCorrectedFramesAndLoopsInALiveRun) {
   TestViewer viewer(scene);
   viewer.advance(33ms);
   viewer.drain();
-  ASSERT_EQ(scene->added().size(), 2U);
-  SceneFrames corrected;
-  for (const std::size_t index : {3U, 4U}) {
-    corrected.push_back(std::make_shared<const SceneFrame>(frame_at(index)));
-  }
   const ColoredPoints map = floor_points(10);
   scene->set_loops({{0, 1, true, "accepted"}});
-  scene->replace(corrected, changes_of(map.points, map.colors, 0.1));
+  const auto later_frame = [](std::size_t index, SceneFrame& frame) {
+    frame = frame_at(index + 3);
+  };
+  scene->change(later_frame,
+                std::make_shared<const MapChanges>(changes_of(map.points, map.colors, 0.1)));
   viewer.advance(1s);
   const auto messages = viewer.drain();
   EXPECT_EQ(only(messages, "trajectory").values<float>("pose")[0], 3.0F);
@@ -280,12 +282,12 @@ TEST(Viewer, ShowsCorrectedResultsAndLoopsAtEndOfLiveRun) {
   TestViewer viewer(scene);
   viewer.advance(33ms);
   viewer.drain();
-  SceneFrames corrected;
-  for (const std::size_t index : {3U, 4U}) {
-    corrected.push_back(std::make_shared<const SceneFrame>(frame_at(index)));
-  }
   const ColoredPoints map = floor_points(10);
-  scene->replace(corrected, changes_of(map.points, map.colors, 0.1));
+  const auto later_frame = [](std::size_t index, SceneFrame& frame) {
+    frame = frame_at(index + 3);
+  };
+  scene->change(later_frame,
+                std::make_shared<const MapChanges>(changes_of(map.points, map.colors, 0.1)));
   scene->set_loops({{0, 1, true, "accepted"}, {0, 1, false, "few inliers"}});
   scene->end("/nowhere");
   viewer.advance(1s);

@@ -51,12 +51,12 @@ void DiskBuffer::flush() {
   next_flush_ = rest_.size() + kFlush;  // a full disk is not tried with every record
 }
 
-std::string DiskBuffer::read() const {
-  std::string bytes(on_disk_, '\0');
+std::string DiskBuffer::read(std::size_t begin, std::size_t end) const {
+  std::string bytes(std::min(end, on_disk_) - std::min(begin, on_disk_), '\0');
   std::size_t done = 0;
-  while (done < on_disk_) {
-    const ssize_t count =
-        pread(descriptor_, bytes.data() + done, on_disk_ - done, static_cast<off_t>(done));
+  while (done < bytes.size()) {
+    const ssize_t count = pread(descriptor_, bytes.data() + done, bytes.size() - done,
+                                static_cast<off_t>(begin + done));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       throw FileError(folder_.string(),
@@ -65,7 +65,9 @@ std::string DiskBuffer::read() const {
     }
     done += static_cast<std::size_t>(count);
   }
-  return bytes + rest_;
+  const std::size_t first = std::max(begin, on_disk_) - on_disk_;
+  if (end > on_disk_) bytes.append(rest_, first, end - on_disk_ - first);
+  return bytes;
 }
 
 }  // namespace mms

@@ -23,7 +23,10 @@ class DiskBuffer {
   std::size_t in_memory() const { return rest_.size(); }        ///< of them [B]
 
   /// All bytes, in order. @throws FileError if the file cannot be read
-  std::string read() const;
+  std::string read() const { return read(0, size()); }
+
+  /// The bytes in [begin, end), at most `size()`. @throws as `read`
+  std::string read(std::size_t begin, std::size_t end) const;
 
  private:
   void flush();

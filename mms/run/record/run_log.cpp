@@ -44,13 +44,18 @@ RunLog::RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& obj
 void RunLog::add(const Processed& processed) {
   const FrameResult& result = processed.result;
   const Clock::time_point now = Clock::now();
-  const std::chrono::duration<double, std::milli> interval = now - last_;
-  last_ = now;
-  frame_log_.add({processed.frame.stamp, processed.frame.index, result.session,
-                  result.odometry.T_world_sensor, result.odometry.status, result.keyframe,
-                  result.relocalized, result.is_searching(), is_in_map(result),
-                  result.dynamic_share, result.overruled_share, result.cloud.implausible_masks,
-                  processed.read_ms, interval.count(), result.stage_ms, processed.latency_ms});
+  const std::chrono::duration<double, std::milli> interval = now - last_time_;
+  last_time_ = now;
+  last_ = {processed.frame.stamp,  processed.frame.index,
+           result.session,         result.odometry.T_world_sensor,
+           result.odometry.status, result.keyframe,
+           result.relocalized,     result.is_searching(),
+           is_in_map(result),      result.dynamic_share,
+           result.overruled_share, result.cloud.implausible_masks,
+           processed.read_ms,      interval.count(),
+           result.stage_ms,        processed.latency_ms};
+  if (size() == 0) first_ = last_;
+  frame_log_.add(last_);
   places_.resize(result.session + std::size_t{1});
   smoother_.add(processed.frame.stamp, result.objects);
   for (const ObjectFrame& settled : smoother_.take_settled()) smoothed_log_.add(settled);
@@ -117,7 +122,7 @@ void RunLog::move_objects() {
 }
 
 void RunLog::sum_up_times() {
-  const std::chrono::duration<double> elapsed = last_ - start_;
+  const std::chrono::duration<double> elapsed = last_time_ - start_;
   metrics_.frames = static_cast<std::int64_t>(frames_.size());
   metrics_.rate_hz = static_cast<double>(frames_.size()) / elapsed.count();
   metrics_.ms_per_frame =

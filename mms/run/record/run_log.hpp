@@ -14,7 +14,7 @@
 #include "mms/pipeline/session_places.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/report/report.hpp"
-#include "mms/run/record/frame_log.hpp"
+#include "mms/run/record/logged_frame.hpp"
 #include "mms/simulation/truth/truth_cloud.hpp"
 
 namespace mms {
@@ -46,8 +46,9 @@ class RunLog {
   void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
 
   std::size_t size() const { return frame_log_.size(); }  ///< frames so far
-  const LoggedFrame& first() const { return frame_log_.first(); }
-  const LoggedFrame& last() const { return frame_log_.last(); }
+  /// With the default values before `add`.
+  const LoggedFrame& first() const { return first_; }
+  const LoggedFrame& last() const { return last_; }
   /// All frames; empty before `finish`.
   const std::vector<LoggedFrame>& frames() const { return frames_; }
   /// Smoothed objects (ObjectSmoother) in the global frame; empty before `finish`.
@@ -86,11 +87,13 @@ class RunLog {
   void move_objects();
 
   Trajectory truth_;
-  FrameLog frame_log_;
+  DiskLog<LoggedFrame> frame_log_;
+  LoggedFrame first_;
+  LoggedFrame last_;
   std::vector<LoggedFrame> frames_;
   ObjectSmoother smoother_;
-  ObjectLog smoothed_log_;
-  ObjectLog live_log_;  ///< live output of the dynamic map
+  DiskLog<ObjectFrame> smoothed_log_;
+  DiskLog<ObjectFrame> live_log_;  ///< live output of the dynamic map
   ObjectFrame objects_now_;
   ObjectHistory objects_;
   std::vector<ReportPicture> pictures_;
@@ -103,7 +106,7 @@ class RunLog {
   RunMetrics metrics_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point last_ = start_;
+  Clock::time_point last_time_ = start_;
 };
 
 }  // namespace mms

@@ -7,10 +7,11 @@
 #include <chrono>
 #include <utility>
 
+#include "mms/core/error.hpp"
 #include "mms/mapping/ground/floor.hpp"
 #include "mms/pipeline/live_map.hpp"
 #include "mms/run/record/run_record.hpp"
-#include "mms/run/view/corrected_frames.hpp"
+#include "mms/run/view/frame_correction.hpp"
 #include "mms/run/view/recorded_scene.hpp"
 #include "mms/run/view/run_series.hpp"
 
@@ -63,6 +64,15 @@ std::vector<ObjectBox> objects_of(const FrameResult& result, Timestamp stamp) {
   return boxes;
 }
 
+/// A change of what is displayed. If the frames cannot be read from disk, it stays as it is.
+template <class Change>
+void while_readable(const Change& change) {
+  try {
+    change();
+  } catch (const FileError&) {
+  }
+}
+
 /// [s]: least time between two corrections of what is displayed.
 constexpr std::chrono::seconds kCorrectionInterval{5};
 
@@ -98,45 +108,46 @@ void LiveView::show(Processed processed, double interval_ms, std::shared_ptr<con
       SensorView{sessions_.size(), std::move(processed.frame.color), std::move(result.cloud)});
   sessions_.push_back(result.session);
   scene_->add(std::move(frame), std::move(view), std::move(map));
-  if (result.correction.loops != shown_.loops && Clock::now() >= next_correction_) {
-    show_corrected(result, mapping);
-  }
+  if (result.correction.loops == shown_.loops || Clock::now() < next_correction_) return;
+  while_readable([&] { show_corrected(result, mapping); });
 }
 
 void LiveView::show_corrected(const FrameResult& result, const Mapping& mapping) {
   const Clock::time_point begin = Clock::now();
   const MapCloud map = live_map(mapping, result);
-  SceneFrames frames =
-      corrected_frames(scene_->added(), sessions_, shown_, corrected_, result.correction);
   if (result.correction.loops) {
-    scene_->set_loops(loops_between(frames, *result.correction.loops));
+    scene_->set_loops(loops_between(scene_->stamps(), *result.correction.loops));
   }
-  corrected_ = frames.size();
+  scene_->change(
+      [&](std::size_t index, SceneFrame& frame) {
+        correct_frame(frame, sessions_[index], index < corrected_ ? &shown_ : nullptr,
+                      result.correction);
+      },
+      std::make_shared<const MapChanges>(
+          changes_of(map.points, map.colors, mapping.static_map().voxel_size())));
+  corrected_ = sessions_.size();
   shown_ = result.correction;
-  scene_->replace(std::move(frames),
-                  changes_of(map.points, map.colors, mapping.static_map().voxel_size()));
   const Clock::time_point end = Clock::now();
   next_correction_ =
       end + std::max<Clock::duration>(kCorrectionInterval, kCorrectionPause * (end - begin));
 }
 
 void LiveView::end(const std::filesystem::path& folder, const RunLog& log) {
-  if (are_corrected(log.places())) {
-    show_final_results(folder, *scene_);
-  } else {
-    show_aligned_truth(log);
-  }
+  while_readable([&] {
+    are_corrected(log.places()) ? show_final_results(folder, *scene_) : show_aligned_truth(log);
+  });
   scene_->end(folder);
 }
 
 void LiveView::show_aligned_truth(const RunLog& log) {
   const Trajectory truth = aligned_truth(log.truth(), log.trajectory());
-  std::vector<std::optional<Eigen::Vector3d>> positions(log.frames().size());
+  if (truth.empty()) return;
   auto next = truth.begin();
-  for (std::size_t i = 0; i < positions.size() && next != truth.end(); ++i) {
-    if (next->stamp == log.frames()[i].stamp) positions[i] = (next++)->T_world_sensor.translation();
-  }
-  if (!truth.empty()) scene_->replace_truth(positions);
+  scene_->change([&](std::size_t, SceneFrame& frame) {
+    frame.truth.reset();
+    if (next == truth.end() || next->stamp != frame.stamp) return;
+    frame.truth = (next++)->T_world_sensor.translation();
+  });
 }
 
 }  // namespace mms

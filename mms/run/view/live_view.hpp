@@ -26,6 +26,9 @@ class LiveView {
   LiveView(const ViewOptions& options, const std::string& data, const FrameSource& source,
            const SystemConfig& config, std::size_t frames);
 
+  /// Keeps the frames so far in a temporary file in a folder; to be called before the first one.
+  void keep_on_disk(const std::filesystem::path& folder) { scene_->keep_on_disk(folder); }
+
   /// Displays a frame. Poses and map are in the world frame of the odometry; where loops correct
   /// them, those so far are moved to agree with the present pose.
   /// @param map      changes of the map by the frame; null for none

@@ -160,11 +160,12 @@ std::shared_ptr<Scene> open_recorded_scene(const fs::path& folder,
 
 void show_final_results(const fs::path& folder, Scene& scene) {
   const RunFiles files = read_run_files(folder);
-  SceneFrames frames;
-  for (SceneFrame& frame : frames_of(files)) {
-    frames.push_back(std::make_shared<const SceneFrame>(std::move(frame)));
-  }
-  scene.replace(std::move(frames), map_of(files));
+  std::vector<SceneFrame> frames = frames_of(files);
+  scene.change(
+      [&](std::size_t index, SceneFrame& frame) {
+        if (index < frames.size()) frame = std::move(frames[index]);
+      },
+      std::make_shared<const MapChanges>(map_of(files)));
   scene.set_loops(loops_of(files));
 }
 

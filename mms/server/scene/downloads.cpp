@@ -42,9 +42,9 @@ fs::path new_temporary() {
 
 Trajectory trajectory_of(const Scene& scene) {
   Trajectory poses;
-  for (const auto& frame : scene.frames(0, scene.size())) {
-    poses.push_back({frame->stamp, frame->T_world_sensor});
-  }
+  scene.for_each_frame(0, scene.size(), [&](const SceneFrame& frame) {
+    poses.push_back({frame.stamp, frame.T_world_sensor});
+  });
   return poses;
 }
 

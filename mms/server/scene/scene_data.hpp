@@ -13,6 +13,7 @@
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/core/object_box.hpp"
 #include "mms/core/odometry_estimate.hpp"
+#include "mms/io/journal/disk_log.hpp"
 
 namespace mms {
 
@@ -56,8 +57,20 @@ struct SceneLoop {
   std::string outcome;  ///< "accepted", or the check that failed
 };
 
-/// Consecutive frames, shared with readers while more are added.
-using SceneFrames = std::vector<std::shared_ptr<const SceneFrame>>;
+/// For `DiskLog`.
+template <class Visitor>
+void visit_fields(Visitor& v, SceneFrame& frame) {
+  v(frame.stamp);
+  visit_fields(v, frame.T_world_sensor);
+  v(frame.status);
+  visit_all(v, frame.series, [&](float& value) { v(value); });
+  visit_all(v, frame.objects, [&](ObjectBox& box) { visit_fields(v, box); });
+  bool has_truth = frame.truth.has_value();
+  Eigen::Vector3d truth = frame.truth.value_or(Eigen::Vector3d::Zero());
+  v(has_truth);
+  visit_fields(v, truth);
+  if (has_truth) frame.truth = truth;
+}
 
 /// Sensor data of a frame and its segmentation.
 struct SensorView {

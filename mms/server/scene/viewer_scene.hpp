@@ -22,6 +22,9 @@ class Scene {
   /// thread, one call at a time; may be slow.
   using ViewLoader = std::function<std::shared_ptr<const SensorView>(std::size_t frame)>;
 
+  /// Changes a frame, given with its index.
+  using ChangeFrame = std::function<void(std::size_t index, SceneFrame& frame)>;
+
   /// @param min_observations  observations that a voxel of the map needs to be visible
   explicit Scene(SceneInfo info, int min_observations = 1);
 
@@ -40,21 +43,19 @@ class Scene {
   /// @param folder  with the run's files
   void end(const std::filesystem::path& folder);
 
-  /// Replaces all frames and the map by those that loops corrected.
-  /// @param frames  as many as there are
-  void replace(SceneFrames frames, MapChanges map);
+  /// Changes all frames, one by one, and the map if one is given. To be called in the adding
+  /// thread.
+  /// @throws FileError if the frames cannot be read; they stay as they are
+  void change(const ChangeFrame& change, std::shared_ptr<const MapChanges> map = nullptr);
 
-  /// All frames that were added; to be called in the adding thread.
-  SceneFrames added() const;
-
-  /// Shows loops, with the next `replace` or the end.
+  /// Shows loops, with the next `change` or the end.
   void set_loops(std::vector<SceneLoop> loops);
-
-  /// Replaces the ground-truth positions, one per frame.
-  void replace_truth(const std::vector<std::optional<Eigen::Vector3d>>& truth);
 
   /// Sets the sensor's properties, known from the first frame; called before that frame is added.
   void set_sensor(const std::optional<CameraIntrinsics>& camera, const Eigen::Vector3d& up);
+
+  /// Keeps the frames in a temporary file instead of in memory; called before the first one.
+  void keep_on_disk(const std::filesystem::path& folder);
 
   /// To be called before viewers connect.
   void set_loader(ViewLoader loader) { loader_ = std::move(loader); }
@@ -70,8 +71,16 @@ class Scene {
   /// Folder of the run's files; empty during the run.
   std::filesystem::path folder() const;
 
-  /// Frames in [first, last), fewer if not available.
-  SceneFrames frames(std::size_t first, std::size_t last) const;
+  /// A frame. @throws FileError if it cannot be read; DataError if there is none
+  SceneFrame frame(std::size_t index) const;
+
+  /// Calls a function with the frames in [first, last), one by one, fewer if not available.
+  /// @throws FileError if they cannot be read
+  void for_each_frame(std::size_t first, std::size_t last,
+                      const std::function<void(const SceneFrame&)>& use) const;
+
+  /// Stamps of all frames.
+  std::vector<Timestamp> stamps() const;
 
   /// Sensor data of a frame, or of the newest; null if unavailable.
   std::shared_ptr<const SensorView> view(std::optional<std::size_t> frame) const;
@@ -89,26 +98,29 @@ class Scene {
  private:
   using Changes = std::vector<std::shared_ptr<const MapChanges>>;
   struct Pending {
-    SceneFrames frames;
+    std::vector<SceneFrame> frames;
     std::shared_ptr<const SensorView> view;
     Changes changes;
   };
 
+  std::vector<SceneFrame> read_frames(std::size_t first, std::size_t last) const;
   void apply_pending();
   void apply_map_changes();
 
   SceneInfo info_;
   ViewLoader loader_;
-  Pending pending_;  // of the adding thread
+  std::filesystem::path disk_;  // folder for frames; empty: memory
+  Pending pending_;             // of the adding thread
   std::atomic<std::size_t> size_ = 0;
   std::atomic<bool> ended_ = false;
   std::atomic<std::uint64_t> edition_ = 0;
 
   mutable std::mutex mutex_;  // guards what follows; held briefly
-  SceneFrames frames_;
+  std::unique_ptr<DiskLog<SceneFrame>> frames_;
+  std::vector<Timestamp> stamps_;
   std::shared_ptr<const SensorView> newest_;
   Changes changes_;
-  std::filesystem::path folder_;
+  std::filesystem::path folder_;  // with the run's files
   std::vector<SceneLoop> loops_;
 
   std::mutex map_mutex_;  // never locked by the run

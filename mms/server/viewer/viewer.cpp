@@ -15,18 +15,6 @@ constexpr std::size_t kDefaultBudget = 5'000'000;      ///< points of the map
 constexpr std::size_t kMaxErrors = 8;                  ///< pending messages
 constexpr float kFocusMoved = 2.0F;                    ///< [m]
 
-std::vector<Timestamp> stamps_of(const Scene& scene) {
-  std::vector<Timestamp> stamps;
-  for (const auto& frame : scene.frames(0, scene.size())) stamps.push_back(frame->stamp);
-  return stamps;
-}
-
-Message trajectory_of(const Scene& scene, std::size_t first, std::size_t last) {
-  const SceneFrames start = scene.frames(0, 1);
-  return trajectory_message(scene.frames(first, last), first, start.front()->stamp,
-                            scene.info().has_truth);
-}
-
 }  // namespace
 
 Viewer::Viewer(Scene& scene, std::string version)
@@ -79,7 +67,7 @@ void Viewer::tick(Clock::time_point now) {
 void Viewer::notice_end() {
   if (ended_ || !scene_.ended()) return;
   ended_ = true;
-  stamps_ = stamps_of(scene_);
+  stamps_ = scene_.stamps();
   state_due_ = true;
   files_due_ = !hello_due_;
   tracks_due_ = true;
@@ -132,16 +120,14 @@ std::optional<Viewer::Encode> Viewer::next_history() {
   const std::size_t last = all ? scene.size() : playhead_.frame();
   if (poses_sent_ < last) {
     const std::size_t first = std::exchange(poses_sent_, last);
-    return [&scene, first, last] { return trajectory_of(scene, first, last); };
+    return [&scene, first, last] { return trajectory_message(scene, first, last); };
   }
   if (values_sent_ < last) {
     const std::size_t first = std::exchange(values_sent_, last);
-    return [&scene, first, last] {
-      return series_message(scene.info(), scene.frames(first, last), first);
-    };
+    return [&scene, first, last] { return series_message(scene, first, last); };
   }
   if (std::exchange(tracks_due_, false)) {
-    return [&scene, last] { return tracks_message(scene.frames(0, last)); };
+    return [&scene, last] { return tracks_message(scene, last); };
   }
   if (std::exchange(loops_due_, false)) {
     return [&scene] { return loops_message(scene.loops()); };
@@ -174,8 +160,7 @@ Viewer::Encode Viewer::send_frame(std::size_t index, PicturesState state, Pictur
   if (poses_sent_ == index) poses_sent_ = index + 1;
   if (values_sent_ == index) values_sent_ = index + 1;
   return [&scene = scene_, index, state, parts = parts_, pictures = std::move(pictures)] {
-    const SceneFrames frame = scene.frames(index, index + 1);
-    return frame_message(scene.info(), *frame.front(), index, state, pictures.get(), parts);
+    return frame_message(scene.info(), scene.frame(index), index, state, pictures.get(), parts);
   };
 }
 
@@ -225,9 +210,13 @@ std::optional<Viewer::Encode> Viewer::next_chunk(Clock::time_point now) {
 /// The viewer's focus, by default the sensor's position.
 Eigen::Vector3f Viewer::focus() const {
   if (focus_) return *focus_;
-  const SceneFrames frame = scene_.frames(playhead_.frame(), playhead_.frame() + 1);
-  if (frame.empty()) return Eigen::Vector3f::Zero();
-  return frame.front()->T_world_sensor.translation().cast<float>();
+  try {
+    if (scene_.size() > 0) {
+      return scene_.frame(playhead_.frame()).T_world_sensor.translation().cast<float>();
+    }
+  } catch (const Error&) {  // of the disk: the viewer goes on
+  }
+  return Eigen::Vector3f::Zero();
 }
 
 }  // namespace mms

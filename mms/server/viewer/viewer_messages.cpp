@@ -117,51 +117,53 @@ Message hello_message(const SceneInfo& info, const std::vector<std::string>& fil
       .finish();
 }
 
-Message trajectory_message(const SceneFrames& frames, std::size_t first, Timestamp start,
-                           bool has_truth) {
+Message trajectory_message(const Scene& scene, std::size_t first, std::size_t last) {
   std::vector<float> poses;
   std::vector<std::uint32_t> stamps;
   std::vector<float> truth;
-  for (const auto& frame : frames) {
-    append_pose(poses, frame->T_world_sensor);
-    stamps.push_back(milliseconds(frame->stamp - start));
-    append_truth(truth, frame->truth);
-  }
+  const Timestamp start = scene.frame(0).stamp;
+  scene.for_each_frame(first, last, [&](const SceneFrame& frame) {
+    append_pose(poses, frame.T_world_sensor);
+    stamps.push_back(milliseconds(frame.stamp - start));
+    append_truth(truth, frame.truth);
+  });
   MessageWriter writer({{"type", "trajectory"}, {"first_frame", first}});
   writer.add("pose", poses, 7);
   writer.add("stamp", stamps, 1);
-  if (has_truth) writer.add("truth", truth, 3);
+  if (scene.info().has_truth) writer.add("truth", truth, 3);
   return writer.finish();
 }
 
-Message series_message(const SceneInfo& info, const SceneFrames& frames, std::size_t first) {
+Message series_message(const Scene& scene, std::size_t first, std::size_t last) {
+  const std::vector<SeriesName>& series = scene.info().series;
   Json names = Json::array();
   Json units = Json::array();
-  for (const SeriesName& series : info.series) {
-    names.push_back(series.name);
-    units.push_back(series.unit);
+  for (const SeriesName& name : series) {
+    names.push_back(name.name);
+    units.push_back(name.unit);
   }
   std::vector<float> values;
-  for (const auto& frame : frames) {
-    for (std::size_t i = 0; i < info.series.size(); ++i) {
-      values.push_back(i < frame->series.size() ? frame->series[i] : kUnknown);
+  scene.for_each_frame(first, last, [&](const SceneFrame& frame) {
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      values.push_back(i < frame.series.size() ? frame.series[i] : kUnknown);
     }
-  }
+  });
   MessageWriter writer(
       {{"type", "series"}, {"first_frame", first}, {"names", names}, {"units", units}});
-  if (!info.series.empty()) writer.add("values", values, static_cast<int>(info.series.size()));
+  if (!series.empty()) writer.add("values", values, static_cast<int>(series.size()));
   return writer.finish();
 }
 
-Message tracks_message(const SceneFrames& frames) {
+Message tracks_message(const Scene& scene, std::size_t last) {
   std::map<int, std::uint32_t> places;
   Json ids = Json::array();
   Json classes = Json::array();
   std::vector<std::uint32_t> tracks;
   std::vector<std::uint32_t> numbers;
   std::vector<float> centers;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    for (const ObjectBox& object : frames[i]->objects) {
+  std::uint32_t number = 0;
+  scene.for_each_frame(0, last, [&](const SceneFrame& frame) {
+    for (const ObjectBox& object : frame.objects) {
       const auto [place, added] =
           places.try_emplace(object.id, static_cast<std::uint32_t>(places.size()));
       if (added) {
@@ -169,11 +171,12 @@ Message tracks_message(const SceneFrames& frames) {
         classes.push_back(static_cast<int>(object.object_class));
       }
       tracks.push_back(place->second);
-      numbers.push_back(static_cast<std::uint32_t>(i));
+      numbers.push_back(number);
       const Eigen::Vector3f center = object.center().cast<float>();
       centers.insert(centers.end(), {center.x(), center.y(), center.z()});
     }
-  }
+    ++number;
+  });
   MessageWriter writer({{"type", "tracks"}, {"ids", ids}, {"classes", classes}});
   writer.add("track", tracks, 1);
   writer.add("frame", numbers, 1);

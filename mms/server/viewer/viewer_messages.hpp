@@ -8,7 +8,7 @@
 
 #include "mms/server/scene/map_chunks.hpp"
 #include "mms/server/scene/pictures.hpp"
-#include "mms/server/scene/scene_data.hpp"
+#include "mms/server/scene/viewer_scene.hpp"
 #include "mms/server/viewer/message.hpp"
 
 namespace mms {
@@ -20,16 +20,13 @@ inline constexpr int kProtocolVersion = 1;
 Message hello_message(const SceneInfo& info, const std::vector<std::string>& files,
                       std::string_view version);
 
-/// Poses of consecutive frames.
-/// @param first  index of the first of them in the run
-/// @param start  stamp of the run's first frame
-Message trajectory_message(const SceneFrames& frames, std::size_t first, Timestamp start,
-                           bool has_truth);
-Message series_message(const SceneInfo& info, const SceneFrames& frames, std::size_t first);
+/// Poses of the frames in [first, last).
+/// @throws FileError if the scene's frames cannot be read; also those below
+Message trajectory_message(const Scene& scene, std::size_t first, std::size_t last);
+Message series_message(const Scene& scene, std::size_t first, std::size_t last);
 
-/// Trajectories of all objects, for drawing.
-/// @param frames  from the first of the run
-Message tracks_message(const SceneFrames& frames);
+/// Trajectories of the objects in the frames up to `last`, for drawing.
+Message tracks_message(const Scene& scene, std::size_t last);
 
 /// Loops between frames.
 Message loops_message(const std::vector<SceneLoop>& loops);

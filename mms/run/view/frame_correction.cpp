@@ -1,7 +1,6 @@
-#include "mms/run/view/corrected_frames.hpp"
+#include "mms/run/view/frame_correction.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <string>
 
 #include "mms/evaluation/tracking/tracking_error.hpp"
@@ -23,34 +22,24 @@ Eigen::Isometry3d motion_of(const MapCorrection& correction, std::uint32_t sessi
 
 }  // namespace
 
-SceneFrames corrected_frames(const SceneFrames& shown, const std::vector<std::uint32_t>& sessions,
-                             const MapCorrection& before, std::size_t corrected,
-                             const MapCorrection& now) {
-  SceneFrames frames;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const Timestamp stamp = shown[i]->stamp;
-    Eigen::Isometry3d T = motion_of(now, sessions[i], stamp);
-    if (i < corrected) T = T * motion_of(before, sessions[i], stamp).inverse();
-    auto frame = std::make_shared<SceneFrame>(*shown[i]);
-    frame->T_world_sensor = Transform<World, Sensor>(T * frame->T_world_sensor.isometry());
-    frame->objects = transformed({{stamp, frame->objects}}, T).front().objects;
-    frames.push_back(std::move(frame));
-  }
-  return frames;
+void correct_frame(SceneFrame& frame, std::uint32_t session, const MapCorrection* before,
+                   const MapCorrection& now) {
+  Eigen::Isometry3d T = motion_of(now, session, frame.stamp);
+  if (before != nullptr) T = T * motion_of(*before, session, frame.stamp).inverse();
+  frame.T_world_sensor = Transform<World, Sensor>(T * frame.T_world_sensor.isometry());
+  frame.objects = transformed({{frame.stamp, frame.objects}}, T).front().objects;
 }
 
-std::vector<SceneLoop> loops_between(const SceneFrames& frames,
+std::vector<SceneLoop> loops_between(const std::vector<Timestamp>& stamps,
                                      const std::vector<ClosedLoop>& loops) {
   const auto index_of = [&](Timestamp stamp) {
-    const auto found =
-        std::lower_bound(frames.begin(), frames.end(), stamp,
-                         [](const auto& frame, Timestamp other) { return frame->stamp < other; });
-    return static_cast<std::size_t>(found - frames.begin());
+    return static_cast<std::size_t>(std::lower_bound(stamps.begin(), stamps.end(), stamp) -
+                                    stamps.begin());
   };
   std::vector<SceneLoop> between;
   for (const ClosedLoop& loop : loops) {
     const std::size_t later = index_of(loop.later);
-    if (later == frames.size()) continue;
+    if (later == stamps.size()) continue;
     between.push_back(
         {index_of(loop.earlier), later, true, std::string(to_string(LoopOutcome::kAccepted))});
   }

@@ -10,7 +10,7 @@
 #include "mms/core/odometry_estimate.hpp"
 #include "mms/core/time.hpp"
 #include "mms/core/transform.hpp"
-#include "mms/io/text/disk_buffer.hpp"
+#include "mms/io/journal/disk_log.hpp"
 #include "mms/pipeline/frame_result.hpp"
 
 namespace mms {
@@ -37,42 +37,28 @@ struct LoggedFrame {
   double stages_ms() const;  ///< sum of reading and all stages
 };
 
-/// The frames of a run so far, on disk, so that a long run does not fill the memory.
-class FrameLog {
- public:
-  /// @param folder  for temporary files; empty: all stays in memory
-  explicit FrameLog(const std::filesystem::path& folder) : frames_(folder) {}
-
-  void add(const LoggedFrame& frame);
-
-  std::size_t size() const { return size_; }
-  const LoggedFrame& first() const { return first_; }  ///< with the default values before `add`
-  const LoggedFrame& last() const { return last_; }    ///< the same
-
-  /// All frames. @throws FileError if they cannot be read
-  std::vector<LoggedFrame> read() const;
-
- private:
-  DiskBuffer frames_;
-  std::size_t size_ = 0;
-  LoggedFrame first_;
-  LoggedFrame last_;
-};
-
-/// The objects of a run's frames so far, on disk.
-class ObjectLog {
- public:
-  /// @param folder  as that of `FrameLog`
-  explicit ObjectLog(const std::filesystem::path& folder) : objects_(folder) {}
-
-  void add(const ObjectFrame& frame);
-
-  /// All frames. @throws FileError if they cannot be read
-  ObjectHistory read() const;
-
- private:
-  DiskBuffer objects_;
-  std::size_t size_ = 0;
-};
+/// For `DiskLog`.
+template <class Visitor>
+void visit_fields(Visitor& v, LoggedFrame& frame) {
+  v(frame.stamp);
+  v(frame.index);
+  v(frame.session);
+  visit_fields(v, frame.T_world_sensor);
+  v(frame.status);
+  for (bool* flag : {&frame.keyframe, &frame.relocalized, &frame.is_searching, &frame.in_map}) {
+    v(*flag);
+  }
+  v(frame.dynamic_share);
+  v(frame.overruled_share);
+  v(frame.implausible_masks);
+  v(frame.read_ms);
+  v(frame.interval_ms);
+  for (double& ms : frame.stage_ms) v(ms);
+  bool has_latency = frame.latency_ms.has_value();
+  double latency_ms = frame.latency_ms.value_or(0.0);
+  v(has_latency);
+  v(latency_ms);
+  if (has_latency) frame.latency_ms = latency_ms;
+}
 
 }  // namespace mms

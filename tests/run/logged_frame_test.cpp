@@ -1,4 +1,4 @@
-#include "mms/run/record/frame_log.hpp"
+#include "mms/run/record/logged_frame.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,13 +32,11 @@ LoggedFrame some_frame(int i) {
   return frame;
 }
 
-TEST(FrameLog, GivesTheFramesAsTheyWere) {
+TEST(LoggedFrame, IsReadFromDiskAsItWas) {
   constexpr int kFrames = 9;
   const TempFolder folder;
-  FrameLog log(folder.path());
+  DiskLog<LoggedFrame> log(folder.path());
   for (int i = 0; i < kFrames; ++i) log.add(some_frame(i));
-  EXPECT_EQ(log.first().stamp, some_frame(0).stamp);
-  EXPECT_EQ(log.last().stamp, some_frame(kFrames - 1).stamp);
   const std::vector<LoggedFrame> frames = log.read();
   ASSERT_EQ(frames.size(), static_cast<std::size_t>(kFrames));
   ASSERT_EQ(log.size(), frames.size());
@@ -58,43 +56,6 @@ TEST(FrameLog, GivesTheFramesAsTheyWere) {
     EXPECT_EQ(frame.implausible_masks, expected.implausible_masks);
     EXPECT_EQ(frame.stage_ms, expected.stage_ms);
     EXPECT_EQ(frame.latency_ms, expected.latency_ms);
-  }
-}
-
-TEST(ObjectLog, GivesTheObjectsAsTheyWere) {
-  const TempFolder folder;
-  ObjectLog log(folder.path());
-  for (int i = 0; i < 5; ++i) {
-    ObjectFrame frame{Timestamp(i), {}};
-    for (int id = 0; id < i; ++id) {
-      ObjectBox& box = frame.objects.emplace_back();
-      box.id = id;
-      box.object_class = ObjectClass::kAgv;
-      box.T_world_box = some_pose(id);
-      box.size = Eigen::Vector3d(1.0, 2.0, id);
-      box.velocity = Eigen::Vector3d(-1.0, 0.5, i);
-      box.moving = id % 2 == 0;
-      box.score = 0.25;
-    }
-    log.add(frame);
-  }
-  const ObjectHistory history = log.read();
-  ASSERT_EQ(history.size(), 5U);
-  for (int i = 0; i < 5; ++i) {
-    const ObjectFrame& frame = history[static_cast<std::size_t>(i)];
-    EXPECT_EQ(frame.stamp, Timestamp(i));
-    ASSERT_EQ(frame.objects.size(), static_cast<std::size_t>(i));
-    for (int id = 0; id < i; ++id) {
-      const ObjectBox& box = frame.objects[static_cast<std::size_t>(id)];
-      EXPECT_EQ(box.id, id);
-      EXPECT_EQ(box.object_class, ObjectClass::kAgv);
-      EXPECT_EQ(box.T_world_box.matrix(), some_pose(id).matrix());
-      EXPECT_EQ(box.size, Eigen::Vector3d(1.0, 2.0, id));
-      EXPECT_EQ(box.velocity, Eigen::Vector3d(-1.0, 0.5, i));
-      EXPECT_EQ(box.moving, id % 2 == 0);
-      EXPECT_EQ(box.score, 0.25);
-      EXPECT_EQ(box.visible, 1.0);
-    }
   }
 }
 
