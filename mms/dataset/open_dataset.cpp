@@ -179,6 +179,12 @@ std::unique_ptr<FrameSource> open_frames(const fs::path& path, const SourceOptio
   return layout->open(path, options);
 }
 
+void set_rate(FrameSource& source, const fs::path& path, double rate) {
+  if (source.set_rate(rate)) return;
+  throw DataError(path.string(), "has time stamps of its own",
+                  "omit --rate, which is for recordings without them");
+}
+
 bool is_given(const fs::path& file) {
   return !file.empty() && file != "none";
 }
@@ -187,6 +193,7 @@ bool is_given(const fs::path& file) {
 
 std::unique_ptr<FrameSource> open_dataset(const fs::path& path, const SourceOptions& options) {
   std::unique_ptr<FrameSource> source = open_frames(path, options);
+  if (options.rate) set_rate(*source, path, *options.rate);
   if (is_simulated(path.string())) {
     if (!is_given(options.motion.wheels) && !is_given(options.motion.imu)) return source;
     throw DataError(path.string(), "is a simulation and has its own wheels and gyroscope",

@@ -50,6 +50,7 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options) {
                                             .map_truth = options.map_truth,
                                             .topics = options.topics,
                                             .camera = options.camera,
+                                            .rate = options.rate,
                                             .motion = options.motion});
   check_range(options, *source);
   return source;

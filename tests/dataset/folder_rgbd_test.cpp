@@ -123,7 +123,7 @@ TEST(FolderRgbd, ReadsPairsInTheOrderOfNumbers) {
     const Playback played(open_dataset(folder.path()));
     const std::string name = color;
     EXPECT_EQ(played.names(), name + "1 " + name + "2 " + name + "10");
-    EXPECT_TRUE(any_has(played.source->describe(), "stamps: none, 30 Hz assumed"));
+    EXPECT_TRUE(any_has(played.source->describe(), "stamps: none, 15 Hz assumed (--rate)"));
   }
 }
 

@@ -196,7 +196,7 @@ TEST(Open3d, ErrorNamesFoldersWithoutCommonNumber) {
   const TempFolder folder;
   write_color(folder.path() / "color/0.png");
   write_depth(folder.path() / "depth/1.png");
-  expect_in("has 1 color images color/N.jpg and 1 depth images depth/N.png, and no number N",
+  expect_in("has 1 color images color/N.png and 1 depth images depth/N.png, and no number N",
             message_of<DataError>([&] { open_dataset(folder.path()); }));
 }
 

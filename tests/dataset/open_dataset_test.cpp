@@ -39,6 +39,46 @@ TEST(OpenDataset, RejectsVelodyneFolderWithoutScans) {
   expect_in("has no *.bin scans", error_of(folder.path()));
 }
 
+TEST(OpenDataset, TakesTheRateOfRecordingsWithoutStamps) {
+  const TempFolder folder;
+  folder.write("calibration.yaml", kCalibration);
+  for (const std::string name : {"a", "b", "c"}) {
+    write_color(folder.path() / (name + ".color.png"));
+    write_depth(folder.path() / (name + ".depth.png"));
+    folder.write(name + ".pose.txt", "1 0 0 0.5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  }
+  const Playback played(open_dataset(folder.path(), {.rate = 12.5}));
+  ASSERT_EQ(played.names(), "a b c");
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(0));
+  EXPECT_NEAR(to_seconds(played.frames[2].stamp - Timestamp(0)), 0.16, 1e-8);
+  ASSERT_EQ(played.source->ground_truth().size(), 3U);
+  EXPECT_EQ(played.source->ground_truth()[2].stamp, played.frames[2].stamp);
+  EXPECT_TRUE(any_has(played.source->describe(), "stamps: none, 12.5 Hz as given"));
+  EXPECT_TRUE(any_has(played.source->describe(), "rate: 12.50 Hz"));
+}
+
+TEST(OpenDataset, TakesTheRateOfScansWithoutStamps) {
+  const TempFolder folder;
+  for (const char* name : {"000000.bin", "000001.bin"}) {
+    folder.write(name, std::string(16, '\0'));
+  }
+  EXPECT_TRUE(
+      any_has(open_dataset(folder.path())->describe(), "stamps: none, 10 Hz assumed (--rate)"));
+  const Playback played(open_dataset(folder.path(), {.rate = 20.0}));
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[1].stamp, Timestamp(50'000'000));
+}
+
+TEST(OpenDataset, RejectsTheRateOfRecordingsWithStamps) {
+  const TempFolder folder;
+  write_tum(folder, 2);
+  for (const std::filesystem::path& path :
+       {folder.path(), std::filesystem::path("sim:static?frames=2&width=64")}) {
+    expect_in("has time stamps of its own (omit --rate",
+              message_of<DataError>([&] { open_dataset(path, {.rate = 10.0}); }));
+  }
+}
+
 TEST(OpenDataset, OpensSimulations) {
   EXPECT_EQ(open_dataset("sim:static?frames=3&width=64")->size(), 3U);
 }

@@ -148,7 +148,7 @@ TEST(TumRgbd, KeepsOrderWhereStampsAreNoTimes) {
   folder.write("depth.txt", depth);
   const Playback played(open_dataset(folder.path()));
   EXPECT_EQ(played.names(), "f0 f1 f2 f3 f4");
-  EXPECT_EQ(played.frames[3].stamp, Timestamp(100'000'000));
+  EXPECT_EQ(played.frames[3].stamp, Timestamp(200'000'000));
   EXPECT_TRUE(any_has(played.warnings, "5 images within 0.0012 s; they are no times"));
 }
 
@@ -175,8 +175,14 @@ TEST(TumRgbd, OpensNumberedImagesWithoutLists) {
   const SourceOptions options{.camera = {.intrinsics = {{10, 10, 4, 3}}, .depth_scale = 1000.0}};
   const Playback played(open_dataset(folder.path(), options));
   EXPECT_EQ(played.names(), "color_9 color_10 color_11");
-  EXPECT_EQ(played.frames[1].stamp, Timestamp(333'333'333));
-  EXPECT_TRUE(any_has(played.source->describe(), "stamps: none, 30 Hz assumed"));
+  EXPECT_EQ(played.frames[1].stamp, Timestamp(666'666'666));
+  EXPECT_TRUE(any_has(played.source->describe(), "stamps: none, 15 Hz assumed (--rate)"));
+  EXPECT_TRUE(any_has(played.warnings, "no time stamps: 15 Hz is assumed"));
+  SourceOptions given = options;
+  given.rate = 20.0;
+  const Playback at_20_hz(open_dataset(folder.path(), given));
+  EXPECT_EQ(at_20_hz.frames[1].stamp, Timestamp(500'000'000));
+  EXPECT_TRUE(at_20_hz.warnings.empty());
 }
 
 TEST(TumRgbd, MatchesImagesByStampsInTheirNames) {

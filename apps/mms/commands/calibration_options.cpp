@@ -41,6 +41,15 @@ double parse_depth_scale(const std::string& text) {
   throw CLI::ValidationError("--depth-scale", text + " is not a number from 0.001 to 1e6");
 }
 
+/// [Hz]
+constexpr Range kRateRange{0.01, 1000.0};
+
+double parse_rate(const std::string& text) {
+  const auto rate = parse_double(text);
+  if (rate && is_in(*rate, kRateRange)) return *rate;
+  throw CLI::ValidationError("--rate", text + " is not a number from 0.01 to 1000");
+}
+
 }  // namespace
 
 CLI::Option* add_depth_scale_option(CLI::App& command, std::optional<double>& scale) {
@@ -65,6 +74,15 @@ void add_calibration_options(CLI::App& command, CameraOptions& options) {
       ->type_name("fx,fy,cx,cy")
       ->group(kGroup);
   add_depth_scale_option(command, options.depth_scale)->group(kGroup);
+}
+
+void add_rate_option(CLI::App& command, std::optional<double>& rate) {
+  command
+      .add_option_function<std::string>(
+          "--rate", [&rate](const std::string& text) { rate = parse_rate(text); },
+          "frames a second, if the recording has no time stamps (default: 15, for known data sets "
+          "30, for a LiDAR 10)")
+      ->type_name("HZ");
 }
 
 }  // namespace mms

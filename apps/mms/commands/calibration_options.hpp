@@ -15,4 +15,7 @@ void add_calibration_options(CLI::App& command, CameraOptions& options);
 /// @param scale  unchanged by default
 CLI::Option* add_depth_scale_option(CLI::App& command, std::optional<double>& scale);
 
+/// Adds --rate.
+void add_rate_option(CLI::App& command, std::optional<double>& rate);
+
 }  // namespace mms

@@ -21,6 +21,7 @@ struct ConvertArguments {
   std::filesystem::path stamps;  ///< empty: none
   BagTopicNames topics;
   CameraOptions camera;
+  std::optional<double> rate;
   std::string frame = "sensor";  ///< or "level"
   bool compressed = false;
   bool overwrite = false;
@@ -29,7 +30,8 @@ struct ConvertArguments {
 void convert(const ConvertArguments& arguments) {
   if (is_recording_conversion(arguments.input.string(), arguments.output)) {
     return convert_recording({arguments.input.string(), arguments.output, arguments.topics,
-                              arguments.camera, arguments.compressed, arguments.overwrite});
+                              arguments.camera, arguments.rate, arguments.compressed,
+                              arguments.overwrite});
   }
   const bool journal =
       std::filesystem::is_directory(arguments.input) || arguments.input.filename() == kJournalName;
@@ -69,6 +71,7 @@ void add_convert_command(CLI::App& app) {
       ->check(CLI::IsMember({"sensor", "level"}))
       ->capture_default_str();
   add_overwrite_flag(*command, arguments->overwrite);
+  add_rate_option(*command, arguments->rate);
   add_topic_options(*command, arguments->topics);
   add_calibration_options(*command, arguments->camera);
   command->callback([arguments] { convert(*arguments); });

@@ -81,9 +81,10 @@ bool is_recording_conversion(const std::string& input, const fs::path& output) {
 
 void convert_recording(const RecordingConversion& conversion) {
   const fs::path output = other_recording(conversion);
-  const auto source =
-      open_dataset(conversion.input,
-                   {.map_truth = false, .topics = conversion.topics, .camera = conversion.camera});
+  const auto source = open_dataset(conversion.input, {.map_truth = false,
+                                                      .topics = conversion.topics,
+                                                      .camera = conversion.camera,
+                                                      .rate = conversion.rate});
   refuse_existing(output, conversion.overwrite);
   const fs::path partial = partial_name(output);
   const InterruptGuard interrupt;

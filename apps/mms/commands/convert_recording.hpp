@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "mms/dataset/source/bag_topic_names.hpp"
@@ -14,6 +15,7 @@ struct RecordingConversion {
   std::filesystem::path output;  ///< x.bag, x.mcap, or else a folder
   BagTopicNames topics;          ///< of an input bag
   CameraOptions camera;          ///< in place of the recording's
+  std::optional<double> rate;    ///< [Hz] of a recording without time stamps; unset: assumed
   bool compressed = false;       ///< for an output bag
   bool overwrite = false;        ///< replaces an output bag
 };

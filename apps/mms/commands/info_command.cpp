@@ -34,12 +34,13 @@ struct InfoOptions {
   std::string masks;
   BagTopicNames topics;
   CameraOptions camera;
+  std::optional<double> rate;
   MotionOptions motion;
   bool json = false;
 
   std::unique_ptr<FrameSource> open() const {
-    return open_dataset(data,
-                        {.masks = masks, .topics = topics, .camera = camera, .motion = motion});
+    return open_dataset(
+        data, {.masks = masks, .topics = topics, .camera = camera, .rate = rate, .motion = motion});
   }
 };
 
@@ -194,6 +195,7 @@ void add_info_command(CLI::App& app) {
   command->add_option("--masks", options->masks, "folder of label images, named as the frames");
   command->add_flag("--json", options->json, "print one JSON object");
   add_calibration_options(*command, options->camera);
+  add_rate_option(*command, options->rate);
   add_topic_options(*command, options->topics);
   add_motion_options(*command, options->motion);
   command->callback([options, sequence] {

@@ -37,6 +37,7 @@ void run_camera(const RunOptions& options, const ConsoleOptions& console,
                 const std::filesystem::path& record) {
   reject_for_camera(!options.masks.empty() || options.segmenter == "masks", "--masks");
   reject_for_camera(!options.topics.empty(), "--topic-*");
+  reject_for_camera(options.rate.has_value(), "--rate");
   reject_for_camera(!options.motion.wheels.empty() || !options.motion.imu.empty(),
                     "--wheels, --imu");
   const InterruptGuard interrupt;
@@ -92,6 +93,7 @@ void add_run_command(CLI::App& app) {
       ->type_name("DIR");
   add_recording_options(*command, *options);
   add_calibration_options(*command, options->camera);
+  add_rate_option(*command, options->rate);
   add_topic_options(*command, options->topics);
   add_motion_options(*command, options->motion);
   const auto console = std::make_shared<ConsoleOptions>();

@@ -55,10 +55,15 @@ class Recording {
 std::unique_ptr<Recording> open_recording(const Path& path, const std::optional<Path>& masks,
                                           const std::optional<Path>& calibration,
                                           std::optional<std::array<double, 4>> intrinsics,
-                                          std::optional<double> depth_scale) {
+                                          std::optional<double> depth_scale,
+                                          std::optional<double> rate) {
   SourceOptions options;
   options.masks = masks.value_or(Path());
   options.camera = {calibration.value_or(Path()), intrinsics, depth_scale};
+  if (rate && !(*rate > 0.0)) {
+    throw py::value_error("rate: is " + std::to_string(*rate) + ", allowed: above 0");
+  }
+  options.rate = rate;
   return std::make_unique<Recording>(path, options);
 }
 
@@ -89,11 +94,12 @@ void bind_recording(py::module_& module) {
       "A recording as an iterator of Frame. Frames that are damaged are left out with a warning.")
       .def(py::init(&open_recording), py::arg("path"), py::kw_only(), py::arg("masks") = py::none(),
            py::arg("calibration") = py::none(), py::arg("intrinsics") = py::none(),
-           py::arg("depth_scale") = py::none(),
+           py::arg("depth_scale") = py::none(), py::arg("rate") = py::none(),
            "path: folder, bag, capture, or simulation such as 'sim:crowd', as of mms run.\n"
            "masks: folder of label images in place of the recording's.\n"
            "calibration: file, intrinsics: fx fy cx cy [px], depth_scale: units per meter; these\n"
-           "replace the recording's. Raises DataError, FileError, ConfigError.")
+           "replace the recording's. rate: frames a second of a recording without time stamps\n"
+           "[Hz]. Raises DataError, FileError, ConfigError.")
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &next_frame, "The next Frame. Raises ValueError after close().")
       .def("__len__", from_source<std::size_t>([](FrameSource& s) { return s.size(); }))

@@ -169,10 +169,11 @@ std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
   recording.facts.emplace_back(seven_scenes
                                    ? "layout: 7-Scenes, folder of color, depth and pose files"
                                    : "layout: color and depth images in one folder");
+  const AssumedRate& rate = seven_scenes ? kDataSetRate : kUnknownRate;
   std::vector<fs::path> poses;
   for (const FrameFiles& files : frames) {
     const auto index = static_cast<std::int64_t>(recording.frames.size());
-    recording.frames.push_back({assumed_stamp(index),
+    recording.frames.push_back({assumed_stamp(index, rate),
                                 Duration::zero(),
                                 folder / files.color,
                                 folder / files.depth,
@@ -180,7 +181,7 @@ std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
                                 files.name});
     poses.push_back(folder / files.pose);
   }
-  recording.facts.emplace_back("stamps: none, 30 Hz assumed");
+  recording.assumed_rate = rate;
   add_pose_files(recording, poses);  // NaN where tracking was lost
   choose_calibration(recording, options.camera,
                      [&] { return calibration_of(recording, seven_scenes); });

@@ -23,6 +23,7 @@ struct LidarRecording {
   std::vector<ScanFiles> scans;
   ScanFormat format;
   std::vector<Timestamp> stamps;
+  std::optional<AssumedRate> assumed_rate;  ///< if the recording has none
   std::shared_ptr<const Calibration> calibration;
   Trajectory ground_truth;
   std::vector<std::string> facts;
@@ -32,6 +33,7 @@ class LidarSource final : public RecordedSource {
  public:
   LidarSource(LidarRecording recording, const fs::path& folder) : recording_(std::move(recording)) {
     set_ground_truth(std::move(recording_.ground_truth));
+    set_assumed_rate(recording_.assumed_rate);
     set_map_truth(folder / "map_truth.ply");
     set_objects_truth(folder / "objects_truth.json");
   }
@@ -111,7 +113,9 @@ std::unique_ptr<FrameSource> open_lidar_scans(const fs::path& folder,
   for (const fs::path& scan : layout.scans) recording.scans.push_back({scan, {}, {}, {}});
   const KittiCalibration calibration = read_calibration_of(folder, options.camera, recording.facts);
   recording.calibration = std::make_shared<const Calibration>(calibration.calibration);
-  recording.stamps = read_scan_stamps(folder, layout, recording.facts);
+  ScanStamps stamps = read_scan_stamps(folder, layout, recording.facts);
+  recording.stamps = std::move(stamps.stamps);
+  recording.assumed_rate = stamps.assumed_rate;
   recording.ground_truth = read_scan_truth(folder, layout, recording.stamps,
                                            calibration.T_camera0_lidar, recording.facts);
   find_companions(recording.scans, folder, *recording.calibration, options, recording.facts);

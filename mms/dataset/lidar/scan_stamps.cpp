@@ -7,7 +7,6 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/assumed_stamp.hpp"
-#include "mms/io/results/trajectory_io.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/text_table.hpp"
 
@@ -107,28 +106,27 @@ std::vector<Timestamp> read_kitti_raw(const fs::path& file, const std::vector<fs
 
 }  // namespace
 
-std::vector<Timestamp> read_scan_stamps(const fs::path& folder, const ScanLayout& layout,
-                                        std::vector<std::string>& facts) {
+ScanStamps read_scan_stamps(const fs::path& folder, const ScanLayout& layout,
+                            std::vector<std::string>& facts) {
   const fs::path times = folder / "times.txt";
   if (fs::exists(times)) {
     facts.emplace_back("stamps: times.txt");
-    return read_times(times, layout.scans.size());
+    return {read_times(times, layout.scans.size()), std::nullopt};
   }
   const fs::path raw = folder / "velodyne_points" / "timestamps.txt";
   if (layout.dataset == ScanDataset::kKittiRaw && fs::exists(raw)) {
     facts.emplace_back("stamps: velodyne_points/timestamps.txt");
-    return read_kitti_raw(raw, layout.scans);
+    return {read_kitti_raw(raw, layout.scans), std::nullopt};
   }
   std::vector<Timestamp> stamps = stamps_in_names(layout.scans);
   if (!stamps.empty()) {
     facts.emplace_back("stamps: names of the scans");
-    return stamps;
+    return {std::move(stamps), std::nullopt};
   }
-  facts.emplace_back("stamps: none, 10 Hz assumed");
   for (std::size_t i = 0; i < layout.scans.size(); ++i) {
-    stamps.push_back(Timestamp() + kKittiPeriod * i);
+    stamps.push_back(assumed_stamp(static_cast<std::int64_t>(i), kScanRate));
   }
-  return stamps;
+  return {std::move(stamps), kScanRate};
 }
 
 }  // namespace mms

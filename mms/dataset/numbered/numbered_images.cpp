@@ -69,16 +69,21 @@ std::optional<std::int64_t> number_of(std::string_view name, const ImageSeries& 
 }
 
 /// Stamp of an image: its number, or at the assumed rate.
-Timestamp stamp_of_image(std::int64_t number, const fs::path& file) {
+Timestamp stamp_of_image(std::int64_t number, const AssumedRate& rate, const fs::path& file) {
   if (const auto stamp = stamp_of_number(number)) return *stamp;
-  if (number <= kMaxImageNumber) return assumed_stamp(number);
+  if (number <= kMaxImageNumber) return assumed_stamp(number, rate);
   throw DataError(file.string(), "has a number that is too large",
                   "expected at most " + std::to_string(kMaxImageNumber) +
                       ", or a stamp in milli-, micro- or nanoseconds since 1970");
 }
 
-std::string text_of(const ImageSeries& series) {
-  return (series.folder.filename() / (series.prefix + "N" + series.endings.front())).string();
+/// As "rgb/frame_N.png", with the ending of the first file.
+std::string text_of(const ImageSeries& series, const std::map<std::int64_t, fs::path>& files) {
+  std::string ending = series.endings.front();
+  for (const std::string& other : series.endings) {
+    if (!files.empty() && files.begin()->second.string().ends_with(other)) ending = other;
+  }
+  return (series.folder.filename() / (series.prefix + "N" + ending)).string();
 }
 
 }  // namespace
@@ -104,14 +109,14 @@ std::map<std::int64_t, fs::path> find_numbered(const ImageSeries& series) {
 }
 
 std::vector<std::int64_t> add_numbered_frames(RgbdRecording& recording, const ImageSeries& color,
-                                              const ImageSeries& depth) {
+                                              const ImageSeries& depth, const AssumedRate& rate) {
   const auto colors = find_numbered(color);
   const auto depths = find_numbered(depth);
   std::vector<std::int64_t> numbers;
   for (const auto& [number, file] : colors) {
     const auto other = depths.find(number);
     if (other == depths.end()) continue;
-    recording.frames.push_back({stamp_of_image(number, file),
+    recording.frames.push_back({stamp_of_image(number, rate, file),
                                 Duration::zero(),
                                 file,
                                 other->second,
@@ -119,16 +124,19 @@ std::vector<std::int64_t> add_numbered_frames(RgbdRecording& recording, const Im
                                 file.stem().string()});
     numbers.push_back(number);
   }
-  const std::string counts = std::to_string(colors.size()) + " color images " + text_of(color) +
-                             " and " + std::to_string(depths.size()) + " depth images " +
-                             text_of(depth);
+  const std::string counts = std::to_string(colors.size()) + " color images " +
+                             text_of(color, colors) + " and " + std::to_string(depths.size()) +
+                             " depth images " + text_of(depth, depths);
   if (numbers.empty()) {
     throw DataError(recording.folder.string(), "has " + counts + ", and no number N with both");
   }
   recording.facts.push_back("images: " + counts + ", " + std::to_string(numbers.size()) +
                             " with both");
-  recording.facts.emplace_back(stamp_of_number(numbers.front()) ? "stamps: names of the images"
-                                                                : "stamps: none, 30 Hz assumed");
+  if (stamp_of_number(numbers.front())) {
+    recording.facts.emplace_back("stamps: names of the images");
+  } else {
+    recording.assumed_rate = rate;
+  }
   return numbers;
 }
 

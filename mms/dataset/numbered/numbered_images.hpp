@@ -30,12 +30,13 @@ ImageSeries find_series(const std::filesystem::path& folder,
 std::map<std::int64_t, std::filesystem::path> find_numbered(const ImageSeries& series);
 
 /// Adds a frame for every number that has both images, and facts. Stamps are the numbers
-/// (`stamp_of_number`), or else `assumed_stamp`.
+/// (`stamp_of_number`), or else at `rate`.
 /// @returns the numbers of the frames
 /// @throws FileError if a folder cannot be read; DataError if no number has both, or one is too
 /// large.
 std::vector<std::int64_t> add_numbered_frames(RgbdRecording& recording, const ImageSeries& color,
-                                              const ImageSeries& depth);
+                                              const ImageSeries& depth,
+                                              const AssumedRate& rate = kDataSetRate);
 
 /// Camera-to-world pose of a line; `where` is for messages.
 using PoseOfLine = std::function<Eigen::Isometry3d(const TextLine& line, const std::string& where)>;

@@ -97,9 +97,11 @@ std::unique_ptr<FrameSource> open_open3d(const fs::path& folder, const SourceOpt
   RgbdRecording recording;
   recording.folder = folder;
   recording.facts.emplace_back("layout: Open3D, numbered color and depth images");
-  const auto numbers =
-      add_numbered_frames(recording, find_series(color_folder(folder), color_endings()),
-                          find_series(folder / "depth", depth_endings()));
+  // Redwood's scans, at 30 Hz, have poses; others may be of any recorder.
+  const bool is_redwood = fs::exists(folder / "trajectory.log");
+  const auto numbers = add_numbered_frames(
+      recording, find_series(color_folder(folder), color_endings()),
+      find_series(folder / "depth", depth_endings()), is_redwood ? kDataSetRate : kUnknownRate);
   choose_calibration(recording, options.camera, [&] { return find_camera(recording); });
   read_trajectory_log(recording, numbers);
   find_masks(recording, options);

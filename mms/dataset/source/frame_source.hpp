@@ -73,6 +73,11 @@ class FrameSource {
   /// earlier ones of the same kind.
   virtual void add_motion(MotionRecording motion) = 0;
 
+  /// Sets the frames a second of a recording without time stamps, before its first frame.
+  /// @param rate  [Hz], > 0
+  /// @returns whether it has none; else nothing is changed
+  virtual bool set_rate(double /*rate*/) { return false; }
+
   /// Facts about the recording, one per line, for `mms info`.
   virtual std::vector<std::string> describe() const = 0;
 

@@ -1,11 +1,14 @@
 #include "mms/dataset/source/recorded_source.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "mms/core/error.hpp"
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/results/objects_io.hpp"
+#include "mms/io/text/numbers.hpp"
 
 namespace mms {
 namespace {
@@ -14,6 +17,11 @@ std::string decimals(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
+}
+
+/// A time since the first frame, as often.
+Timestamp scaled(Timestamp stamp, double factor) {
+  return Timestamp(std::llround(static_cast<double>(stamp.nanoseconds()) * factor));
 }
 
 }  // namespace
@@ -28,7 +36,7 @@ std::optional<Frame> RecordedSource::next() {
 }
 
 std::optional<Frame> RecordedSource::try_read(std::size_t index) {
-  const Timestamp stamp = stamp_at(index);
+  const Timestamp stamp = stamp_of(index);
   const std::string name = name_at(index);
   if (last_stamp_ && stamp <= *last_stamp_) {
     warn("frame " + name + " skipped: its stamp " + stamp.to_string() +
@@ -78,12 +86,37 @@ void RecordedSource::add_motion(MotionRecording motion) {
   for (const std::string& warning : motion.warnings) warn(warning);
 }
 
+bool RecordedSource::set_rate(double rate) {
+  if (!assumed_rate_) return false;
+  for (StampedPose& pose : ground_truth_) pose.stamp = scaled(pose.stamp, assumed_rate_->hz / rate);
+  given_rate_ = rate;
+  return true;
+}
+
+Timestamp RecordedSource::stamp_of(std::size_t index) const {
+  const Timestamp stamp = stamp_at(index);
+  return given_rate_ ? scaled(stamp, assumed_rate_->hz / *given_rate_) : stamp;
+}
+
+std::string RecordedSource::rate_fact() const {
+  return "stamps: none, " + (given_rate_
+                                 ? format_number(*given_rate_) + " Hz as given"
+                                 : std::to_string(assumed_rate_->hz) + " Hz assumed (--rate)");
+}
+
+std::string RecordedSource::rate_fault() const {
+  if (!assumed_rate_ || assumed_rate_->is_known || given_rate_) return "";
+  return "the recording has no time stamps: " + std::to_string(assumed_rate_->hz) +
+         " Hz is assumed; --rate gives the right one, if it is another";
+}
+
 std::vector<std::string> RecordedSource::describe() const {
   std::vector<std::string> lines = facts();
+  if (assumed_rate_) lines.push_back(rate_fact());
   lines.push_back("frames: " + std::to_string(size()));
   if (size() > 0) {
-    const Timestamp first = stamp_at(0);
-    const Timestamp last = stamp_at(size() - 1);
+    const Timestamp first = stamp_of(0);
+    const Timestamp last = stamp_of(size() - 1);
     const double span = to_seconds(last - first);
     lines.push_back("time: " + first.to_string() + " to " + last.to_string() + " s, " +
                     decimals("%.3f s", span));
@@ -106,8 +139,8 @@ std::vector<std::string> RecordedSource::describe() const {
 
 std::string RecordedSource::clock_fault() const {
   if (ground_truth_.empty() || size() == 0) return "";
-  const Timestamp first = stamp_at(0);
-  const Timestamp last = stamp_at(size() - 1);
+  const Timestamp first = stamp_of(0);
+  const Timestamp last = stamp_of(size() - 1);
   const Timestamp truth_first = ground_truth_.front().stamp;
   const Timestamp truth_last = ground_truth_.back().stamp;
   if (truth_first <= last && first <= truth_last) return "";
@@ -119,10 +152,11 @@ std::string RecordedSource::clock_fault() const {
 void RecordedSource::on_warning(WarningHandler handler) {
   handler_ = std::move(handler);
   if (!handler_) return;
-  for (const std::string& message : pending_warnings_) handler_(message);
-  pending_warnings_.clear();
-  const std::string clock = clock_fault();
-  if (!clock.empty()) handler_(clock);
+  for (const std::string& message : std::exchange(pending_warnings_, {})) handler_(message);
+  if (std::exchange(has_told_faults_, true)) return;
+  for (const std::string& fault : {rate_fault(), clock_fault()}) {
+    if (!fault.empty()) handler_(fault);
+  }
 }
 
 void RecordedSource::warn(const std::string& message) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "mms/dataset/source/assumed_stamp.hpp"
 #include "mms/dataset/source/frame_source.hpp"
 
 namespace mms {
@@ -18,6 +19,7 @@ class RecordedSource : public FrameSource {
   std::optional<TruthCloud> map_truth() const final;
   ObjectHistory objects_truth() const final;
   void add_motion(MotionRecording motion) final;
+  bool set_rate(double rate) final;
   std::vector<std::string> describe() const final;
 
   /// The handler also receives earlier warnings.
@@ -41,6 +43,9 @@ class RecordedSource : public FrameSource {
   /// Sets the poses that `ground_truth` returns.
   void set_ground_truth(Trajectory trajectory) { ground_truth_ = std::move(trajectory); }
 
+  /// Tells that the recording has no time stamps, and those of its frames and poses assume a rate.
+  void set_assumed_rate(std::optional<AssumedRate> rate) { assumed_rate_ = rate; }
+
   /// Sets the file of the ground-truth map of all frames, which may be missing. It is read on
   /// request.
   void set_map_truth(std::filesystem::path file) { map_truth_ = std::move(file); }
@@ -48,6 +53,11 @@ class RecordedSource : public FrameSource {
   void set_objects_truth(std::filesystem::path file) { objects_truth_ = std::move(file); }
 
  private:
+  /// Of a frame, at the rate that is given.
+  Timestamp stamp_of(std::size_t index) const;
+  std::string rate_fact() const;
+  /// That the rate is a guess; empty if it is not.
+  std::string rate_fault() const;
   /// That the ground truth is of another time than the recording; empty if it is not.
   std::string clock_fault() const;
   std::optional<Frame> try_read(std::size_t index);
@@ -57,12 +67,15 @@ class RecordedSource : public FrameSource {
   bool passed_over_ = false;  ///< frames were skipped by `skip`
   std::optional<Timestamp> last_stamp_;
   Trajectory ground_truth_;
+  std::optional<AssumedRate> assumed_rate_;  ///< nullopt: stamps are those of the recording
+  std::optional<double> given_rate_;         ///< [Hz] in place of it
   MotionFeed motion_;
   std::vector<std::string> motion_facts_;
   std::filesystem::path map_truth_;
   std::filesystem::path objects_truth_;
   WarningHandler handler_;
   std::vector<std::string> pending_warnings_;
+  bool has_told_faults_ = false;  ///< of the whole recording
 };
 
 }  // namespace mms

@@ -84,6 +84,7 @@ RgbdSource::RgbdSource(RgbdRecording recording)
       calibration_(registered_calibration(recording_.calibration)),
       registration_(make_registration(*recording_.calibration)) {
   set_ground_truth(std::move(recording_.ground_truth));
+  set_assumed_rate(recording_.assumed_rate);
   set_map_truth(recording_.folder / "map_truth.ply");
   set_objects_truth(recording_.folder / "objects_truth.json");
   for (const std::string& warning : recording_.warnings) warn(warning);

@@ -34,11 +34,12 @@ struct RgbdRecording {
   /// Camera of the color images and masks where it is not that of the depth images. It has the
   /// same place and orientation; colors and masks are sampled for the pixels of the depth images.
   std::optional<CameraIntrinsics> color_camera;
-  std::shared_ptr<VideoReader> video;  ///< of the color images; null: each is a file
-  std::uint16_t invalid_depth = 0;     ///< raw value for no return besides 0
-  Trajectory ground_truth;             ///< empty for none
-  std::vector<std::string> facts;      ///< lines for `describe`
-  std::vector<std::string> warnings;   ///< non-fatal faults
+  std::shared_ptr<VideoReader> video;       ///< of the color images; null: each is a file
+  std::uint16_t invalid_depth = 0;          ///< raw value for no return besides 0
+  std::optional<AssumedRate> assumed_rate;  ///< of the stamps; nullopt: they are the recording's
+  Trajectory ground_truth;                  ///< empty for none
+  std::vector<std::string> facts;           ///< lines for `describe`
+  std::vector<std::string> warnings;        ///< non-fatal faults
 };
 
 /// Finds the frames' masks in `options.masks`, or else in the recording's masks/; adds their number

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "mms/dataset/source/bag_topic_names.hpp"
 #include "mms/dataset/source/camera_options.hpp"
@@ -16,6 +17,7 @@ struct SourceOptions {
                                   ///< objects_truth, which grow with its frames
   BagTopicNames topics{};         ///< of a bag
   CameraOptions camera{};         ///< in place of the recording's
+  std::optional<double> rate{};   ///< [Hz] of a recording without time stamps; unset: assumed
   MotionOptions motion{};         ///< of wheels and gyroscope
 };
 

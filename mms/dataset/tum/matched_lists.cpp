@@ -31,9 +31,10 @@ std::vector<Timestamp> stamps_of(const std::vector<ListedImage>& images) {
 void count_frames(RgbdRecording& recording) {
   std::int64_t number = 0;
   for (RgbdFiles& frame : recording.frames) {
-    frame.stamp = assumed_stamp(number++);
+    frame.stamp = assumed_stamp(number++, kUnknownRate);
     frame.depth_offset = Duration::zero();
   }
+  recording.assumed_rate = kUnknownRate;
 }
 
 /// The time from the earliest to the latest frame.
@@ -77,10 +78,10 @@ void sort_by_stamp(RgbdRecording& recording) {
   const double count = static_cast<double>(recording.frames.size());
   if (recording.frames.size() >= kMinFrames &&
       count > kMaxRate * to_seconds(span_of(recording.frames))) {
-    recording.warnings.push_back(
-        "stamps: " + std::to_string(recording.frames.size()) + " images within " +
-        format_number(to_seconds(span_of(recording.frames))) +
-        " s; they are no times, so 30 Hz in the order of the list is assumed");
+    recording.warnings.push_back("stamps: " + std::to_string(recording.frames.size()) +
+                                 " images within " +
+                                 format_number(to_seconds(span_of(recording.frames))) +
+                                 " s; they are no times, so the order of the list counts");
     return count_frames(recording);
   }
   const auto earlier = [](const RgbdFiles& a, const RgbdFiles& b) { return a.stamp < b.stamp; };

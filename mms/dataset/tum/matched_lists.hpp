@@ -17,7 +17,7 @@ void add_matched_frames(RgbdRecording& recording, const std::vector<ListedImage>
 void add_frame(RgbdRecording& recording, const ListedImage& color, const ListedImage& depth);
 
 /// Sorts the frames by stamp, with a fact if they were not in order. Stamps of more than 1000
-/// frames a second are no times: these frames keep their order, at 30 Hz, with a warning.
+/// frames a second are no times: these frames keep their order, with a warning.
 void sort_by_stamp(RgbdRecording& recording);
 
 }  // namespace mms

@@ -99,11 +99,11 @@ std::optional<Calibration> known_calibration(RgbdRecording& recording,
 /// Converts stamps that are image numbers, as those of ICL-NUIM, to stamps at 30 Hz.
 void count_at_30_hz(RgbdRecording& recording) {
   const auto stamp_of = [](Timestamp number) {
-    return Timestamp(number.nanoseconds() / kAssumedRate);
+    return Timestamp(number.nanoseconds() / kDataSetRate.hz);
   };
   for (RgbdFiles& frame : recording.frames) frame.stamp = stamp_of(frame.stamp);
   for (StampedPose& pose : recording.ground_truth) pose.stamp = stamp_of(pose.stamp);
-  recording.facts.emplace_back("stamps: image numbers, 30 Hz assumed");
+  recording.assumed_rate = kDataSetRate;
 }
 
 /// Ground truth of ICL-NUIM, as livingRoom0.gt.freiburg.

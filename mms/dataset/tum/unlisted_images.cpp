@@ -48,7 +48,7 @@ void add_unlisted_frames(RgbdRecording& recording) {
                     "is a TUM-layout sequence, but rgb.txt and depth.txt are missing",
                     "expected these lists, associations.txt, or images named by numbers or stamps");
   }
-  add_numbered_frames(recording, color_series, depth_series);
+  add_numbered_frames(recording, color_series, depth_series, kUnknownRate);
 }
 
 }  // namespace mms

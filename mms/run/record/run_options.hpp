@@ -32,6 +32,7 @@ struct RunOptions {
   std::string weights;             ///< of the network; empty: as the config says
   BagTopicNames topics;            ///< of a bag
   CameraOptions camera;            ///< in place of the recording's
+  std::optional<double> rate;      ///< [Hz] of a recording without time stamps; unset: assumed
   MotionOptions motion;            ///< wheels and gyroscope
   std::string fusion;              ///< empty: as the config says
   std::string loops;               ///< "on", "off"; empty: as the config says

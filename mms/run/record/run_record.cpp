@@ -64,6 +64,12 @@ Json json_of(const CameraOptions& given) {
 }
 
 /// Runs of earlier versions have none.
+std::optional<double> rate_of(const Json& run) {
+  if (!run.contains("rate") || run["rate"].is_null()) return std::nullopt;
+  return run["rate"].get<double>();
+}
+
+/// Runs of earlier versions have none.
 CameraOptions camera_options_of(const Json& run) {
   CameraOptions given;
   if (!run.contains("calibration") || run["calibration"].is_null()) return given;
@@ -123,6 +129,7 @@ RunRecord record_of(const RunOptions& options, const std::optional<CameraIntrins
           options.segmenter,
           options.masks.empty() ? "" : absolute_path(options.masks),
           with_absolute_path(options.camera),
+          options.rate,
           depth_camera,
           voxel_size,
           camera};
@@ -133,6 +140,7 @@ void write_run_record(const fs::path& folder, const RunRecord& record, const Run
                      {"segmenter", record.segmenter},
                      {"masks", record.masks},
                      {"calibration", json_of(record.given)},
+                     {"rate", record.rate ? Json(*record.rate) : Json(nullptr)},
                      {"sensor", record.depth_camera ? "depth camera" : "lidar"},
                      {"voxel_size", record.voxel_size},
                      {"camera", json_of(record.camera)}};
@@ -149,6 +157,7 @@ RunRecord read_run_record(const fs::path& file) {
             json.at("segmenter").get<std::string>(),
             json.at("masks").get<std::string>(),
             camera_options_of(json),
+            rate_of(json),
             json.at("sensor").get<std::string>() == "depth camera",
             json.at("voxel_size").get<double>(),
             camera_of(json.at("camera"))};

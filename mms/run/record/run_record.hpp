@@ -16,12 +16,13 @@ namespace mms {
 
 /// Input of a run, run.json: sufficient to process its recording again.
 struct RunRecord {
-  std::string data;          ///< absolute path of the recording, or address of a simulation
-  std::string segmenter;     ///< "network", "masks" or "none"
-  std::string masks;         ///< folder of label images; empty: the recording's own
-  CameraOptions given;       ///< calibration in place of the recording's
-  bool depth_camera = true;  ///< false: LiDAR
-  double voxel_size = 0.0;   ///< of the final map [m]
+  std::string data;            ///< absolute path of the recording, or address of a simulation
+  std::string segmenter;       ///< "network", "masks" or "none"
+  std::string masks;           ///< folder of label images; empty: the recording's own
+  CameraOptions given;         ///< calibration in place of the recording's
+  std::optional<double> rate;  ///< [Hz], given for a recording without time stamps
+  bool depth_camera = true;    ///< false: LiDAR
+  double voxel_size = 0.0;     ///< of the final map [m]
   std::optional<CameraIntrinsics> camera;
 };
 

@@ -19,7 +19,8 @@ std::unique_ptr<FrameSource> SensorViews::open() const {
   return open_dataset(record_.data, {.masks = record_.masks,
                                      .load_masks = record_.segmenter == "masks",
                                      .map_truth = false,
-                                     .camera = record_.given});
+                                     .camera = record_.given,
+                                     .rate = record_.rate});
 }
 
 /// The frame with that index and stamp. Recordings are read forward only.
