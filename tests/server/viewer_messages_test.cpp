@@ -70,11 +70,11 @@ TEST(Message, SeriesHasRowPerFrame) {
 }
 
 TEST(Message, TracksHaveRowPerObjectAndFrame) {
-  const DecodedMessage message = decode_message(*tracks_message(*finished_scene(3), 2));
+  const DecodedMessage message = decode_message(*tracks_message(*finished_scene(5), 2, 4));
   EXPECT_EQ(message.json["ids"], nlohmann::json{7});
   EXPECT_EQ(message.json["classes"], nlohmann::json{1});
   EXPECT_EQ(message.values<std::uint32_t>("track"), (std::vector<std::uint32_t>{0, 0}));
-  EXPECT_EQ(message.values<std::uint32_t>("frame"), (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(message.values<std::uint32_t>("frame"), (std::vector<std::uint32_t>{2, 3}));
   EXPECT_EQ(message.values<float>("center")[5], 3.0F);
 }
 

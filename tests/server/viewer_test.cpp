@@ -302,6 +302,31 @@ TEST(Viewer, ShowsCorrectedResultsAndLoopsAtEndOfLiveRun) {
   EXPECT_EQ(loops.values<std::uint8_t>("outcome"), (std::vector<std::uint8_t>{0, 1}));
 }
 
+TEST(Viewer, SendsTheHistoryOfALongRunInParts) {
+  constexpr std::size_t kFrames = 10'000;
+  const auto scene = live_scene();
+  for (std::size_t i = 0; i < kFrames; ++i) scene->add(frame_at(i), nullptr, nullptr);
+  TestViewer viewer(scene);
+  viewer.advance(33ms);
+  const auto messages = viewer.drain();
+  const auto rows_of = [&](const std::string& type, const std::string& buffer, std::size_t width) {
+    std::size_t rows = 0;
+    for (const DecodedMessage& message : messages) {
+      if (message.json["type"] != type) continue;
+      if (type != "tracks") {
+        EXPECT_EQ(message.json["first_frame"], rows);
+      }
+      const std::size_t part = message.values<float>(buffer).size() / width;
+      EXPECT_LE(part, 4096U);
+      rows += part;
+    }
+    return rows;
+  };
+  EXPECT_EQ(rows_of("trajectory", "pose", 7), kFrames);
+  EXPECT_EQ(rows_of("series", "values", 2), kFrames);
+  EXPECT_EQ(rows_of("tracks", "center", 3), kFrames) << "an object in each frame";
+}
+
 TEST(Viewer, SendsNoChunksWhenMapIsDisabled) {
   TestViewer viewer(finished_scene(3));
   viewer.receive(R"({"type":"want","map":false})");

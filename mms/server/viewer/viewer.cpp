@@ -12,8 +12,10 @@ namespace {
 constexpr std::chrono::milliseconds kLivePeriod{66};   ///< between frames of a live run
 constexpr std::chrono::milliseconds kPlanPeriod{500};  ///< between plans of the map
 constexpr std::size_t kDefaultBudget = 5'000'000;      ///< points of the map
-constexpr std::size_t kMaxErrors = 8;                  ///< pending messages
-constexpr float kFocusMoved = 2.0F;                    ///< [m]
+/// Frames in a message of history, so that its size does not grow with a run.
+constexpr std::size_t kHistoryPart = 4096;
+constexpr std::size_t kMaxErrors = 8;  ///< pending messages
+constexpr float kFocusMoved = 2.0F;    ///< [m]
 
 }  // namespace
 
@@ -70,7 +72,7 @@ void Viewer::notice_end() {
   stamps_ = scene_.stamps();
   state_due_ = true;
   files_due_ = !hello_due_;
-  tracks_due_ = true;
+  tracks_sent_ = 0;
   loops_due_ = !scene_.loops().empty();
 }
 
@@ -116,18 +118,22 @@ std::optional<Viewer::Encode> Viewer::next_short() {
 /// Unsent rows before the current frame; all of them at first and at the end.
 std::optional<Viewer::Encode> Viewer::next_history() {
   Scene& scene = scene_;
-  const bool all = ended_ || poses_sent_ == 0 || values_sent_ == 0;
-  const std::size_t last = all ? scene.size() : playhead_.frame();
+  if (ended_ || poses_sent_ == 0) history_ = scene.size();
+  const std::size_t last = std::max(history_, playhead_.frame());
+  const auto next_part = [](std::size_t& sent, std::size_t end) {
+    return std::exchange(sent, std::min(end, sent + kHistoryPart));
+  };
   if (poses_sent_ < last) {
-    const std::size_t first = std::exchange(poses_sent_, last);
-    return [&scene, first, last] { return trajectory_message(scene, first, last); };
+    const std::size_t first = next_part(poses_sent_, last);
+    return [&scene, first, end = poses_sent_] { return trajectory_message(scene, first, end); };
   }
   if (values_sent_ < last) {
-    const std::size_t first = std::exchange(values_sent_, last);
-    return [&scene, first, last] { return series_message(scene, first, last); };
+    const std::size_t first = next_part(values_sent_, last);
+    return [&scene, first, end = values_sent_] { return series_message(scene, first, end); };
   }
-  if (std::exchange(tracks_due_, false)) {
-    return [&scene, last] { return tracks_message(scene, last); };
+  if (tracks_sent_ < history_) {
+    const std::size_t first = next_part(tracks_sent_, history_);
+    return [&scene, first, end = tracks_sent_] { return tracks_message(scene, first, end); };
   }
   if (std::exchange(loops_due_, false)) {
     return [&scene] { return loops_message(scene.loops()); };

@@ -84,9 +84,10 @@ class Viewer {
   PictureParts parts_;
   bool wants_map_ = true;
 
+  std::size_t history_ = 0;      // frames of which all is sent at first, and at the end
   std::size_t poses_sent_ = 0;   // rows of the trajectory
   std::size_t values_sent_ = 0;  // rows of the series
-  bool tracks_due_ = true;
+  std::size_t tracks_sent_ = 0;  // frames of which the objects were sent
   bool loops_due_ = false;
   std::uint64_t edition_sent_ = 0;
   Sent sent_;

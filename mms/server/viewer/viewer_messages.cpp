@@ -154,15 +154,15 @@ Message series_message(const Scene& scene, std::size_t first, std::size_t last) 
   return writer.finish();
 }
 
-Message tracks_message(const Scene& scene, std::size_t last) {
+Message tracks_message(const Scene& scene, std::size_t first, std::size_t last) {
   std::map<int, std::uint32_t> places;
   Json ids = Json::array();
   Json classes = Json::array();
   std::vector<std::uint32_t> tracks;
   std::vector<std::uint32_t> numbers;
   std::vector<float> centers;
-  std::uint32_t number = 0;
-  scene.for_each_frame(0, last, [&](const SceneFrame& frame) {
+  auto number = static_cast<std::uint32_t>(first);
+  scene.for_each_frame(first, last, [&](const SceneFrame& frame) {
     for (const ObjectBox& object : frame.objects) {
       const auto [place, added] =
           places.try_emplace(object.id, static_cast<std::uint32_t>(places.size()));

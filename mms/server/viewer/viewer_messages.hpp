@@ -25,8 +25,8 @@ Message hello_message(const SceneInfo& info, const std::vector<std::string>& fil
 Message trajectory_message(const Scene& scene, std::size_t first, std::size_t last);
 Message series_message(const Scene& scene, std::size_t first, std::size_t last);
 
-/// Trajectories of the objects in the frames up to `last`, for drawing.
-Message tracks_message(const Scene& scene, std::size_t last);
+/// Objects in the frames in [first, last), for drawing their trajectories.
+Message tracks_message(const Scene& scene, std::size_t first, std::size_t last);
 
 /// Loops between frames.
 Message loops_message(const std::vector<SceneLoop>& loops);
