@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # A long run in real time with viewers that come, go and send garbage: memory, open files, threads and
 # time per frame of each tenth.
-# usage: benchmarks/soak.sh [FRAMES=100000] [SCENE=crowd] [FLAGS FOR mms run]
-#   SCENE  as "still_walker?width=160"
+# usage: benchmarks/soak.sh [FRAMES=100000] [SCENE=crowd?hz=30] [FLAGS FOR mms run]
+#   SCENE  as "still_walker?width=320&hz=30"
 # The acceptance is that memory grows by less than 1 % over the last half, and that open files and
 # threads are the same at its begin and end.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/rows.sh"
 frames="${1:-100000}"
-scene="${2:-crowd}"
+scene="${2:-crowd?hz=30}"
 shift $(($# > 2 ? 2 : $#))
 port=8473
 crowd="$(dirname "$mms")/tests/viewer_crowd"
