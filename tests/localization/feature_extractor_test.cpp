@@ -97,6 +97,13 @@ TEST(OrganisedFeatures, AreDistributedOverImage) {
   EXPECT_GT(*std::min_element(tiles.begin(), tiles.end()), 10);
 }
 
+/// With two planes in each of the 300 sectors of 8 px there were 600.
+TEST(OrganisedFeatures, ComeFromSmallerSectorsInSmallImages) {
+  const LabeledCloud cloud = testing::organised_cloud(BoxRoom{}, kOrigin);
+  ASSERT_EQ(cloud.width * cloud.height, 160 * 120);
+  EXPECT_GT(extract(cloud).planes.size(), 1000U);
+}
+
 TEST(OrganisedFeatures, ExcludeOcclusionBorders) {
   const auto board_and_wall = cloud_with_depth([](int x, int y, const Eigen::Vector3d&) {
     return x >= 50 && x < 110 && y >= 40 && y < 90 ? 2.0 : 4.0;

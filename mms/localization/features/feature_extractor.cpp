@@ -7,7 +7,9 @@
 namespace mms {
 
 void FeatureConfig::visit(ConfigVisitor& v) {
-  v.integer({"sector_px", "px", "side of the sectors of the cloud's grid features are spread over"},
+  v.integer({"sector_px", "px",
+             "side of the sectors of the cloud's grid features are spread over; half of it in "
+             "small images"},
             sector_px, {4, 64});
   v.integer({"planes_per_sector", "", "planar features taken from a sector"}, planes_per_sector,
             {0, 16});
