@@ -65,6 +65,22 @@ def test_damaged_frames_are_warnings(mms, tmp_path):
     assert len(frames) == 5 and recording.skipped == 1
 
 
+def test_rate_is_of_recordings_without_time_stamps(mms, tmp_path):
+    mms("convert", "sim:static?frames=3&width=160", "-o", tmp_path / "sim")
+    with pytest.raises(mms_slam.DataError, match="has time stamps of its own"):
+        mms_slam.Recording(tmp_path / "sim", rate=20)
+    with pytest.raises(ValueError, match="rate: is 0.0"):
+        mms_slam.Recording(tmp_path / "sim", rate=0)
+    for name in ("rgb", "depth"):
+        images = sorted((tmp_path / "sim" / name).iterdir())
+        for number, image in enumerate(images):
+            image.rename(image.with_name(f"{name}_{number}{image.suffix}"))
+        (tmp_path / "sim" / f"{name}.txt").unlink()
+    (tmp_path / "sim" / "groundtruth.txt").unlink()
+    stamps = [frame.stamp for frame in mms_slam.Recording(tmp_path / "sim", rate=20)]
+    assert stamps == [0, 50_000_000, 100_000_000]
+
+
 def test_other_threads_run_meanwhile(slam, frames):
     """A thread that counts gets on while frames are processed: a held GIL would stop it."""
     longest, stop = [], threading.Event()
