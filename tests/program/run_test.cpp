@@ -405,7 +405,8 @@ TEST(Run, UsesAndRecordsGivenCalibration) {
   expect_success(run_recording(folder, {"--segmenter", "none", "--calibration", "mine.yaml"}));
   EXPECT_EQ(json_file(folder.path() / "out/run.json")["calibration"]["file"],
             (fs::canonical(folder.path()) / "mine.yaml").string());
-  expect_error(run_recording(folder, {"--rate", "10"}), "data: has time stamps of its own");
+  expect_error(run_recording(folder, {"--calibration", "mine.yaml", "--rate", "10"}),
+               "data: has time stamps of its own");
   expect_usage_error(run_recording(folder, {"--rate", "nan"}),
                      "--rate: nan is not a number from 0.01 to 1000");
   expect_usage_error(run_recording(folder, {"--intrinsics", "200,0,80,60"}),
