@@ -76,7 +76,7 @@ class FrameSource {
   /// Sets the frames a second of a recording without time stamps, before its first frame.
   /// @param rate  [Hz], > 0
   /// @returns whether it has none; else nothing is changed
-  virtual bool set_rate(double /*rate*/) { return false; }
+  virtual bool set_rate([[maybe_unused]] double rate) { return false; }
 
   /// Facts about the recording, one per line, for `mms info`.
   virtual std::vector<std::string> describe() const = 0;
