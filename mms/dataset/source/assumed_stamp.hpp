@@ -8,7 +8,7 @@ namespace mms {
 
 /// Frames a second of a recording without stamps.
 struct AssumedRate {
-  int hz;
+  int hz;         ///< [Hz]
   bool is_known;  ///< of the data set or kind of sensor; else it is a guess
 };
 

@@ -17,8 +17,9 @@ namespace mms {
 
 /// Appends the fields of a record to bytes.
 struct FieldWriter {
-  std::string bytes{};
+  std::string bytes{};  ///< of all fields so far
 
+  /// Appends a field.
   template <class Value>
   void operator()(Value& value) {
     append_bytes(bytes, value);
@@ -27,8 +28,9 @@ struct FieldWriter {
 
 /// Takes them again, in the same order.
 struct FieldReader {
-  ByteReader bytes;
+  ByteReader bytes;  ///< of the fields that are left
 
+  /// Sets a field.
   template <class Value>
   void operator()(Value& value) {
     value = bytes.take<Value>();
@@ -84,6 +86,7 @@ class DiskLog {
   /// @param folder  for a temporary file; empty: all stays in memory
   explicit DiskLog(const std::filesystem::path& folder = {}) : bytes_(folder) {}
 
+  /// Appends a record.
   void add(Record record) {
     FieldWriter writer;
     visit_fields(writer, record);
