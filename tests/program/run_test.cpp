@@ -408,7 +408,7 @@ TEST(Run, UsesAndRecordsGivenCalibration) {
   expect_error(run_recording(folder, {"--calibration", "mine.yaml", "--rate", "10"}),
                "data: has time stamps of its own");
   expect_usage_error(run_recording(folder, {"--rate", "nan"}),
-                     "--rate: nan is not a number from 0.01 to 1000");
+                     "--rate: nan is not a number from 0.2 to 1000");
   expect_usage_error(run_recording(folder, {"--intrinsics", "200,0,80,60"}),
                      "--intrinsics: 200,0,80,60 is not fx,fy,cx,cy in pixels");
   for (const char* scale : {"nan", "0", "-1", "x"}) {

@@ -41,13 +41,13 @@ double parse_depth_scale(const std::string& text) {
   throw CLI::ValidationError("--depth-scale", text + " is not a number from 0.001 to 1e6");
 }
 
-/// [Hz]
-constexpr Range kRateRange{0.01, 1000.0};
+/// [Hz]; the stamps of a year of images fit in 64 bits
+constexpr Range kRateRange{0.2, 1000.0};
 
 double parse_rate(const std::string& text) {
   const auto rate = parse_double(text);
   if (rate && is_in(*rate, kRateRange)) return *rate;
-  throw CLI::ValidationError("--rate", text + " is not a number from 0.01 to 1000");
+  throw CLI::ValidationError("--rate", text + " is not a number from 0.2 to 1000");
 }
 
 }  // namespace

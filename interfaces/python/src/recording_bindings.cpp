@@ -60,8 +60,8 @@ std::unique_ptr<Recording> open_recording(const Path& path, const std::optional<
   SourceOptions options;
   options.masks = masks.value_or(Path());
   options.camera = {calibration.value_or(Path()), intrinsics, depth_scale};
-  if (rate && !(*rate > 0.0)) {
-    throw py::value_error("rate: is " + std::to_string(*rate) + ", allowed: above 0");
+  if (rate && !(*rate >= 0.2 && *rate <= 1000.0)) {  // as --rate
+    throw py::value_error("rate: is " + std::to_string(*rate) + ", allowed: 0.2 to 1000");
   }
   options.rate = rate;
   return std::make_unique<Recording>(path, options);
