@@ -34,9 +34,9 @@ constexpr int kMinPlanePoints = 30;
 /// has 16 for three features.
 constexpr int kCandidateStep = 2;
 
-/// [-]: sectors of an image, for which the sectors of small ones are halved. Source: an image of
-/// 224x168 has 588 sectors of 8 px and works; one of 160x120 has 300, too few for a first frame.
-constexpr std::size_t kMinSectors = 500;
+/// [px]: pixels of an image below which its sectors have half the side. Source: 224x168 works with
+/// sectors of 8 px; the 300 sectors of 160x120 are too few for a first frame.
+constexpr int kSmallImage = 32'000;
 
 /// [-]: depth over lateral offset of the steepest surface, 63 degrees from frontal.
 /// Source: initial choice, not tuned since.
@@ -196,13 +196,10 @@ struct Sectors {
 };
 
 Sectors sectors_of(const LabeledCloud& cloud, const FeatureConfig& config) {
-  const auto with_side = [&](int side) {
-    return Sectors{side, static_cast<std::size_t>((cloud.width + side - 1) / side),
-                   static_cast<std::size_t>((cloud.height + side - 1) / side)};
-  };
-  const Sectors sectors = with_side(config.sector_px);
-  const int half = std::max(kCandidateStep, config.sector_px / 2);
-  return sectors.count() < kMinSectors ? with_side(half) : sectors;
+  const bool is_small = cloud.width * cloud.height < kSmallImage;
+  const int side = is_small ? config.sector_px / 2 : config.sector_px;
+  return {side, static_cast<std::size_t>((cloud.width + side - 1) / side),
+          static_cast<std::size_t>((cloud.height + side - 1) / side)};
 }
 
 }  // namespace
