@@ -28,7 +28,7 @@ from PIL import Image
 
 PERSON, AGV = 1, 2
 CATEGORIES = [{"id": PERSON, "name": "person"}, {"id": AGV, "name": "agv"}]
-LONGEST_SIDE = 448
+LONGEST_SIDE = 640
 QUALITY = 90
 SAME_DISTANCE = 10  # of perceptual hashes to a hold-out: dropped
 NEAR_DISTANCE = 12  # listed in near_pairs.csv
@@ -39,6 +39,7 @@ CROWD_PART = 0.35  # largest area of such a person relative to the box
 PICTURES = (".jpg", ".jpeg", ".png")
 COCO_LABELS = "insigh1+Interactive_ABCs_with_American_Sign_Language_using_Yolov5"
 COCO_LABELS_COMMIT = "a10d74895"
+COCO_SPLITS = "kelvinxu+arctic-captions"  # names of all images of COCO 2014
 VOC_LABELS = "shihanghoney97+YOLO-SK"
 
 
@@ -513,6 +514,14 @@ TRAINING = [
         ),
         coco=True, keep_empty=True,
     ),
+    *(
+        Source(
+            "coco_street", "mchoccie+DeepDataMiningLearning",
+            person_json(f"data/annotations/instances_{part}2017.json", "data/images/"),
+            coco=True, keep_empty=True,
+        )
+        for part in ("train", "val")  # both of train2017
+    ),
     Source(
         "vqa", "ManaviAgrawal+VQA",
         lambda repo, report, labels: yolo_txt(
@@ -591,6 +600,15 @@ TRAINING = [
             person_json(
                 f"Dataset for Detection/{part}/_annotations.coco.json",
                 f"Dataset for Detection/{part}/", EVERYBODY,
+            ),
+        )
+        for part in ("train", "valid", "test")
+    ),
+    *(
+        Source(
+            "cafe", "katiehur5+cafe-people-detection",
+            person_json(
+                f"data/annotations/{part}.json", f"data/images/{part}/", {"people": PERSON}
             ),
         )
         for part in ("train", "valid", "test")
@@ -717,6 +735,19 @@ def coco_id(name):
     return int(found.group(1)) if found else None
 
 
+def val2014_ids(repo):
+    """Ids of COCO val2014, most of which are in train2017, too."""
+    names = []
+    for part in ("restval", "val", "test"):
+        file = f"splits/coco_{part}.txt"
+        data = repo.read(file)
+        if data is None:
+            raise FileNotFoundError(f"{repo.folder.name}: no file {file}")
+        names += data.decode().split()
+    repo.close()
+    return {coco_id(name) for name in names if name.startswith("COCO_val2014_")}
+
+
 def name_hash(name):
     return hashlib.sha1(name.encode()).hexdigest()[:12]
 
@@ -825,7 +856,7 @@ class Collection:
         self.repositories, self.output, self.left_out = repositories, output, left_out
         self.holdout = KnownImages()
         self.taken, self.taken_ids = KnownImages(), set()
-        self.holdout_ids, self.val_ids = set(), set()
+        self.holdout_ids = set()
         self.near, self.reports, self.refused = [], [], []
         for part in ("train", "empty", "empty_holdout", "holdout"):
             (output / part / "images").mkdir(parents=True, exist_ok=True)
@@ -833,6 +864,7 @@ class Collection:
                 old.unlink()
         self.labels = Repository(repositories / COCO_LABELS, COCO_LABELS_COMMIT)
         self.val_ids = {coco_id(n) for n in self.labels.below("coco/labels/val2017/", (".txt",))}
+        self.val2014_ids = val2014_ids(Repository(repositories / COCO_SPLITS))
 
     def pictures(self, source, report):
         """Readable pictures of a source: picture, bytes, image."""
@@ -861,7 +893,7 @@ class Collection:
                 return why
         if number is None:
             return ""
-        if number in self.val_ids or "COCO_val2014_" in name:
+        if number in self.val_ids or number in self.val2014_ids:
             return "COCO val"
         if number in self.holdout_ids:
             return "id of hold-out"

@@ -67,6 +67,10 @@ class Sources(unittest.TestCase):
             "NguyenManhDung27+BAV_classroom_monitoring_CV":
                 [f"Dataset for Detection/{part}/_annotations.coco.json"
                  for part in ("train", "valid", "test")],
+            "katiehur5+cafe-people-detection":
+                [f"data/annotations/{part}.json" for part in ("train", "valid", "test")],
+            "mchoccie+DeepDataMiningLearning":
+                [f"data/annotations/instances_{part}2017.json" for part in ("train", "val")],
             "developer0hye+COCO128": ["annotations/instances_train2017.json"],
             "lizhogn+tiny_coco_dataset": ["tiny_coco/annotations/instances_train2017.json"],
         }.items():
@@ -74,6 +78,9 @@ class Sources(unittest.TestCase):
                 write(self.root / name / file, nothing)
         self.labels = self.root / collect.COCO_LABELS
         write(self.labels / "coco/labels/val2017/000000000139.txt", "0 0.5 0.5 0.2 0.2\n")
+        for part in ("restval", "val", "test"):
+            names = f"COCO_{part}2014_000000000041.jpg\nCOCO_val2014_000000000042.jpg\n"
+            write(self.root / collect.COCO_SPLITS / f"splits/coco_{part}.txt", names)
         boxes = "0 0.5 0.5 0.25 0.5\n16 0 0 1 1"
         write(self.labels / "coco/labels/train2017/000000000036.txt", boxes)
         patch = unittest.mock.patch.object(collect, "COCO_LABELS_COMMIT", "HEAD")
@@ -156,10 +163,10 @@ class Formats(Sources):
         self.forklift(1, "0 0.5 0.5 0.25 0.5\n", noise(1, 896, 448))
         self.collect()
         image, = self.result()["images"]
-        self.assertEqual((image["width"], image["height"]), (448, 224))
+        self.assertEqual((image["width"], image["height"]), (640, 320))
         with Image.open(self.output / "train/images" / image["file_name"]) as picture:
-            self.assertEqual(picture.size, (448, 224))
-        self.assertEqual(self.result()["annotations"][0]["bbox"], [168, 56, 112, 112])
+            self.assertEqual(picture.size, (640, 320))
+        self.assertEqual(self.result()["annotations"][0]["bbox"], [240, 80, 160, 160])
 
     def test_coco_polygons_crowds_and_other_classes(self):
         crowd = {"size": [60, 80], "counts": [0, 120, 4680]}
@@ -247,6 +254,7 @@ class NeverTrainedOn(Sources):
 
     def test_drops_val_ids_holdout_ids_and_copies(self):
         self.human("000000000139_jpg.rf.1", noise(1))
+        self.human("000000000042_jpg.rf.1", noise(5))
         self.human("000000000009_jpg.rf.1", noise(2))
         self.human("000000000040_jpg.rf.1", noise(3))
         self.human("000000000040_jpg.rf.2", noise(4))
@@ -258,7 +266,7 @@ class NeverTrainedOn(Sources):
         line = self.count_line(self.collect(), "human")
         self.assertEqual(
             line,
-            "human: 1; 1, 0; 0; 0, 0; 1 COCO val, 1 altered copy of Penn-Fudan, 1 collage, "
+            "human: 1; 1, 0; 0; 0, 0; 2 COCO val, 1 altered copy of Penn-Fudan, 1 collage, "
             "2 drone, 1 id of hold-out, 1 id taken already, 1 looks like another, "
             "2 looks like hold-out",
         )
