@@ -30,12 +30,12 @@ constexpr const char* kAnnotations = R"({
 TEST(ListImages, SelectsImagesWithClass) {
   const TempFolder folder;
   TrainingData set;
-  CocoFaults faults;
+  AnnotationFiles files;
   set.annotations = folder.write("all.json", kAnnotations).string();
   const std::vector<std::string> classes = {"person", "agv"};
-  EXPECT_EQ(list_images(set, classes, faults).size(), 3U);
+  EXPECT_EQ(list_images(set, classes, files).size(), 3U);
   set.containing = "agv";
-  const std::vector<DataImage> images = list_images(set, classes, faults);
+  const std::vector<DataImage> images = list_images(set, classes, files);
   ASSERT_EQ(images.size(), 1U);
   EXPECT_EQ(images[0].id, 2);
   EXPECT_EQ(images[0].objects.at(0).category, 1);
@@ -44,7 +44,7 @@ TEST(ListImages, SelectsImagesWithClass) {
 TEST(ListImages, ReadsBoxesAndIncompleteClasses) {
   const TempFolder folder;
   TrainingData set;
-  CocoFaults faults;
+  AnnotationFiles files;
   set.annotations = folder
                         .write("all.json", R"({
     "categories": [{"id": 1, "name": "person"}, {"id": 7, "name": "agv"}],
@@ -54,7 +54,7 @@ TEST(ListImages, ReadsBoxesAndIncompleteClasses) {
       {"id": 1, "image_id": 1, "category_id": 7, "iscrowd": 0, "area": 6, "bbox": [1, 2, 3, 2],
        "segmentation": [], "box_only": true}]})")
                         .string();
-  const std::vector<DataImage> images = list_images(set, {"person", "agv"}, faults);
+  const std::vector<DataImage> images = list_images(set, {"person", "agv"}, files);
   ASSERT_EQ(images.size(), 2U);
   EXPECT_EQ(images[0].partial, std::vector<int>{0});
   EXPECT_TRUE(images[1].partial.empty());
@@ -90,27 +90,40 @@ constexpr const char* kWithFaults = R"({
 TEST(ListImages, LeavesOutFaultyEntries) {
   const TempFolder folder;
   TrainingData set;
-  CocoFaults faults;
+  AnnotationFiles files;
   set.annotations = folder.write("all.json", kWithFaults).string();
-  const std::vector<DataImage> images = list_images(set, {"person", "agv"}, faults);
+  const std::vector<DataImage> images = list_images(set, {"person", "agv"}, files);
   ASSERT_EQ(images.size(), 2U);
   EXPECT_EQ(images[0].objects.size(), 1U);
   EXPECT_EQ(images[1].objects.size(), 2U);  // a box may exceed the image by a pixel
   // What lost its annotation is not trained as background.
   EXPECT_EQ(images[0].partial, (std::vector<int>{0, 1}));
   EXPECT_EQ(images[1].partial, (std::vector<int>{0, 1}));
-  ASSERT_EQ(faults.images.size(), 1U);
-  expect_in("all.json: images[2].width: is 0", faults.images[0]);
-  ASSERT_EQ(faults.annotations.size(), 2U);  // that of the image is not another one
+  ASSERT_EQ(files.faults().images.size(), 1U);
+  expect_in("all.json: images[2].width: is 0", files.faults().images[0]);
+  ASSERT_EQ(files.faults().annotations.size(), 2U);  // that of the image is not another one
   expect_in("annotations[1].bbox: is [5, 2, 6, 2], outside of its image a.jpg of 8 x 6 px",
-            faults.annotations[0]);
-  expect_in("annotations[2]: has no area", faults.annotations[1]);
+            files.faults().annotations[0]);
+  expect_in("annotations[2]: has no area", files.faults().annotations[1]);
+}
+
+TEST(ListImages, ReadsTheFileOfSeveralSetsOnce) {
+  const TempFolder folder;
+  TrainingData set;
+  AnnotationFiles files;
+  set.annotations = folder.write("all.json", kWithFaults).string();
+  const std::size_t images = list_images(set, {"person", "agv"}, files).size();
+  fs::remove(set.annotations);
+  set.containing = "agv";
+  EXPECT_LE(list_images(set, {"person", "agv"}, files).size(), images);
+  EXPECT_EQ(files.faults().images.size(), 1U);
+  EXPECT_EQ(files.faults().annotations.size(), 2U);
 }
 
 TEST(ListImages, RefusesMostlyFaultySet) {
   const TempFolder folder;
   TrainingData set;
-  CocoFaults faults;
+  AnnotationFiles files;
   set.annotations = folder
                         .write("bad.json", R"({
     "categories": [{"id": 1, "name": "person"}],
@@ -125,7 +138,7 @@ TEST(ListImages, RefusesMostlyFaultySet) {
                         .string();
   expect_in("bad.json: 2 of 3 annotations cannot be used, allowed: at most half; first: ",
             message_of<DataError>([&] {
-              list_images(set, {"person", "agv"}, faults);
+              list_images(set, {"person", "agv"}, files);
             }));
 }
 
@@ -160,15 +173,15 @@ TEST(SampleStore, LeavesOutUnreadableImages) {
 TEST(ListImages, ErrorsNameUnknownOrAbsentClass) {
   const TempFolder folder;
   TrainingData set;
-  CocoFaults faults;
+  AnnotationFiles files;
   set.annotations = folder.write("all.json", kAnnotations).string();
   set.containing = "box";
   expect_in("'box' is none of the network's classes", message_of<ConfigError>([&] {
-              list_images(set, {"person", "agv"}, faults);
+              list_images(set, {"person", "agv"}, files);
             }));
   set.containing = "car";
   expect_in("has no images with the class 'car'", message_of<DataError>([&] {
-              list_images(set, {"person", "car"}, faults);
+              list_images(set, {"person", "car"}, files);
             }));
 }
 

@@ -70,6 +70,12 @@ CocoDataset read_coco(const std::filesystem::path& path);
 struct CocoFaults {
   std::vector<std::string> images{};       ///< what is wrong with an image
   std::vector<std::string> annotations{};  ///< what is wrong with an annotation
+
+  /// Adds the faults of another file.
+  void append(const CocoFaults& more) {
+    images.insert(images.end(), more.images.begin(), more.images.end());
+    annotations.insert(annotations.end(), more.annotations.begin(), more.annotations.end());
+  }
 };
 
 /// As `read_coco`, but leaves out images and annotations with faults, and boxes that reach outside

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "mms/core/error.hpp"
 #include "mms/io/image/picture_files.hpp"
@@ -30,24 +31,10 @@ std::map<int, int> category_indices(const CocoDataset& dataset,
   return indices;
 }
 
-CocoDataset usable_dataset(const std::string& path, CocoFaults& faults) {
-  CocoFaults found;
-  CocoDataset dataset = read_coco(path, found);
-  const auto append = [](std::vector<std::string>& all, const std::vector<std::string>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-  };
-  append(faults.images, found.images);
-  append(faults.annotations, found.annotations);
-  check_share(path, found.images, found.images.size() + dataset.images.size(), "images");
-  check_share(path, found.annotations, found.annotations.size() + dataset.annotations.size(),
-              "annotations");
-  return dataset;
-}
-
 std::vector<DataImage> annotated_images(const TrainingData& set,
                                         const std::vector<std::string>& classes,
-                                        CocoFaults& faults) {
-  const CocoDataset dataset = usable_dataset(set.annotations, faults);
+                                        AnnotationFiles& files) {
+  const CocoDataset& dataset = files.read(set.annotations);
   const fs::path folder =
       set.images.empty() ? fs::path(set.annotations).parent_path() : fs::path(set.images);
   std::vector<DataImage> images;
@@ -93,6 +80,18 @@ void keep_containing(const std::string& name, const std::vector<std::string>& cl
 
 }  // namespace
 
+const CocoDataset& AnnotationFiles::read(const std::string& path) {
+  const auto known = datasets_.find(path);
+  if (known != datasets_.end()) return known->second;
+  CocoFaults found;
+  CocoDataset dataset = read_coco(path, found);
+  faults_.append(found);
+  check_share(path, found.images, found.images.size() + dataset.images.size(), "images");
+  check_share(path, found.annotations, found.annotations.size() + dataset.annotations.size(),
+              "annotations");
+  return datasets_.emplace(path, std::move(dataset)).first->second;
+}
+
 const std::string& name_of(const TrainingData& set) {
   return set.annotations.empty() ? set.images : set.annotations;
 }
@@ -107,13 +106,13 @@ void check_share(const std::string& name, std::span<const std::string> bad, std:
 }
 
 std::vector<DataImage> list_images(const TrainingData& set, const std::vector<std::string>& classes,
-                                   CocoFaults& faults) {
+                                   AnnotationFiles& files) {
   if (set.annotations.empty() && set.images.empty()) {
     throw ConfigError("data", "has a set with neither annotations nor images",
                       "set at least one of them");
   }
   std::vector<DataImage> images =
-      set.annotations.empty() ? folder_images(set.images) : annotated_images(set, classes, faults);
+      set.annotations.empty() ? folder_images(set.images) : annotated_images(set, classes, files);
   if (!set.containing.empty()) keep_containing(set.containing, classes, images);
   if (set.limit > 0) images.resize(std::min(images.size(), static_cast<std::size_t>(set.limit)));
   if (images.empty()) {

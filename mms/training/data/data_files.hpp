@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,12 +30,26 @@ struct DataImage {
   std::vector<int> partial{};  ///< classes whose objects are not all annotated
 };
 
+/// Annotation files, each read once: sets often are parts of one file.
+class AnnotationFiles {
+ public:
+  /// What cannot be used is left out.
+  /// @throws FileError, DataError if the file cannot be read, or more than half of its images or
+  /// annotations have faults.
+  const CocoDataset& read(const std::string& path);
+
+  /// What was left out of the files read until now.
+  const CocoFaults& faults() const { return faults_; }
+
+ private:
+  std::map<std::string, CocoDataset> datasets_;
+  CocoFaults faults_;
+};
+
 /// The images of a set with their objects of the given classes.
-/// @param faults  what cannot be used is left out and appended
-/// @throws FileError, DataError if the annotations cannot be read, no image is left, or more than
-/// half of the images or annotations have faults.
+/// @throws FileError, DataError as `AnnotationFiles::read`, or if no image is left.
 std::vector<DataImage> list_images(const TrainingData& set, const std::vector<std::string>& classes,
-                                   CocoFaults& faults);
+                                   AnnotationFiles& files);
 
 /// The annotation file of a set, or else its folder.
 const std::string& name_of(const TrainingData& set);

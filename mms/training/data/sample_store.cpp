@@ -49,12 +49,14 @@ Sample load_sample(const DataImage& source, int largest_side) {
 SampleStore::SampleStore(const std::vector<TrainingData>& sets,
                          const std::vector<std::string>& classes, int largest_side,
                          const std::function<void(int, int)>& progress) {
+  AnnotationFiles files;
   std::vector<std::vector<DataImage>> images;
   std::size_t total = 0;
   for (const TrainingData& set : sets) {
-    images.push_back(list_images(set, classes, faults_));
+    images.push_back(list_images(set, classes, files));
     total += images.back().size();
   }
+  faults_ = files.faults();
   std::mutex mutex;
   int done = 0;
   for (std::size_t k = 0; k < sets.size(); ++k) {

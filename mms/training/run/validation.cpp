@@ -23,7 +23,9 @@ ValidationSet::ValidationSet(const TrainingData& set, const std::vector<std::str
   for (std::size_t i = 0; i < classes.size(); ++i) {
     truth_.categories.push_back({static_cast<int>(i) + 1, classes[i]});
   }
-  const std::vector<DataImage> all = list_images(set, classes, faults);
+  AnnotationFiles files;
+  const std::vector<DataImage> all = list_images(set, classes, files);
+  faults.append(files.faults());
   const std::size_t count = std::min(all.size(), static_cast<std::size_t>(most));
   const std::size_t before = faults.images.size();
   for (std::size_t k = 0; k < count; ++k) {
