@@ -56,7 +56,8 @@ double difference(const torch::Tensor& a, const torch::Tensor& b) {
 
 /// Logits of all masks of a level's kernels and the mask features: (cells, height * width).
 torch::Tensor mask_logits(const torch::Tensor& kernels, const torch::Tensor& features) {
-  return torch::mm(kernels[0].flatten(1).t(), features[0].flatten(1));
+  return torch::mm(kernels[0].narrow(0, 0, features.size(1)).flatten(1).t(),
+                   features[0].flatten(1));
 }
 
 /// Compares the outputs of the engine and libtorch for an image, including the mask logits.
@@ -76,7 +77,7 @@ void expect_equal_maps(const NetworkConfig& config, engine::NetworkEngine& engin
                          expected.categories[level]),
               1e-4);
     const torch::Tensor kernels =
-        as_tensor(maps.kernels[level], side, side, config.head.kernel_channels);
+        as_tensor(maps.kernels[level], side, side, config.head.kernel_length());
     EXPECT_LT(difference(kernels, expected.kernels[level]), 1e-4);
     EXPECT_LT(difference(mask_logits(kernels, features),
                          mask_logits(expected.kernels[level], expected.mask_features)),
@@ -92,6 +93,12 @@ void expect_equal_on_noise(const NetworkConfig& config, int height, int width) {
   engine::NetworkEngine engine({config, {"person", "agv"}, to_weights(*network)}, "test", {});
   const torch::NoGradGuard no_grad;
   for (int i = 0; i < 2; ++i) expect_equal_maps(config, engine, network, noise(height, width));
+}
+
+TEST(NetworkEngine, EqualsLibtorchWithWindow) {
+  NetworkConfig config;
+  config.head.window = true;
+  expect_equal_on_noise(config, 96, 128);
 }
 
 class EngineOfEachVariant : public ::testing::TestWithParam<NetworkVariant> {};

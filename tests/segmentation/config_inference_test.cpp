@@ -26,6 +26,7 @@ void expect_same_architecture(const NetworkConfig& actual, const NetworkConfig& 
   EXPECT_EQ(actual.head.shared_tower, expected.head.shared_tower);
   EXPECT_EQ(actual.head.kernel_channels, expected.head.kernel_channels);
   EXPECT_EQ(actual.head.mask_channels, expected.head.mask_channels);
+  EXPECT_EQ(actual.head.window, expected.head.window);
   EXPECT_EQ(actual.head.norm, expected.head.norm);
   EXPECT_EQ(actual.head.grid_density, 1.0);
 }
@@ -38,6 +39,13 @@ TEST(ConfigInference, InfersEveryPreset) {
       expect_same_architecture(infer_config(expected_tensors(expected), "net"), expected);
     }
   }
+}
+
+TEST(ConfigInference, InfersWindow) {
+  NetworkConfig expected;
+  expected.head.window = true;
+  expected.head.kernel_channels = 48;
+  expect_same_architecture(infer_config(expected_tensors(expected), "net"), expected);
 }
 
 TEST(ConfigInference, InfersImageSizeFromTowers) {

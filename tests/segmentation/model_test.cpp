@@ -31,6 +31,12 @@ TEST(Model, RoundTrips) {
   EXPECT_EQ(pack_model(back), pack_model(model));
 }
 
+TEST(Model, FilesFromBeforeWindowsHaveNone) {
+  Weights packed = pack_model(sample_model());
+  packed.metadata.erase("network.head.window");
+  EXPECT_FALSE(unpack_model(packed, "file").network.head.window);
+}
+
 std::string error_of(const std::string& key, const std::string& value) {
   Weights packed = pack_model(sample_model());
   packed.metadata[key] = value;

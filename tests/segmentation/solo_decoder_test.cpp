@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -11,16 +12,18 @@ namespace {
 /// Synthetic maps of the head, without an object until a cell gets one.
 class SyntheticMaps {
  public:
-  SyntheticMaps() {
+  explicit SyntheticMaps(bool window = false) {
     config_.head.kernel_channels = kChannels;
+    config_.head.window = window;
     const auto grids = config_.head.grids();
     for (std::size_t i = 0; i < grids.size(); ++i) {
       const auto cells = static_cast<std::size_t>(grids[i] * grids[i]);
       for (std::size_t cell = 0; cell < cells; ++cell) {
-        cells_[i].insert(cells_[i].end(), {0.0F, 0.0F, 0.0F, 0.0F, -10.0F, -10.0F});
+        cells_[i].insert(cells_[i].end(), kCellPitch, 0.0F);
+        std::fill_n(cells_[i].end() - 2, 2, -10.0F);
       }
       maps_.kernels[i] = {cells_[i].data(), kCellPitch};
-      maps_.categories[i] = {cells_[i].data() + kChannels, kCellPitch};
+      maps_.categories[i] = {cells_[i].data() + kCategories, kCellPitch};
     }
     features_.assign(kFeaturePitch * kWidth * kHeight, 0.0F);
     maps_.mask_features = {features_.data(), kFeaturePitch};
@@ -46,8 +49,14 @@ class SyntheticMaps {
                 std::size_t channel) {
     const int side = config_.head.grids()[level];
     const int cell = (row * side + column) * kCellPitch;
-    cells_[level][static_cast<std::size_t>(cell + kChannels + category)] = logit;
+    cells_[level][static_cast<std::size_t>(cell + kCategories + category)] = logit;
     cells_[level][static_cast<std::size_t>(cell) + channel] = 1.0F;
+  }
+
+  /// The window of a cell: a, b, c, d of `HeadConfig::kWindowTerms`.
+  void set_window(std::size_t level, int row, int column, const std::array<float, 4>& terms) {
+    const int cell = (row * config_.head.grids()[level] + column) * kCellPitch;
+    std::copy(terms.begin(), terms.end(), cells_[level].begin() + cell + kChannels);
   }
 
   std::vector<Detection> decoded(const DecoderConfig& config = {}) const {
@@ -60,8 +69,9 @@ class SyntheticMaps {
  private:
   NetworkConfig config_;
   static constexpr int kChannels = 4;
-  static constexpr int kCellPitch = 6;     // a kernel, then two categories
-  static constexpr int kFeaturePitch = 5;  // one float more than channels
+  static constexpr int kCategories = kChannels + HeadConfig::kWindowTerms;
+  static constexpr int kCellPitch = kCategories + 2;  // a kernel, a window, two categories
+  static constexpr int kFeaturePitch = 5;             // one float more than channels
 
   std::array<std::vector<float>, HeadConfig::kLevels> cells_;
   std::vector<float> features_;
@@ -148,6 +158,40 @@ TEST(SoloDecoder, DropsTooSmallMasks) {
   maps.paint(0, 2, 2, 4, 3, 4.0F);  // 6 pixels; the first levels need more than 8
   maps.set_cell(0, 5, 5, 0, 2.0F, 0);
   EXPECT_TRUE(maps.decoded().empty());
+}
+
+/// Two cells with one kernel that finds the whole map: each window keeps what is near its cell.
+TEST(SoloDecoder, WindowsSeparateObjectsOfOneFeature) {
+  SyntheticMaps maps(true);
+  maps.paint(0, 0, 0, 15, 11, 4.0F);
+  const float decay = std::log(std::expm1(0.2F));  // its softplus is 0.2
+  for (const int column : {5, 16}) {
+    maps.set_cell(1, 10, column, 0, 2.0F, 0);
+    maps.set_window(1, 10, column, {decay, decay, 0.0F, 0.0F});
+  }
+  const std::vector<Detection> found = maps.decoded();
+  ASSERT_EQ(found.size(), 2U);
+  const int first = found[0].x < found[1].x ? 0 : 1;
+  const double cell = 128.0 / 22.0;  // its width [px of the image], grid of 22 cells
+  for (const int i : {0, 1}) {
+    const Detection& object = found[static_cast<std::size_t>(i == 0 ? first : 1 - first)];
+    const double center = object.x + 0.5 * object.mask.width();
+    EXPECT_NEAR(center, ((i == 0 ? 5 : 16) + 0.5) * cell, 4.0);
+    EXPECT_NEAR(object.mask.width(), 2 * std::sqrt(4.0 / 0.2) * cell, 8.0);  // 4 - 0.2 x^2 is 0
+  }
+}
+
+TEST(SoloDecoder, LinearTermsMoveTheWindow) {
+  SyntheticMaps maps(true);
+  maps.paint(0, 0, 0, 15, 11, 0.0F);
+  const float decay = std::log(std::expm1(1.0F));
+  maps.set_cell(1, 10, 10, 0, 2.0F, 0);
+  maps.set_window(1, 10, 10, {decay, decay, 4.0F, 4.0F});  // 8 - (x - 2)^2 - (y - 2)^2
+  const std::vector<Detection> found = maps.decoded();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].x + 0.5 * found[0].mask.width(), 12.5 * 128 / 22, 4.0);
+  EXPECT_NEAR(found[0].y + 0.5 * found[0].mask.height(), 12.5 * 96 / 22, 4.0);
+  EXPECT_NEAR(found[0].mask.width(), 2 * std::sqrt(8.0) * 128 / 22, 8.0);
 }
 
 TEST(SoloDecoder, LimitsNumberOfInstances) {

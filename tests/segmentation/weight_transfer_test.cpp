@@ -29,6 +29,26 @@ TEST(WeightTransfer, StandardizesBothBackbones) {
   }
 }
 
+TEST(WeightTransfer, AddsWindowToKernels) {
+  NetworkConfig config = nano(NetworkVariant::kSolov2);
+  config.head.window = true;
+  Weights given;
+  given.tensors["mask_head.conv_kernel.weight"] = {{64, 128, 3, 3},
+                                                   std::vector<float>(64 * 128 * 9, 0.25F)};
+  given.tensors["mask_head.conv_kernel.bias"] = {{64}, std::vector<float>(64, 0.5F)};
+  const Weights grown = grown_to(config, given);
+  const WeightTensor& weight = grown.tensors.at("mask_head.conv_kernel.weight");
+  EXPECT_EQ(weight.shape, (std::vector<std::int64_t>{68, 128, 3, 3}));
+  ASSERT_EQ(weight.values.size(), 68U * 128 * 9);
+  EXPECT_EQ(weight.values[64 * 128 * 9 - 1], 0.25F);
+  EXPECT_EQ(weight.values.back(), 0.0F);
+  const WeightTensor& bias = grown.tensors.at("mask_head.conv_kernel.bias");
+  EXPECT_EQ(bias.shape, std::vector<std::int64_t>{68});
+  const std::vector<float> window(bias.values.begin() + 64, bias.values.end());
+  EXPECT_EQ(window, (std::vector<float>{kInitialWindowDecay, kInitialWindowDecay, 0.0F, 0.0F}));
+  EXPECT_EQ(grown_to(config, grown), grown);
+}
+
 TEST(WeightTransfer, KeepsGivenTensors) {
   Weights given = stem();
   given.tensors["backbone.conv1.weight_gamma"] = {{64, 1, 1, 1}, std::vector<float>(64, 7.0F)};

@@ -46,7 +46,7 @@ network::HeadOutput constant_output(const HeadConfig& head, float logit) {
   const auto grids = head.grids();
   for (std::size_t i = 0; i < grids.size(); ++i) {
     output.categories[i] = torch::full({1, 2, grids[i], grids[i]}, logit);
-    output.kernels[i] = torch::zeros({1, head.kernel_channels, grids[i], grids[i]});
+    output.kernels[i] = torch::zeros({1, head.kernel_length(), grids[i], grids[i]});
   }
   output.mask_features = torch::zeros({1, head.kernel_channels, 64, 80});
   return output;
@@ -78,6 +78,43 @@ TEST(SoloLoss, MaskLossIsMeanOverPairs) {
   const SoloLoss loss = solo_loss(constant_output(head, 0.0F), {targets}, kBlack);
   const double area = 40 * 40;
   EXPECT_NEAR(loss.mask.item<double>(), 1 - area / (0.25 * 64 * 80 + area + 0.002), 1e-5);
+}
+
+/// All windows are equal, and the features are 0.
+TEST(SoloLoss, MasksHaveTheWindowsOfTheirCells) {
+  HeadConfig head = NetworkConfig().head;
+  head.window = true;
+  const ImageTargets targets =
+      assign_targets(sample_of(320, 256, {box_object(1, 80, 40, 160, 160)}), head);
+  network::HeadOutput output = constant_output(head, 0.0F);
+  const std::array<float, 4> terms = {-1.0F, 0.5F, 0.3F, -0.2F};
+  for (torch::Tensor& kernels : output.kernels) {
+    for (int i = 0; i < 4; ++i) {
+      kernels.narrow(1, head.kernel_channels + i, 1).fill_(terms[static_cast<std::size_t>(i)]);
+    }
+  }
+  const auto softplus = [](double v) { return std::log1p(std::exp(v)); };
+  double expected = 0.0;
+  for (const ImageTargets::Pair& pair : targets.pairs) {
+    const int side = head.grids()[static_cast<std::size_t>(pair.level)];
+    double common = 0.0;
+    double squares = 40 * 40 + 0.002;
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        const double u = (x + 0.5) / 80 * side - (pair.cell % side + 0.5);
+        const double v = (y + 0.5) / 64 * side - (pair.cell / side + 0.5);
+        const double logit =
+            terms[2] * u + terms[3] * v - softplus(terms[0]) * u * u - softplus(terms[1]) * v * v;
+        const double p = 1 / (1 + std::exp(-logit));
+        squares += p * p;
+        if (x >= 20 && x < 60 && y >= 10 && y < 50) common += p;
+      }
+    }
+    expected += 1 - 2 * common / squares;
+  }
+  ASSERT_FALSE(targets.pairs.empty());
+  const SoloLoss loss = solo_loss(output, {targets}, kBlack);
+  EXPECT_NEAR(loss.mask.item<double>(), expected / static_cast<double>(targets.pairs.size()), 1e-4);
 }
 
 /// A rectangle [x0, x1) x [y0, y1) of ones in a plane of 20 x 16.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "mms/segmentation/network/convolve.hpp"
+#include "mms/segmentation/weights/weight_transfer.hpp"
 
 namespace mms::network {
 namespace {
@@ -43,6 +44,16 @@ nn::Conv2d prediction(std::int64_t in, std::int64_t out, double bias) {
   nn::Conv2d conv = biased_conv({.in = in, .out = out});
   nn::init::normal_(conv->weight, 0.0, kInitialSpread);
   nn::init::constant_(conv->bias, bias);
+  return conv;
+}
+
+/// Wide windows at first: nearly no change of the masks.
+nn::Conv2d kernel_prediction(const HeadConfig& config) {
+  nn::Conv2d conv = prediction(config.tower_channels, config.kernel_length(), 0.0);
+  if (config.window) {
+    const torch::NoGradGuard no_grad;
+    conv->bias.narrow(0, config.kernel_channels, 2).fill_(kInitialWindowDecay);
+  }
   return conv;
 }
 
@@ -109,8 +120,7 @@ SoloHeadImpl::SoloHeadImpl(const HeadConfig& config, std::int64_t in, std::int64
   }
   const double prior = -std::log((1.0 - kPriorProbability) / kPriorProbability);
   category_ = register_module("conv_cls", prediction(config.tower_channels, classes, prior));
-  kernel_ = register_module("conv_kernel",
-                            prediction(config.tower_channels, config.kernel_channels, 0.0));
+  kernel_ = register_module("conv_kernel", kernel_prediction(config));
   mask_features_ = register_module("mask_feature_head", MaskFeatureHead(config, in));
 }
 

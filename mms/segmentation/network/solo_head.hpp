@@ -12,9 +12,11 @@ namespace mms::network {
 struct HeadOutput {
   /// Logits of the categories, (B, classes, S, S) for each level's grid of S x S cells.
   std::array<torch::Tensor, HeadConfig::kLevels> categories;
-  /// Kernels of the masks, (B, E, S, S).
+  /// Kernels of the masks, (B, `HeadConfig::kernel_length()`, S, S): E values, and those of the
+  /// window.
   std::array<torch::Tensor, HeadConfig::kLevels> kernels;
-  /// (B, E, H/4, W/4), not negative: the logits of a mask are the product with its kernel.
+  /// (B, E, H/4, W/4), not negative: the logits of a mask are the product with its kernel, plus
+  /// those of the window.
   torch::Tensor mask_features;
 };
 

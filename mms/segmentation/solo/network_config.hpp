@@ -47,10 +47,17 @@ struct HeadConfig {
   double object_scale =
       96;  ///< largest object of the finest grid, square root of its box area [px]
   HeadNorm norm = HeadNorm::kGroup;
+  bool window = false;  ///< kernels have `kWindowTerms` more values: a window around the cell
 
   void visit(ConfigVisitor& v);
 
   static constexpr int kLevels = 5;
+  /// The values a, b, c, d after a kernel. At x cell widths and y cell heights from the center of
+  /// the kernel's cell they add c x + d y - softplus(a) x^2 - softplus(b) y^2 to the logit of the
+  /// mask. Relative positions separate adjacent people (as in CondInst, Tian et al., ECCV 2020).
+  static constexpr int kWindowTerms = 4;
+  /// Values of a kernel.
+  int kernel_length() const { return kernel_channels + (window ? kWindowTerms : 0); }
   /// Cells per side of each level.
   std::array<int, kLevels> grids() const;
   /// Closed range of sqrt(box area) [px of the network's input] of a level's objects; adjacent

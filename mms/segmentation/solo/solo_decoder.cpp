@@ -80,7 +80,38 @@ std::vector<Cell> likely_cells(const HeadMaps& maps, const NetworkConfig& networ
 /// One row per mask, one column per pixel.
 using MaskLogits = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The dynamic convolution: mask logits of the cells.
+/// Adds along one axis: slope u - softplus(decay) u^2, u the distance from the center of a cell.
+Eigen::RowVectorXf window_along(float decay, float slope, int cell, int cells, int pixels) {
+  const float step = static_cast<float>(cells) / static_cast<float>(pixels);
+  const auto u =
+      (Eigen::RowVectorXf::LinSpaced(pixels, 0.5F, static_cast<float>(pixels) - 0.5F) * step -
+       Eigen::RowVectorXf::Constant(pixels, static_cast<float>(cell) + 0.5F))
+          .array()
+          .eval();
+  const float softplus = std::max(decay, 0.0F) + std::log1p(std::exp(-std::abs(decay)));
+  return (slope * u - softplus * u.square()).matrix();
+}
+
+/// Adds the windows of the cells (`HeadConfig::kWindowTerms`).
+void add_windows(const std::vector<Cell>& cells, const HeadMaps& maps, const HeadConfig& head,
+                 MaskLogits& logits) {
+  using Plane = Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  const auto grids = head.grids();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto level = static_cast<std::size_t>(cells[i].level);
+    const float* terms = maps.kernels[level].cell(cells[i].index) + head.kernel_channels;
+    const int side = grids[level];
+    const Eigen::RowVectorXf x =
+        window_along(terms[0], terms[2], cells[i].index % side, side, maps.mask_width);
+    const Eigen::RowVectorXf y =
+        window_along(terms[1], terms[3], cells[i].index / side, side, maps.mask_height);
+    Plane plane(logits.row(static_cast<Eigen::Index>(i)).data(), maps.mask_height, maps.mask_width);
+    plane.rowwise() += x;
+    plane.colwise() += y.transpose();
+  }
+}
+
+/// The dynamic convolution, with windows: mask logits of the cells.
 MaskLogits mask_logits(const std::vector<Cell>& cells, const HeadMaps& maps,
                        const NetworkConfig& network) {
   const int channels = network.head.kernel_channels;
@@ -93,7 +124,9 @@ MaskLogits mask_logits(const std::vector<Cell>& cells, const HeadMaps& maps,
   using Features = Eigen::Map<const Eigen::MatrixXf, Eigen::Unaligned, Eigen::OuterStride<>>;
   const Features features(maps.mask_features.data, channels, maps.mask_width * maps.mask_height,
                           Eigen::OuterStride<>(maps.mask_features.pitch));
-  return kernels * features;
+  MaskLogits logits = kernels * features;
+  if (network.head.window) add_windows(cells, maps, network.head, logits);
+  return logits;
 }
 
 /// A mask before suppression.

@@ -23,9 +23,10 @@ struct ChannelsLastMap {
 /// One image's output of the head.
 struct HeadMaps {
   std::array<ChannelsLastMap, HeadConfig::kLevels> categories{};  ///< logits, S x S x classes
-  std::array<ChannelsLastMap, HeadConfig::kLevels> kernels{};     ///< S x S x E
-  ChannelsLastMap mask_features;                                  ///< mask_height x mask_width x E
-  int mask_width = 0;                                             ///< a quarter of the input's [px]
+  /// S x S x `HeadConfig::kernel_length()`
+  std::array<ChannelsLastMap, HeadConfig::kLevels> kernels{};
+  ChannelsLastMap mask_features;  ///< mask_height x mask_width x E
+  int mask_width = 0;             ///< a quarter of the input's [px]
   int mask_height = 0;
 };
 

@@ -48,6 +48,9 @@ class MetadataWriter final : public PathVisitor {
   std::map<std::string, std::string>& metadata_;
 };
 
+/// Files from before it existed lack it: their networks have no window.
+constexpr std::string_view kLaterSetting = "network.head.window";
+
 class MetadataReader final : public PathVisitor {
  public:
   MetadataReader(const std::map<std::string, std::string>& metadata, const std::string& where)
@@ -60,6 +63,7 @@ class MetadataReader final : public PathVisitor {
     parse(info, value, range, "an integer");
   }
   void boolean(const FieldInfo& info, bool& value) override {
+    if (path(info) == kLaterSetting && !metadata_.contains(path(info))) return;
     constexpr std::array<std::string_view, 2> kWords = {"false", "true"};
     int index = 0;
     choice(info, index, kWords);

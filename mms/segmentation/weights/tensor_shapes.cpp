@@ -71,7 +71,7 @@ void add_head(const NetworkConfig& network, LayerShapes& layers) {
   add_tower("mask_head.kernel_convs", in + kCoordinates, config, layers);
   if (!config.shared_tower) add_tower("mask_head.cls_convs", in, config, layers);
   layers.biased_conv("mask_head.conv_cls", network.classes, config.tower_channels, 3);
-  layers.biased_conv("mask_head.conv_kernel", config.kernel_channels, config.tower_channels, 3);
+  layers.biased_conv("mask_head.conv_kernel", config.kernel_length(), config.tower_channels, 3);
   add_mask_features("mask_head.mask_feature_head", in, config, layers);
 }
 

@@ -31,11 +31,27 @@ void copy_backbone(Weights& weights) {
   weights.tensors.merge(second.tensors);
 }
 
+/// To the kernels of a head without one.
+void add_window(const HeadConfig& config, Weights& weights) {
+  const auto weight = weights.tensors.find("mask_head.conv_kernel.weight");
+  const auto bias = weights.tensors.find("mask_head.conv_kernel.bias");
+  if (weight == weights.tensors.end() || bias == weights.tensors.end()) return;
+  if (weight->second.shape.front() != config.kernel_channels) return;
+  WeightTensor& kernels = weight->second;
+  const std::size_t row = kernels.values.size() / static_cast<std::size_t>(kernels.shape.front());
+  kernels.shape.front() = config.kernel_length();
+  kernels.values.resize(row * static_cast<std::size_t>(config.kernel_length()), 0.0F);
+  bias->second.shape.front() = config.kernel_length();
+  bias->second.values.insert(bias->second.values.end(),
+                             {kInitialWindowDecay, kInitialWindowDecay, 0.0F, 0.0F});
+}
+
 }  // namespace
 
 Weights grown_to(const NetworkConfig& config, Weights weights) {
   add_standardisation(config.backbone, weights);
   if (config.neck.recursive) copy_backbone(weights);
+  if (config.head.window) add_window(config.head, weights);
   return weights;
 }
 

@@ -62,6 +62,8 @@ void ScheduleConfig::visit(ConfigVisitor& v) {
   v.integer({"frozen_stages", "", "frozen stages of the backbone; 0: none"}, frozen_stages, {0, 4});
   v.integer({"kept_statistics", "", "stages with frozen batch norm statistics"}, kept_statistics,
             {0, 4});
+  v.boolean({"kernels_only", "", "train only the convolution that predicts kernels and windows"},
+            kernels_only);
   v.number({"mask_weight", "", "weight of the mask loss relative to the category loss"},
            mask_weight, {0.0, 100.0});
 }
@@ -71,7 +73,7 @@ void TrainingConfig::visit(ConfigVisitor& v) {
   v.text({"initial_backbone", "", "ImageNet weights with torchvision's names; none: random"},
          initial_backbone);
   v.text({"initial_weights", "",
-          "initial weights file, also of a network without SAC or RFP; none: no weights"},
+          "initial weights file, also of a network without SAC, RFP or window; none: no weights"},
          initial_weights);
   v.list({"data", "", "sets of training images"}, data);
   v.list({"validation", "", "sets for measuring AP"}, validation);

@@ -57,6 +57,7 @@ struct ScheduleConfig {
   double ema = 0.999;         ///< decay of the averaged weights, which are the result
   int frozen_stages = 1;      ///< frozen stages of the backbone; 0: none
   int kept_statistics = 3;    ///< stages with frozen batch norm statistics
+  bool kernels_only = false;  ///< train only the convolution that predicts kernels and windows
   double mask_weight = 3.0;   ///< weight of the mask loss relative to the category loss
 
   void visit(ConfigVisitor& v);

@@ -3,6 +3,7 @@
 #include <torch/nn/functional.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mms {
 namespace {
@@ -84,6 +85,9 @@ struct BatchPairs {
   std::vector<std::int64_t> images;
   std::vector<std::int64_t> with_mask;  // indices of the pairs whose object has a mask
   std::vector<std::int64_t> with_box;   // and of those with a box only
+  std::vector<float> columns;           // of each pair's cell
+  std::vector<float> lines;             // its row
+  std::vector<float> sides;             // cells per side of its grid
 };
 
 BatchPairs pairs_of(const std::vector<ImageTargets>& targets, std::int64_t cells_per_image) {
@@ -102,6 +106,11 @@ BatchPairs pairs_of(const std::vector<ImageTargets>& targets, std::int64_t cells
                           pair.cell);
       all.objects.push_back(objects + pair.object);
       all.images.push_back(image);
+      const auto cells = targets[i].categories[static_cast<std::size_t>(pair.level)].size();
+      const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(cells))));
+      all.columns.push_back(static_cast<float>(pair.cell % side));
+      all.lines.push_back(static_cast<float>(pair.cell / side));
+      all.sides.push_back(static_cast<float>(side));
     }
     objects += static_cast<std::int64_t>(targets[i].masks.size());
   }
@@ -125,19 +134,47 @@ torch::Tensor rows(const torch::Tensor& all, const std::vector<std::int64_t>& so
   return all.index_select(0, torch::tensor(some).to(all.device()));
 }
 
+/// Along one axis: slope u - softplus(decay) u^2, u the distance from the center of a pair's cell;
+/// (pairs, pixels).
+torch::Tensor window_along(const torch::Tensor& decay, const torch::Tensor& slope,
+                           const std::vector<float>& cells, const std::vector<float>& sides,
+                           std::int64_t pixels) {
+  const auto column = [&](const std::vector<float>& values) {
+    return torch::tensor(values).to(decay.device()).unsqueeze(1);
+  };
+  const torch::Tensor centers =
+      (torch::arange(pixels, decay.options()) + 0.5) / static_cast<double>(pixels);
+  const torch::Tensor u = centers.unsqueeze(0) * column(sides) - (column(cells) + 0.5);
+  return slope * u - torch::softplus(decay) * u.square();
+}
+
+/// Logits of the windows (`HeadConfig::kWindowTerms`), (pairs, pixels).
+torch::Tensor window_logits(const torch::Tensor& terms, const BatchPairs& pairs,
+                            std::int64_t height, std::int64_t width) {
+  const auto term = [&](std::int64_t i) { return terms.narrow(1, i, 1); };
+  const torch::Tensor x = window_along(term(0), term(2), pairs.columns, pairs.sides, width);
+  const torch::Tensor y = window_along(term(1), term(3), pairs.lines, pairs.sides, height);
+  return (y.unsqueeze(2) + x.unsqueeze(1)).flatten(1);
+}
+
 /// Masks that the pairs' kernels find, (pairs, pixels).
-/// @param kernels   (B, cells, E)
+/// @param kernels   (B, cells, E), or with a window's values after them
 /// @param features  (B, E, height, width)
 torch::Tensor found_masks(const torch::Tensor& kernels, const torch::Tensor& features,
                           const BatchPairs& pairs) {
   // `unbind` and `split`: the gradient of single rows would fill a tensor of full size for each.
-  const auto chosen = rows(kernels.flatten(0, 1), pairs.cells).split_with_sizes(pairs.counts);
+  const std::int64_t length = features.size(1);
+  const torch::Tensor all = rows(kernels.flatten(0, 1), pairs.cells);
+  const auto chosen = all.narrow(1, 0, length).split_with_sizes(pairs.counts);
   const auto flat = features.flatten(2).unbind();
   std::vector<torch::Tensor> found;
   for (std::size_t i = 0; i < flat.size(); ++i) {
     if (pairs.counts[i] > 0) found.push_back(torch::mm(chosen[i], flat[i]));
   }
-  return torch::sigmoid(torch::cat(found));
+  const torch::Tensor logits = torch::cat(found);
+  if (all.size(1) == length) return torch::sigmoid(logits);
+  const torch::Tensor terms = all.narrow(1, length, HeadConfig::kWindowTerms);
+  return torch::sigmoid(logits + window_logits(terms, pairs, features.size(2), features.size(3)));
 }
 
 /// Dice losses of the projections on both axes: the projection term of BoxInst.

@@ -36,6 +36,13 @@ void prepare_backbones(network::SoloNetwork& network, const ScheduleConfig& sche
   }
 }
 
+/// For a window that is added to a trained network.
+void freeze_all_but_kernels(network::SoloNetwork& network) {
+  for (auto& item : network->named_parameters()) {
+    if (!item.key().starts_with("mask_head.conv_kernel.")) item.value().set_requires_grad(false);
+  }
+}
+
 /// Parameters to train: those of the backbones, and all others.
 std::array<std::vector<torch::Tensor>, 2> parameter_groups(network::SoloNetwork& network) {
   std::array<std::vector<torch::Tensor>, 2> groups;
@@ -85,6 +92,7 @@ Trainer::Trainer(const TrainingConfig& config, ProcessGroup& group)
       network_(config.network),
       average_(config.network) {
   prepare_backbones(network_, config.schedule);
+  if (config.schedule.kernels_only) freeze_all_but_kernels(network_);
   network_->to(device_);
   average_->to(device_);
   network::put_channels_last(*network_);
@@ -102,7 +110,7 @@ void Trainer::initialise(const Weights& weights, const std::string& where) {
 torch::Tensor Trainer::step(const Batch& batch) {
   set_learning_rate(*optimizer_, config_.schedule, steps_);
   forget_gradients(*network_);
-  network_->train();
+  network_->train(!config_.schedule.kernels_only);
   const torch::Tensor images =
       batch.images.to(device_, /*non_blocking=*/true).contiguous(at::MemoryFormat::ChannelsLast);
   network::HeadOutput output;
