@@ -81,6 +81,32 @@ TEST(TrainingRun, ResumedTrainingEqualsUninterrupted) {
   EXPECT_NEAR(resumed, whole, 1e-4 * whole);
 }
 
+TEST(TrainingRun, KernelsOnlyAddsWindowAndKeepsAllOtherWeights) {
+  const TempFolder folder;
+  write_bars(folder.path(), 4);
+  TrainingConfig config = small_training(folder.path(), 8);
+  config.validation.clear();
+  TrainingRun plain(config, folder.path() / "plain", 1);
+  plain.train();
+  config.initial_weights = plain.weights_path().string();
+  config.network.head.window = true;
+  config.schedule.kernels_only = true;
+  TrainingRun run(config, folder.path() / "window", 1);
+  run.train();
+  const Weights before = read_safetensors(plain.weights_path());
+  const Weights after = read_safetensors(run.weights_path());
+  const std::string kernels = "mask_head.conv_kernel.";
+  for (const auto& [name, tensor] : after.tensors) {
+    if (name.starts_with(kernels)) continue;
+    EXPECT_EQ(tensor, before.tensors.at(name)) << name;
+  }
+  const WeightTensor& bias = after.tensors.at(kernels + "bias");
+  ASSERT_EQ(bias.shape, std::vector<std::int64_t>{config.network.head.kernel_length()});
+  const std::vector<float> trained(bias.values.begin(),
+                                   bias.values.begin() + config.network.head.kernel_channels);
+  EXPECT_NE(trained, before.tensors.at(kernels + "bias").values);
+}
+
 TEST(TrainingRun, RejectsFolderOfOtherSettings) {
   const TempFolder folder;
   write_bars(folder.path(), 2);
