@@ -47,6 +47,12 @@ TEST(WeightTransfer, AddsWindowToKernels) {
   const std::vector<float> window(bias.values.begin() + 64, bias.values.end());
   EXPECT_EQ(window, (std::vector<float>{kInitialWindowDecay, kInitialWindowDecay, 0.0F, 0.0F}));
   EXPECT_EQ(grown_to(config, grown), grown);
+  Weights damaged = given;
+  damaged.tensors["mask_head.conv_kernel.bias"] = {{3}, std::vector<float>(3)};
+  EXPECT_EQ(grown_to(config, damaged), damaged);
+  damaged = given;
+  damaged.tensors["mask_head.conv_kernel.weight"] = {{}, {1.0F}};
+  EXPECT_EQ(grown_to(config, damaged), damaged);
 }
 
 TEST(WeightTransfer, KeepsGivenTensors) {

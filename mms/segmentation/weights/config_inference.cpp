@@ -94,7 +94,8 @@ void infer_head(const TensorFacts& facts, HeadConfig& head) {
   head.tower_depth = facts.count("mask_head.kernel_convs.");
   head.shared_tower = !facts.has_any("mask_head.cls_convs.");
   head.kernel_channels = facts.channels("mask_head.mask_feature_head.conv_pred.conv");
-  head.window = facts.channels("mask_head.conv_kernel") != head.kernel_channels;
+  head.window =
+      facts.channels("mask_head.conv_kernel") == head.kernel_channels + HeadConfig::kWindowTerms;
   head.mask_channels = facts.channels("mask_head.mask_feature_head.convs_all_levels.0.conv0.conv");
   head.norm = facts.has("mask_head.kernel_convs.0.bn.weight") ? HeadNorm::kBatch : HeadNorm::kGroup;
 }

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mms/segmentation/weights/backbone_shapes.hpp"
 #include "mms/segmentation/weights/weight_standardisation.hpp"
@@ -36,6 +37,8 @@ void add_window(const HeadConfig& config, Weights& weights) {
   const auto weight = weights.tensors.find("mask_head.conv_kernel.weight");
   const auto bias = weights.tensors.find("mask_head.conv_kernel.bias");
   if (weight == weights.tensors.end() || bias == weights.tensors.end()) return;
+  const std::vector<std::int64_t> without_window = {config.kernel_channels};
+  if (bias->second.shape != without_window || weight->second.shape.empty()) return;
   if (weight->second.shape.front() != config.kernel_channels) return;
   WeightTensor& kernels = weight->second;
   const std::size_t row = kernels.values.size() / static_cast<std::size_t>(kernels.shape.front());

@@ -13,7 +13,7 @@ constexpr float kInitialWindowDecay = -3.0F;
 /// initially computes the same: for standardized weights, gamma and beta are their standard
 /// deviation and mean (DetectoRS, mmcv ConvAWS2d), and a second backbone is a copy of the first.
 /// A window is nearly neutral at first. Tensors that start at zero (switch, context, fusion) are
-/// not included; given tensors are unchanged.
+/// not included; other given tensors are unchanged.
 Weights grown_to(const NetworkConfig& config, Weights weights);
 
 }  // namespace mms

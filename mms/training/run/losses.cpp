@@ -85,9 +85,9 @@ struct BatchPairs {
   std::vector<std::int64_t> images;
   std::vector<std::int64_t> with_mask;  // indices of the pairs whose object has a mask
   std::vector<std::int64_t> with_box;   // and of those with a box only
-  std::vector<float> columns;           // of each pair's cell
-  std::vector<float> lines;             // its row
-  std::vector<float> sides;             // cells per side of its grid
+  std::vector<float> cell_columns;      // of each pair
+  std::vector<float> cell_rows;
+  std::vector<float> grid_sides;  // [cells]
 };
 
 BatchPairs pairs_of(const std::vector<ImageTargets>& targets, std::int64_t cells_per_image) {
@@ -108,9 +108,9 @@ BatchPairs pairs_of(const std::vector<ImageTargets>& targets, std::int64_t cells
       all.images.push_back(image);
       const auto cells = targets[i].categories[static_cast<std::size_t>(pair.level)].size();
       const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(cells))));
-      all.columns.push_back(static_cast<float>(pair.cell % side));
-      all.lines.push_back(static_cast<float>(pair.cell / side));
-      all.sides.push_back(static_cast<float>(side));
+      all.cell_columns.push_back(static_cast<float>(pair.cell % side));
+      all.cell_rows.push_back(static_cast<float>(pair.cell / side));
+      all.grid_sides.push_back(static_cast<float>(side));
     }
     objects += static_cast<std::int64_t>(targets[i].masks.size());
   }
@@ -152,8 +152,9 @@ torch::Tensor window_along(const torch::Tensor& decay, const torch::Tensor& slop
 torch::Tensor window_logits(const torch::Tensor& terms, const BatchPairs& pairs,
                             std::int64_t height, std::int64_t width) {
   const auto term = [&](std::int64_t i) { return terms.narrow(1, i, 1); };
-  const torch::Tensor x = window_along(term(0), term(2), pairs.columns, pairs.sides, width);
-  const torch::Tensor y = window_along(term(1), term(3), pairs.lines, pairs.sides, height);
+  const torch::Tensor x =
+      window_along(term(0), term(2), pairs.cell_columns, pairs.grid_sides, width);
+  const torch::Tensor y = window_along(term(1), term(3), pairs.cell_rows, pairs.grid_sides, height);
   return (y.unsqueeze(2) + x.unsqueeze(1)).flatten(1);
 }
 
