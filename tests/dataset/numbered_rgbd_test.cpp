@@ -130,11 +130,12 @@ TEST(Replica, ErrorNamesKeyOfDamagedCamera) {
 
 // ---------------------------------------------------------------- Open3D, Redwood
 
-void write_open3d(const TempFolder& folder, const std::string& colors, int count) {
+void write_open3d(const TempFolder& folder, const std::string& colors, int count,
+                  const std::string& depths = "depth") {
   for (int i = 0; i < count; ++i) {
     const std::string name = "0000" + std::to_string(i) + ".png";
     write_color(folder.path() / colors / name);
-    write_depth(folder.path() / "depth" / name, 1500);
+    write_depth(folder.path() / depths / name, 1500);
   }
 }
 
@@ -152,6 +153,19 @@ TEST(Open3d, ReadsFramesCameraAndPoses) {
     ASSERT_EQ(played.source->ground_truth().size(), 2U);
     EXPECT_EQ(played.source->ground_truth()[1].T_world_sensor.translation().x(), 0.25);
     EXPECT_EQ(played.source->ground_truth()[1].stamp, played.frames[1].stamp);
+  }
+}
+
+TEST(Open3d, TakesFoldersOfSimilarNames) {
+  constexpr std::pair<const char*, const char*> kFolders[] = {
+      {"images", "depth"}, {"rgb", "depths"}, {"RGB", "Depth"}, {"rgb_0", "depth_0"}};
+  for (const auto& [colors, depths] : kFolders) {
+    const TempFolder folder;
+    write_open3d(folder, colors, 2, depths);
+    folder.write("camera_intrinsic.json", kOpen3dCamera);
+    const Playback played(open_dataset(folder.path()));
+    EXPECT_EQ(played.names(), "00000 00001") << colors;
+    EXPECT_EQ(played.frames[0].depth(0, 0), 1.5F) << depths;
   }
 }
 

@@ -167,7 +167,7 @@ std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
   const std::vector<FrameFiles> frames = find_frames(list_folder(folder));
   const bool seven_scenes = is_seven_scenes(frames.front());
   recording.facts.emplace_back(seven_scenes
-                                   ? "layout: 7-Scenes, folder of color, depth and pose files"
+                                   ? "layout: color, depth and pose files in one folder (7-Scenes)"
                                    : "layout: color and depth images in one folder");
   const AssumedRate& rate = seven_scenes ? kDataSetRate : kUnknownRate;
   std::vector<fs::path> poses;

@@ -1,6 +1,8 @@
 #include "mms/dataset/numbered/open3d.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/numbered/numbered_images.hpp"
@@ -9,6 +11,7 @@
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/io/config/camera_json.hpp"
 #include "mms/io/image/picture_files.hpp"
+#include "mms/io/text/files.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/pose_text.hpp"
 #include "mms/io/text/text_table.hpp"
@@ -17,7 +20,10 @@ namespace mms {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kColorFolders[] = {"color", "image", "rgb"};
+/// Open3D's names, and others in use.
+constexpr const char* kColorFolders[] = {"color", "image", "rgb",   "colors", "images",
+                                         "Color", "RGB",   "rgb_0", "color_0"};
+constexpr const char* kDepthFolders[] = {"depth", "depths", "Depth", "depth_0"};
 constexpr const char* kCameraFiles[] = {"camera_intrinsic.json", "intrinsic.json"};
 constexpr const char* kTumLists[] = {"rgb.txt", "color.txt", "depth.txt", "associations.txt"};
 constexpr std::size_t kLinesPerPose = 5;  // one with numbers, four with a matrix
@@ -27,11 +33,12 @@ bool has_camera_file(const std::vector<std::string>& names) {
                      [&](const char* file) { return has_name(names, file); });
 }
 
-fs::path color_folder(const fs::path& folder) {
-  for (const char* name : kColorFolders) {
-    if (fs::is_directory(folder / name)) return folder / name;
-  }
-  return folder / kColorFolders[0];
+/// The first of the names that the folder has; nullptr for none.
+template <std::size_t kCount>
+const char* first_of(const std::vector<std::string>& names, const char* const (&wanted)[kCount]) {
+  const auto* found = std::find_if(std::begin(wanted), std::end(wanted),
+                                   [&](const char* name) { return has_name(names, name); });
+  return found == std::end(wanted) ? nullptr : *found;
 }
 
 Calibration primesense_camera() {
@@ -86,11 +93,12 @@ void read_trajectory_log(RgbdRecording& recording, const std::vector<std::int64_
 }  // namespace
 
 bool is_open3d_layout(const std::vector<std::string>& names) {
-  const bool has_colors = has_name(names, "color") || has_name(names, "image") ||
-                          (has_name(names, "rgb") && has_camera_file(names));
-  const bool has_lists = std::any_of(std::begin(kTumLists), std::end(kTumLists),
-                                     [&](const char* list) { return has_name(names, list); });
-  return has_colors && has_name(names, "depth") && !has_lists;
+  if (first_of(names, kTumLists) != nullptr) return false;
+  const char* color = first_of(names, kColorFolders);
+  const char* depth = first_of(names, kDepthFolders);
+  if (color == nullptr || depth == nullptr) return false;
+  const bool as_tum = color == std::string_view("rgb") && depth == std::string_view("depth");
+  return !as_tum || has_camera_file(names);
 }
 
 std::unique_ptr<FrameSource> open_open3d(const fs::path& folder, const SourceOptions& options) {
@@ -99,9 +107,11 @@ std::unique_ptr<FrameSource> open_open3d(const fs::path& folder, const SourceOpt
   recording.facts.emplace_back("layout: Open3D, numbered color and depth images");
   // Redwood's scans, at 30 Hz, have poses; others may be of any recorder.
   const bool is_redwood = fs::exists(folder / "trajectory.log");
+  const std::vector<std::string> names = list_folder(folder);
   const auto numbers = add_numbered_frames(
-      recording, find_series(color_folder(folder), color_endings()),
-      find_series(folder / "depth", depth_endings()), is_redwood ? kDataSetRate : kUnknownRate);
+      recording, find_series(folder / first_of(names, kColorFolders), color_endings()),
+      find_series(folder / first_of(names, kDepthFolders), depth_endings()),
+      is_redwood ? kDataSetRate : kUnknownRate);
   choose_calibration(recording, options.camera, [&] { return find_camera(recording); });
   read_trajectory_log(recording, numbers);
   find_masks(recording, options);
