@@ -80,6 +80,22 @@ TEST(SoloLoss, MaskLossIsMeanOverPairs) {
   EXPECT_NEAR(loss.mask.item<double>(), 1 - area / (0.25 * 64 * 80 + area + 0.002), 1e-5);
 }
 
+TEST(SoloLoss, LearnsMasksOfLimitedPairs) {
+  const HeadConfig head = NetworkConfig().head;
+  ImageTargets targets = assign_targets(
+      sample_of(320, 256, {box_object(1, 80, 40, 160, 160), box_object(1, 10, 10, 60, 60)}), head);
+  const auto mask_loss = [&](int mask_pairs) {
+    return solo_loss(constant_output(head, 0.0F), {targets}, kBlack, {}, mask_pairs)
+        .mask.item<double>();
+  };
+  ASSERT_GT(targets.pairs.size(), 1U);
+  const double all = mask_loss(200);
+  const double first = mask_loss(1);
+  targets.pairs.resize(1);
+  EXPECT_NEAR(first, mask_loss(200), 1e-9);
+  EXPECT_GT(std::abs(first - all), 1e-3);
+}
+
 /// All windows are equal, and the features are 0.
 TEST(SoloLoss, MasksHaveTheWindowsOfTheirCells) {
   HeadConfig head = NetworkConfig().head;

@@ -81,6 +81,23 @@ TEST(TrainingRun, ResumedTrainingEqualsUninterrupted) {
   EXPECT_NEAR(resumed, whole, 1e-4 * whole);
 }
 
+TEST(TrainingRun, StopsAfterAStepAndContinues) {
+  const TempFolder folder;
+  write_bars(folder.path(), 4);
+  TrainingConfig config = small_training(folder.path(), 4 * 5);
+  config.validation.clear();
+  int asked = 0;
+  {
+    TrainingRun stopped(config, folder.path() / "out", 1, {}, [&] { return ++asked == 2; });
+    EXPECT_FALSE(stopped.train());
+  }
+  EXPECT_EQ(asked, 2);
+  asked = 0;
+  TrainingRun rest(config, folder.path() / "out", 1, {}, [&] { return ++asked < 0; });
+  EXPECT_TRUE(rest.train());
+  EXPECT_EQ(asked, config.schedule.images / config.schedule.batch - 2);
+}
+
 TEST(TrainingRun, KernelsOnlyAddsWindowAndKeepsAllOtherWeights) {
   const TempFolder folder;
   write_bars(folder.path(), 4);
@@ -90,7 +107,7 @@ TEST(TrainingRun, KernelsOnlyAddsWindowAndKeepsAllOtherWeights) {
   plain.train();
   config.initial_weights = plain.weights_path().string();
   config.network.head.window = true;
-  config.schedule.kernels_only = true;
+  config.schedule.trained = TrainedLayers::kKernels;
   TrainingRun run(config, folder.path() / "window", 1);
   run.train();
   const Weights before = read_safetensors(plain.weights_path());
@@ -105,6 +122,28 @@ TEST(TrainingRun, KernelsOnlyAddsWindowAndKeepsAllOtherWeights) {
   const std::vector<float> trained(bias.values.begin(),
                                    bias.values.begin() + config.network.head.kernel_channels);
   EXPECT_NE(trained, before.tensors.at(kernels + "bias").values);
+}
+
+TEST(TrainingRun, HeadOnlyKeepsBackboneAndPyramid) {
+  const TempFolder folder;
+  write_bars(folder.path(), 4);
+  TrainingConfig config = small_training(folder.path(), 8);
+  config.validation.clear();
+  TrainingRun plain(config, folder.path() / "plain", 1);
+  plain.train();
+  config.initial_weights = plain.weights_path().string();
+  config.schedule.trained = TrainedLayers::kHead;
+  TrainingRun run(config, folder.path() / "head", 1);
+  run.train();
+  const Weights before = read_safetensors(plain.weights_path());
+  const Weights after = read_safetensors(run.weights_path());
+  for (const auto& [name, tensor] : after.tensors) {
+    if (name.starts_with("mask_head.")) continue;
+    EXPECT_EQ(tensor, before.tensors.at(name)) << name;
+  }
+  for (const char* name : {"mask_head.conv_cls.weight", "mask_head.conv_kernel.weight"}) {
+    EXPECT_FALSE(after.tensors.at(name) == before.tensors.at(name)) << name;
+  }
 }
 
 TEST(TrainingRun, RejectsFolderOfOtherSettings) {

@@ -42,6 +42,7 @@ void AugmentationConfig::visit(ConfigVisitor& v) {
 
 void ScheduleConfig::visit(ConfigVisitor& v) {
   constexpr std::array<std::string_view, 2> kOptimizers = {"sgd", "adamw"};
+  constexpr std::array<std::string_view, 3> kTrained = {"all", "head", "kernels"};
   v.enumeration({"optimizer", "", "optimizer"}, optimizer, kOptimizers);
   v.integer({"images", "", "images in total"}, images, {1, kMany});
   v.integer({"batch", "", "images per step"}, batch, {1, 1024});
@@ -62,8 +63,11 @@ void ScheduleConfig::visit(ConfigVisitor& v) {
   v.integer({"frozen_stages", "", "frozen stages of the backbone; 0: none"}, frozen_stages, {0, 4});
   v.integer({"kept_statistics", "", "stages with frozen batch norm statistics"}, kept_statistics,
             {0, 4});
-  v.boolean({"kernels_only", "", "train only the convolution that predicts kernels and windows"},
-            kernels_only);
+  v.enumeration({"trained", "", "layers to train; kernels: the convolution that predicts them"},
+                trained, kTrained);
+  v.integer({"mask_pairs", "",
+             "largest number of pairs of cell and object per image whose masks are learned"},
+            mask_pairs, {1, 10000});
   v.number({"mask_weight", "", "weight of the mask loss relative to the category loss"},
            mask_weight, {0.0, 100.0});
 }

@@ -41,6 +41,13 @@ struct AugmentationConfig {
 
 enum class Optimizer { kSgd, kAdamW };
 
+/// The layers that are trained.
+enum class TrainedLayers {
+  kAll,
+  kHead,     ///< without backbone and feature pyramid
+  kKernels,  ///< the convolution that predicts kernels and windows
+};
+
 /// Optimization schedule.
 struct ScheduleConfig {
   Optimizer optimizer = Optimizer::kSgd;
@@ -57,8 +64,9 @@ struct ScheduleConfig {
   double ema = 0.999;         ///< decay of the averaged weights, which are the result
   int frozen_stages = 1;      ///< frozen stages of the backbone; 0: none
   int kept_statistics = 3;    ///< stages with frozen batch norm statistics
-  bool kernels_only = false;  ///< train only the convolution that predicts kernels and windows
-  double mask_weight = 3.0;   ///< weight of the mask loss relative to the category loss
+  TrainedLayers trained = TrainedLayers::kAll;
+  int mask_pairs = 200;      ///< pairs of cell and object per image whose masks are learned
+  double mask_weight = 3.0;  ///< weight of the mask loss relative to the category loss
 
   void visit(ConfigVisitor& v);
 };

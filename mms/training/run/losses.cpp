@@ -11,8 +11,7 @@ namespace {
 constexpr double kAlpha = 0.25;
 /// Distance of normalized colors up to which neighbors have one label: about BoxInst's 2.4 in Lab.
 constexpr double kSameColor = 0.12;
-constexpr double kEpsilon = 1e-3;       // prevents division by zero for empty masks
-constexpr std::size_t kMaxPairs = 200;  // per image: bounds memory for crowds
+constexpr double kEpsilon = 1e-3;  // prevents division by zero for empty masks
 
 /// (B, C, S, S) of all levels as (B, cells, C).
 torch::Tensor cells_of(const std::array<torch::Tensor, HeadConfig::kLevels>& maps) {
@@ -56,12 +55,13 @@ torch::Tensor category_loss(const torch::Tensor& logits, const std::vector<Image
   return loss.sum() / ((sum ? sum(cells) : cells) + 1);
 }
 
-/// At most `kMaxPairs`, evenly spaced.
-std::vector<ImageTargets::Pair> limited_pairs(const std::vector<ImageTargets::Pair>& pairs) {
-  if (pairs.size() <= kMaxPairs) return pairs;
+/// At most `most`, evenly spaced.
+std::vector<ImageTargets::Pair> limited_pairs(const std::vector<ImageTargets::Pair>& pairs,
+                                              std::size_t most) {
+  if (pairs.size() <= most) return pairs;
   std::vector<ImageTargets::Pair> some;
-  for (std::size_t i = 0; i < kMaxPairs; ++i) {
-    some.push_back(pairs[i * pairs.size() / kMaxPairs]);
+  for (std::size_t i = 0; i < most; ++i) {
+    some.push_back(pairs[i * pairs.size() / most]);
   }
   return some;
 }
@@ -90,13 +90,14 @@ struct BatchPairs {
   std::vector<float> grid_sides;  // [cells]
 };
 
-BatchPairs pairs_of(const std::vector<ImageTargets>& targets, std::int64_t cells_per_image) {
+BatchPairs pairs_of(const std::vector<ImageTargets>& targets, std::int64_t cells_per_image,
+                    std::size_t most) {
   BatchPairs all;
   std::int64_t objects = 0;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const auto image = static_cast<std::int64_t>(i);
     const auto offsets = level_offsets(targets[i]);
-    const std::vector<ImageTargets::Pair> pairs = limited_pairs(targets[i].pairs);
+    const std::vector<ImageTargets::Pair> pairs = limited_pairs(targets[i].pairs, most);
     all.counts.push_back(static_cast<std::int64_t>(pairs.size()));
     for (const ImageTargets::Pair& pair : pairs) {
       const bool box_only = targets[i].box_only[static_cast<std::size_t>(pair.object)];
@@ -267,12 +268,12 @@ torch::Tensor focal_loss(const torch::Tensor& logits, const torch::Tensor& targe
 }
 
 SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTargets>& targets,
-                   const torch::Tensor& images, const network::ProcessSum& sum) {
+                   const torch::Tensor& images, const network::ProcessSum& sum, int mask_pairs) {
   SoloLoss loss;
   loss.category = category_loss(cells_of(output.categories), targets, sum);
   const torch::Tensor kernels = cells_of(output.kernels);
   const torch::Tensor features = output.mask_features.to(torch::kFloat);
-  const BatchPairs pairs = pairs_of(targets, kernels.size(1));
+  const BatchPairs pairs = pairs_of(targets, kernels.size(1), static_cast<std::size_t>(mask_pairs));
   const torch::Tensor own = torch::tensor(static_cast<std::int64_t>(pairs.cells.size()));
   const torch::Tensor count = sum ? sum(own) : own;
   // Without objects the loss is 0, but remains a function of the network.

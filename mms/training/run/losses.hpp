@@ -7,6 +7,7 @@
 #include "mms/segmentation/network/batch_norm.hpp"
 #include "mms/segmentation/network/solo_head.hpp"
 #include "mms/training/data/target_assignment.hpp"
+#include "mms/training/data/training_config.hpp"
 
 namespace mms {
 
@@ -37,7 +38,9 @@ struct SoloLoss {
 /// @param targets  one per image
 /// @param images   (B, 3, height, width), normalized, on the device of the output
 /// @param sum      counts cells and pairs of all processes; empty: of this process alone
+/// @param mask_pairs  largest number of pairs per image, evenly chosen; bounds memory for crowds
 SoloLoss solo_loss(const network::HeadOutput& output, const std::vector<ImageTargets>& targets,
-                   const torch::Tensor& images, const network::ProcessSum& sum = {});
+                   const torch::Tensor& images, const network::ProcessSum& sum = {},
+                   int mask_pairs = ScheduleConfig{}.mask_pairs);
 
 }  // namespace mms

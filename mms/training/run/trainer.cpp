@@ -36,10 +36,12 @@ void prepare_backbones(network::SoloNetwork& network, const ScheduleConfig& sche
   }
 }
 
-/// For a window that is added to a trained network.
-void freeze_all_but_kernels(network::SoloNetwork& network) {
+/// For what is added to a trained network.
+void freeze_others(network::SoloNetwork& network, TrainedLayers trained) {
+  if (trained == TrainedLayers::kAll) return;
+  const char* prefix = trained == TrainedLayers::kHead ? "mask_head." : "mask_head.conv_kernel.";
   for (auto& item : network->named_parameters()) {
-    if (!item.key().starts_with("mask_head.conv_kernel.")) item.value().set_requires_grad(false);
+    if (!item.key().starts_with(prefix)) item.value().set_requires_grad(false);
   }
 }
 
@@ -92,7 +94,7 @@ Trainer::Trainer(const TrainingConfig& config, ProcessGroup& group)
       network_(config.network),
       average_(config.network) {
   prepare_backbones(network_, config.schedule);
-  if (config.schedule.kernels_only) freeze_all_but_kernels(network_);
+  freeze_others(network_, config.schedule.trained);
   network_->to(device_);
   average_->to(device_);
   network::put_channels_last(*network_);
@@ -110,7 +112,7 @@ void Trainer::initialise(const Weights& weights, const std::string& where) {
 torch::Tensor Trainer::step(const Batch& batch) {
   set_learning_rate(*optimizer_, config_.schedule, steps_);
   forget_gradients(*network_);
-  network_->train(!config_.schedule.kernels_only);
+  network_->train(config_.schedule.trained == TrainedLayers::kAll);
   const torch::Tensor images =
       batch.images.to(device_, /*non_blocking=*/true).contiguous(at::MemoryFormat::ChannelsLast);
   network::HeadOutput output;
@@ -118,7 +120,8 @@ torch::Tensor Trainer::step(const Batch& batch) {
     const network::MixedPrecision precision(config_.half_precision, device_.type());
     output = network_->forward(images);
   }
-  const SoloLoss parts = solo_loss(output, batch.targets, images, group_.as_sum());
+  const SoloLoss parts =
+      solo_loss(output, batch.targets, images, group_.as_sum(), config_.schedule.mask_pairs);
   const torch::Tensor loss = parts.category + config_.schedule.mask_weight * parts.mask;
   loss.backward();
   add_gradients();

@@ -66,7 +66,8 @@ TrainingRun::TrainingRun(const TrainingConfig& config, const fs::path& folder, i
         at::set_num_threads(threads > 0 ? threads : cores_of(place));
         torch::manual_seed(static_cast<std::uint64_t>(config.seed));
         return Trainer(config, group_);
-      }()) {
+      }()),
+      stop_(stop) {
   if (group_.is_first()) {
     lock_.emplace(folder);
     for (const TrainingData& set : config.validation) {
@@ -147,6 +148,11 @@ bool TrainingRun::all_of(bool here) {
   return group_.sum(torch::tensor(here ? 0 : 1)).item<int>() == 0;
 }
 
+/// Several processes end together, at the next event.
+bool TrainingRun::stopped() const {
+  return group_.size() == 1 && stop_ && stop_();
+}
+
 /// Of the steps since the last point.
 LossPoint TrainingRun::mean_of_recent() {
   const torch::Tensor mean =
@@ -211,7 +217,7 @@ bool TrainingRun::after_step(const torch::Tensor& losses) {
   if (recent_.size() >= kStepsPerPoint) going = log_losses();
   if (every(config_.validation_every)) going = validate() && going;
   if (every(config_.checkpoint_every)) checkpoint();
-  return going;
+  return going && !stopped();
 }
 
 bool TrainingRun::log_losses() {

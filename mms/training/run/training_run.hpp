@@ -35,7 +35,8 @@ class TrainingRun {
   /// Continues the training in the folder, if there is one.
   /// @param threads  of the network; 0: one per core
   /// @param place    of this process among those of the training
-  /// @param stop     asked while this process waits for the others; true ends that by an Error
+  /// @param stop     asked while this process waits for the others: true ends that by an Error; a
+  /// process without others asks it after each step: true ends the training as the callback does
   /// @throws ConfigError, DataError, FileError for settings without data, a folder with a training
   /// with other settings, or files that cannot be read or written; Error if other processes do not
   /// start or end too early, also in `train`.
@@ -65,6 +66,7 @@ class TrainingRun {
   void check_finite();
   bool tell(const TrainingEvent& event);
   bool all_of(bool here);
+  bool stopped() const;
   void tell_left_out(const CocoFaults& of_training);
   bool after_step(const torch::Tensor& losses);
   bool log_losses();
@@ -85,6 +87,7 @@ class TrainingRun {
   CocoFaults validation_faults_;
   std::vector<torch::Tensor> recent_;  ///< losses not yet logged
   std::function<bool(const TrainingEvent&)> callback_;
+  std::function<bool()> stop_;
   int first_image_ = 0;  ///< images before this start
   std::chrono::steady_clock::time_point clock_;
 };
