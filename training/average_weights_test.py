@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""Tests of average_weights.py."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import average_weights as weights
+
+SCRIPT = Path(__file__).with_name("average_weights.py")
+
+
+class Averaging(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def write(self, name, tensors, metadata=None):
+        path = Path(self.folder.name) / name
+        weights.write_weights(path, metadata or {"network.size": "nano"}, tensors)
+        return str(path)
+
+    def run_script(self, *arguments):
+        output = Path(self.folder.name) / "out.safetensors"
+        done = subprocess.run(
+            [sys.executable, SCRIPT, *arguments, "-o", output], capture_output=True, text=True
+        )
+        return done, output
+
+    def test_mixes_by_share(self):
+        a = {"x": np.float32([[1, 2]]), "y": np.float16([8])}
+        b = {"x": np.float32([[5, 2]]), "y": np.float16([0])}
+        done, output = self.run_script(
+            self.write("a", a), self.write("b", b), "--share", "0.25"
+        )
+        self.assertEqual(done.stderr, "")
+        metadata, mixed = weights.tensors_of(output)
+        self.assertEqual(metadata, {"network.size": "nano"})
+        np.testing.assert_array_equal(mixed["x"], np.float32([[2, 2]]))
+        np.testing.assert_array_equal(mixed["y"], np.float16([6]))
+        self.assertEqual(mixed["y"].dtype, np.float16)
+
+    def test_errors_name_the_tensor(self):
+        a = self.write("a", {"x": np.float32([1])})
+        for other in ({"x": np.float32([1, 2])}, {"z": np.float32([1])}):
+            done, output = self.run_script(a, self.write("b", other))
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("x: (1,) in one file", done.stderr)
+            self.assertFalse(output.exists())
+        more = self.write("b", {"x": np.float32([1]), "z": np.float32([1])})
+        self.assertIn("z: is only in the second", self.run_script(a, more)[0].stderr)
+
+    def test_errors_of_files(self):
+        a = self.write("a", {"x": np.float32([1])})
+        other = self.write("b", {"x": np.float32([1])}, {"network.size": "r18"})
+        self.assertIn("different networks", self.run_script(a, other)[0].stderr)
+        self.assertIn("allowed: 0 to 1", self.run_script(a, a, "--share", "2")[0].stderr)
+        damaged = Path(self.folder.name) / "damaged"
+        damaged.write_bytes(b"\x05\x00")
+        self.assertIn("cannot be read", self.run_script(a, damaged)[0].stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
