@@ -169,6 +169,18 @@ TEST(Open3d, TakesFoldersOfSimilarNames) {
   }
 }
 
+TEST(Open3d, LeavesFoldersWithAListToIt) {
+  for (const char* list : {"associations.txt", "assoc.txt"}) {
+    const TempFolder folder;
+    write_open3d(folder, "images", 2);
+    folder.write("calibration.yaml", kCalibration);
+    folder.write(list, "1.5 images/00001.png 1.5 depth/00001.png\n");
+    const Playback played(open_dataset(folder.path()));
+    ASSERT_EQ(played.frames.size(), 1U) << list;
+    EXPECT_EQ(played.frames[0].stamp, Timestamp(1'500'000'000));
+  }
+}
+
 TEST(Open3d, TakesStampsFromNames) {
   const TempFolder folder;
   for (const char* name : {"1305031102175304000.png", "1305031102208304000.png"}) {

@@ -166,9 +166,9 @@ std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
   recording.invalid_depth = 65535;
   const std::vector<FrameFiles> frames = find_frames(list_folder(folder));
   const bool seven_scenes = is_seven_scenes(frames.front());
-  recording.facts.emplace_back(seven_scenes
-                                   ? "layout: color, depth and pose files in one folder (7-Scenes)"
-                                   : "layout: color and depth images in one folder");
+  recording.facts.emplace_back(
+      seven_scenes ? "layout: color, depth and pose files in one folder, as 7-Scenes"
+                   : "layout: color and depth images in one folder");
   const AssumedRate& rate = seven_scenes ? kDataSetRate : kUnknownRate;
   std::vector<fs::path> poses;
   for (const FrameFiles& files : frames) {

@@ -9,6 +9,7 @@
 #include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/first_image.hpp"
 #include "mms/dataset/source/folder_names.hpp"
+#include "mms/dataset/source/image_list.hpp"
 #include "mms/io/config/camera_json.hpp"
 #include "mms/io/image/picture_files.hpp"
 #include "mms/io/text/files.hpp"
@@ -25,7 +26,7 @@ constexpr const char* kColorFolders[] = {"color", "image", "rgb",   "colors", "i
                                          "Color", "RGB",   "rgb_0", "color_0"};
 constexpr const char* kDepthFolders[] = {"depth", "depths", "Depth", "depth_0"};
 constexpr const char* kCameraFiles[] = {"camera_intrinsic.json", "intrinsic.json"};
-constexpr const char* kTumLists[] = {"rgb.txt", "color.txt", "depth.txt", "associations.txt"};
+constexpr const char* kTumLists[] = {"rgb.txt", "color.txt", "depth.txt"};
 constexpr std::size_t kLinesPerPose = 5;  // one with numbers, four with a matrix
 
 bool has_camera_file(const std::vector<std::string>& names) {
@@ -93,7 +94,7 @@ void read_trajectory_log(RgbdRecording& recording, const std::vector<std::int64_
 }  // namespace
 
 bool is_open3d_layout(const std::vector<std::string>& names) {
-  if (first_of(names, kTumLists) != nullptr) return false;
+  if (first_of(names, kTumLists) != nullptr || first_of(names, kPairNames) != nullptr) return false;
   const char* color = first_of(names, kColorFolders);
   const char* depth = first_of(names, kDepthFolders);
   if (color == nullptr || depth == nullptr) return false;

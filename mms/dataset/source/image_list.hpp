@@ -8,6 +8,10 @@
 
 namespace mms {
 
+/// Names of lists of pairs of color and depth images, for ORB-SLAM and others.
+inline constexpr const char* kPairNames[] = {"associations.txt", "association.txt", "associate.txt",
+                                             "associated.txt", "assoc.txt"};
+
 /// One line "stamp path" of a TUM image list.
 struct ListedImage {
   Timestamp stamp;             ///< as in the list

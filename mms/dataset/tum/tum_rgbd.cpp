@@ -29,10 +29,6 @@ struct ListNames {
 constexpr ListNames kListNames[] = {{"rgb.txt", "depth.txt"},
                                     {"color.txt", "aligned_depth.txt"}};  // OpenLORIS
 
-/// Pairs of color and depth images, for ORB-SLAM and others.
-constexpr const char* kPairNames[] = {"associations.txt", "association.txt", "associate.txt",
-                                      "associated.txt", "assoc.txt"};
-
 /// Empty if there is none.
 fs::path find_pairs(const fs::path& folder) {
   for (const char* name : kPairNames) {
