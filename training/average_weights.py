@@ -22,29 +22,24 @@ def fail(text):
     sys.exit(f"average_weights.py: {text}")
 
 
-def read_weights(path):
-    """The header of a safetensors file, and its data."""
+def tensors_of(path):
+    """Metadata, and the tensors by name, in the order of the header."""
     try:
         content = Path(path).read_bytes()
         (length,) = struct.unpack("<Q", content[:HEAD_LENGTH])
-        return json.loads(content[HEAD_LENGTH : HEAD_LENGTH + length]), content[HEAD_LENGTH + length :]
-    except (OSError, ValueError, struct.error) as error:
+        header = json.loads(content[HEAD_LENGTH : HEAD_LENGTH + length])
+        data = content[HEAD_LENGTH + length :]
+        metadata = header.pop(METADATA, {})
+        tensors = {}
+        for name, entry in header.items():
+            kind = entry["dtype"]
+            if kind not in TYPES:
+                fail(f"{path}: {name} is {kind}, expected F32 or F16; average before mms quantize")
+            begin, end = entry["data_offsets"]
+            tensors[name] = np.frombuffer(data[begin:end], TYPES[kind]).reshape(entry["shape"])
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, struct.error) as error:
         fail(f"{path}: cannot be read as safetensors: {error}")
-
-
-def tensors_of(path):
-    """Metadata, and the tensors by name, in the order of the header."""
-    header, data = read_weights(path)
-    tensors = {}
-    for name, entry in header.items():
-        if name == METADATA:
-            continue
-        if entry["dtype"] not in TYPES:
-            fail(f"{path}: {name} is {entry['dtype']}, expected F32 or F16; average before mms quantize")
-        begin, end = entry["data_offsets"]
-        values = np.frombuffer(data[begin:end], TYPES[entry["dtype"]])
-        tensors[name] = values.reshape(entry["shape"])
-    return header.get(METADATA, {}), tensors
+    return metadata, tensors
 
 
 def average(first, second, share):
@@ -75,7 +70,13 @@ def write_weights(path, metadata, tensors):
         data += content
     text = json.dumps(header, separators=(",", ":")).encode()
     text += b" " * (-len(text) % HEAD_LENGTH)
-    Path(path).write_bytes(struct.pack("<Q", len(text)) + text + data)
+    part = Path(f"{path}.part")
+    try:
+        part.write_bytes(struct.pack("<Q", len(text)) + text + data)
+        part.replace(path)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        fail(f"{path}: cannot be written: {error}")
 
 
 def main():
@@ -87,6 +88,8 @@ def main():
     arguments = parser.parse_args()
     if not 0 <= arguments.share <= 1:
         fail(f"--share is {arguments.share}, allowed: 0 to 1")
+    if Path(arguments.output).exists():
+        fail(f"{arguments.output}: exists already")
     metadata, first = tensors_of(arguments.first)
     other_metadata, second = tensors_of(arguments.second)
     if metadata != other_metadata:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Tests of average_weights.py."""
 
+import struct
 import subprocess
 import sys
 import tempfile
@@ -59,9 +60,35 @@ class Averaging(unittest.TestCase):
         other = self.write("b", {"x": np.float32([1])}, {"network.size": "r18"})
         self.assertIn("different networks", self.run_script(a, other)[0].stderr)
         self.assertIn("allowed: 0 to 1", self.run_script(a, a, "--share", "2")[0].stderr)
+        unwritable = str(Path(self.folder.name) / "none" / "out")
+        done = subprocess.run(
+            [sys.executable, SCRIPT, a, a, "-o", unwritable], capture_output=True, text=True
+        )
+        self.assertIn("cannot be written", done.stderr)
+
+    def test_keeps_an_existing_file(self):
+        a = self.write("a", {"x": np.float32([1])})
+        done, output = self.run_script(a, a)
+        self.assertEqual(done.returncode, 0)
+        before = output.read_bytes()
+        self.assertIn("exists already", self.run_script(a, a)[0].stderr)
+        self.assertEqual(output.read_bytes(), before)
+
+    def test_damaged_files_give_one_sentence(self):
+        a = self.write("a", {"x": np.float32([1, 2])})
+        content = Path(a).read_bytes()
         damaged = Path(self.folder.name) / "damaged"
-        damaged.write_bytes(b"\x05\x00")
-        self.assertIn("cannot be read", self.run_script(a, damaged)[0].stderr)
+        cases = [content[:length] for length in range(0, len(content), 7)]
+        cases.append(content.replace(b"[2]", b"[9]"))
+        cases.append(content.replace(b"dtype", b"dtypo"))
+        cases.append(struct.pack("<Q", 2) + b"[]")
+        for case in cases:
+            damaged.write_bytes(case)
+            done, output = self.run_script(a, damaged)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("cannot be read", done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+            self.assertFalse(output.exists())
 
 
 if __name__ == "__main__":
