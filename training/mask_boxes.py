@@ -44,11 +44,24 @@ def window(box, context, size):
     )
 
 
-def picture_of(path):
+def picture_of(path, image):
+    """The picture of an entry of the COCO file."""
     try:
-        return Image.open(path).convert("RGB")
+        picture = Image.open(path).convert("RGB")
     except OSError as error:
         sys.exit(f"cannot read {path}: {error}")
+    if picture.size != (image["width"], image["height"]):
+        sys.exit(f"{path} has {picture.size} pixels, not those of its entry")
+    return picture
+
+
+def is_usable(box, image):
+    """Whether a box is large enough, and within its image but for rounding."""
+    x, y, width, height = box
+    return (
+        height >= MIN_HEIGHT and width >= 1 and x >= -1 and y >= -1
+        and x + width <= image["width"] + 1 and y + height <= image["height"] + 1
+    )
 
 
 def enlarged(picture, cut):
@@ -138,7 +151,7 @@ def start_network(program, weights, pictures, folder):
 
 def segmented(program, weights, pictures):
     """The network's masks of pictures, a list per picture; a process per core."""
-    cores = os.cpu_count() or 1
+    cores = min(os.cpu_count() or 1, len(pictures))
     with tempfile.TemporaryDirectory() as folder:
         folders = [Path(folder) / str(core) for core in range(cores)]
         started = [
@@ -171,7 +184,7 @@ def mask_people(people, images, folder, program, weights):
         for entry in part:
             name = images[entry["image_id"]]["file_name"]
             if opened[0] != name:
-                opened = (name, picture_of(folder / name))
+                opened = (name, picture_of(folder / name, images[entry["image_id"]]))
             for context in CONTEXT:
                 cuts.append(window(entry["bbox"], context, opened[1].size))
                 pictures.append(enlarged(opened[1], cuts[-1]))
@@ -210,7 +223,7 @@ def main():
     people = [
         entry for entry in content["annotations"]
         if entry.get("box_only") and entry["category_id"] == PERSON and not entry.get("iscrowd")
-        and entry["bbox"][3] >= MIN_HEIGHT
+        and is_usable(entry["bbox"], images[entry["image_id"]])
         and images[entry["image_id"]].get("split") not in options.skip
     ]
     done = masked = 0

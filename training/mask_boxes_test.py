@@ -29,6 +29,14 @@ class Windows(unittest.TestCase):
         self.assertEqual(mask_boxes.window((0, 0, 400, 300), 2, (500, 320)), (0, 0, 500, 320))
 
 
+    def test_boxes_that_cannot_be_used(self):
+        image = {"width": 100, "height": 80}
+        self.assertTrue(mask_boxes.is_usable((0, 0, 100.4, 80), image))
+        small, outside, empty = (0, 0, 30, 10), (90, 10, 30, 30), (5, 5, 0, 30)
+        for box in (small, outside, empty, (float("nan"), 0, 30, 30)):
+            self.assertFalse(mask_boxes.is_usable(box, image))
+
+
 class Masks(unittest.TestCase):
     shape = (100, 120)
 
