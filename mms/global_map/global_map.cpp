@@ -269,6 +269,7 @@ std::vector<std::size_t> GlobalMap::around(const Transform<Global, Sensor>& expe
 /// then those around the expected place, then those that place recognition finds.
 std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record,
                                        const std::optional<Transform<Global, Sensor>>& expected) {
+  if (record.is_pose_only()) return {};  // of another map, which has its place already
   const std::vector<Eigen::Isometry3d>& poses = graph_.poses();
   const std::size_t end = graph_.first_recent(config_.min_path);
   const int min_inliers = min_inliers_of(config_.loops, record);

@@ -99,6 +99,35 @@ void remove_old_partial(const fs::path& path) {
   fs::remove(journal_of(path), ignored);
 }
 
+/// Makes all reads of its lifetime see the same state of the database.
+class Snapshot {
+ public:
+  explicit Snapshot(const SqliteDatabase& database) : database_(database) {
+    database_.execute("SAVEPOINT snapshot");
+  }
+  ~Snapshot() {
+    try {
+      database_.execute("RELEASE snapshot");
+    } catch (const Error&) {  // a fault of the database ended it
+    }
+  }
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
+
+ private:
+  const SqliteDatabase& database_;
+};
+
+/// Removes the sessions from `end` on.
+void remove_sessions(GlobalMapContent& content, std::size_t end) {
+  while (!content.records.empty() && content.records.back().session >= end) {
+    content.records.pop_back();
+  }
+  content.poses.resize(content.records.size());
+  std::erase_if(content.loops,
+                [&](const Loop& loop) { return loop.query >= content.records.size(); });
+}
+
 /// A place for a new map, that has none or an older one.
 void check_target(const fs::path& path) {
   std::error_code error;
@@ -199,8 +228,8 @@ MapFile::MapFile(const fs::path& path, Mode mode) : path_(path) {
 }
 
 MapFile::MapFile(const fs::path& path, const fs::path& source) : path_(path) {
-  write_partial();
   const auto from = open_existing(source, Access::kRead);
+  write_partial();
   from->execute("PRAGMA query_only = 0");  // VACUUM INTO writes, but another file
   SqliteStatement copy = from->prepare("VACUUM INTO ?1");
   copy.bind_text(1, written_->path().string()).run();
@@ -210,9 +239,16 @@ MapFile::MapFile(const fs::path& path, const fs::path& source) : path_(path) {
 
 MapFile::~MapFile() = default;
 
-/// Prepares a new file beside the place of the map.
+/// Prepares a new file beside the place of the map. A map that is there stays as it is until then.
 void MapFile::write_partial() {
   check_target(path_);
+  // Last: closing any other descriptor of the file ends the lock (POSIX).
+  if (fs::exists(path_)) {
+    try {
+      replaced_ = std::make_unique<SqliteDatabase>(path_, Access::kWrite);
+    } catch (const DataError&) {  // a damaged one
+    }
+  }
   const fs::path partial = partial_of(path_);
   remove_old_partial(partial);
   written_.emplace(partial);
@@ -248,9 +284,7 @@ void MapFile::read_sessions() {
 }
 
 std::size_t MapFile::keyframes() const {
-  SqliteStatement count = database_->prepare("SELECT count(*) FROM keyframes");
-  count.next();
-  return static_cast<std::size_t>(count.integer(0));
+  return count_of("keyframes");
 }
 
 std::size_t MapFile::loops() const {
@@ -266,7 +300,16 @@ std::size_t MapFile::points(std::uint32_t session) const {
   return static_cast<std::size_t>(points.integer(0));
 }
 
+std::size_t MapFile::count_of(const std::string& table) const {
+  SqliteStatement count = database_->prepare("SELECT count(*) FROM " + table);
+  count.next();
+  return static_cast<std::size_t>(count.integer(0));
+}
+
 GlobalMapContent MapFile::content(const WarningHandler& warn) const {
+  const Snapshot snapshot(*database_);
+  // More than those that are known, if a run added some meanwhile.
+  const std::size_t sessions = count_of("sessions");
   GlobalMapContent content;
   SqliteStatement rows = database_->prepare(fmt::format(
       "SELECT number, session, stamp, after_lost, {} FROM keyframes ORDER BY number", kPose));
@@ -278,8 +321,7 @@ GlobalMapContent MapFile::content(const WarningHandler& warn) const {
     const std::int64_t session = rows.integer(1);
     const std::int64_t least = number == 0 ? 0 : content.records.back().session;
     if (rows.integer(0) != static_cast<std::int64_t>(number) || session < least ||
-        session > (number == 0 ? 0 : least + 1) ||
-        session >= static_cast<std::int64_t>(sessions_.size())) {
+        session > (number == 0 ? 0 : least + 1) || session >= static_cast<std::int64_t>(sessions)) {
       throw DataError(where, "is damaged: it is out of order");
     }
     record.session = static_cast<std::uint32_t>(session);
@@ -300,9 +342,9 @@ GlobalMapContent MapFile::content(const WarningHandler& warn) const {
     content.records.push_back(std::move(record));
   }
   const std::size_t found = content.records.empty() ? 0 : content.records.back().session + 1;
-  if (found == 0 || found != sessions_.size()) {
+  if (found == 0 || found != sessions) {
     throw DataError(path_.string(), fmt::format("is damaged: it has keyframes of {} sessions of {}",
-                                                found, sessions_.size()));
+                                                found, sessions));
   }
   SqliteStatement poses =
       database_->prepare(fmt::format("SELECT keyframe, {} FROM poses ORDER BY keyframe", kPose));
@@ -325,6 +367,7 @@ GlobalMapContent MapFile::content(const WarningHandler& warn) const {
     const std::string where = fmt::format("{}: loop {}", path_.string(), content.loops.size());
     content.loops.push_back(loop_of(loops, content.records.size(), where));
   }
+  remove_sessions(content, sessions_.size());
   return content;
 }
 
@@ -438,10 +481,10 @@ void MapFile::commit() {
   if (error) throw FileError(path_.string(), "cannot be written: " + error.message());
   written_->release();
   written_.reset();
+  replaced_.reset();
 }
 
 void compact_map_file(const fs::path& path) {
-  const MapFile lock(path, MapFile::Mode::kExtend);
   MapFile(path, path).commit();
 }
 

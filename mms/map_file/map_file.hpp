@@ -72,9 +72,11 @@ class MapFile {
 
  private:
   void write_partial();
+  std::size_t count_of(const std::string& table) const;
   void read_sessions();
 
   std::filesystem::path path_;
+  std::unique_ptr<SqliteDatabase> replaced_;  ///< the map at `path_`, locked until it is replaced
   std::optional<TemporaryPath> written_;      ///< the file that is renamed to `path_`, if any
   std::optional<TemporaryPath> journal_;      ///< SQLite's beside it
   std::unique_ptr<SqliteDatabase> database_;  ///< closed before its files are removed

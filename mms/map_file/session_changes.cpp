@@ -41,6 +41,28 @@ struct Evidence {
   bool is_through() const { return through >= kMinViews && surface == 0; }
 };
 
+/// What the other sessions say about a point of one session.
+class PointHistory {
+ public:
+  /// Adds the sessions one after the other.
+  void add(const Evidence& seen, bool is_later) {
+    is_known_ = is_known_ || seen.surface > 0;
+    is_new_ = is_new_ || (!is_later && seen.is_through());
+    if (is_later && (seen.surface > 0 || seen.is_through())) is_gone_ = seen.is_through();
+  }
+
+  Change change() const {
+    if (is_gone_) return Change::kGone;
+    if (is_new_) return Change::kNew;
+    return is_known_ ? Change::kUnchanged : Change::kUnknown;
+  }
+
+ private:
+  bool is_known_ = false;
+  bool is_new_ = false;
+  bool is_gone_ = false;  ///< by the last session that looked there
+};
+
 bool may_see_into(const FreeSpace& space, const Eigen::Vector3f& center, float radius) {
   return space.may_see_into(center, radius);
 }
@@ -91,10 +113,22 @@ class PointCubes {
   std::vector<Cube> cubes_;
 };
 
-Change change_of(const Evidence& earlier, const Evidence& later) {
-  if (later.is_through()) return Change::kGone;
-  if (earlier.is_through()) return Change::kNew;
-  return earlier.surface + later.surface > 0 ? Change::kUnchanged : Change::kUnknown;
+/// Compares points of the map with the keyframes of a session.
+std::vector<Evidence> evidence_of(std::uint32_t session, const GlobalMapContent& content,
+                                  const PointCubes& cubes, std::size_t points,
+                                  const DepthNoise& noise) {
+  std::vector<Evidence> evidence(points);
+  for (std::size_t i = 0; i < content.records.size(); ++i) {
+    const KeyframeRecord& record = content.records[i];
+    if (record.session != session || record.is_pose_only()) continue;
+    const Eigen::Isometry3f T_view_map = content.poses[i].inverse().cast<float>();
+    if (record.is_scan()) {
+      cubes.compare(ScanFreeSpace(record.scan.cloud(), kScanMargin), T_view_map, evidence);
+    } else {
+      cubes.compare(FreeSpace(record.view.cloud(), kMargin, noise), T_view_map, evidence);
+    }
+  }
+  return evidence;
 }
 
 }  // namespace
@@ -114,25 +148,20 @@ MapCloud points_of(const MapChangeCloud& cloud, std::initializer_list<Change> ch
 MapChangeCloud find_changes(const MapFile& file, const GlobalMapContent& content,
                             const DepthNoise& noise, const MapFile::WarningHandler& warn) {
   MapChangeCloud result;
-  for (const std::uint32_t session : joined_sessions(content)) {
+  const std::vector<std::uint32_t> sessions = joined_sessions(content);
+  for (const std::uint32_t session : sessions) {
     const StampedMap surfaces = corrected_surfaces(file, content, session, warn);
     const PointCubes cubes(surfaces.cloud.points);
-    std::vector<Evidence> earlier(surfaces.cloud.size());
-    std::vector<Evidence> later(surfaces.cloud.size());
-    for (std::size_t i = 0; i < content.records.size(); ++i) {
-      const KeyframeRecord& record = content.records[i];
-      if (record.session == session || record.is_pose_only()) continue;
-      const Eigen::Isometry3f T_view_map = content.poses[i].inverse().cast<float>();
-      std::vector<Evidence>& evidence = record.session < session ? earlier : later;
-      if (record.is_scan()) {
-        cubes.compare(ScanFreeSpace(record.scan.cloud(), kScanMargin), T_view_map, evidence);
-      } else {
-        cubes.compare(FreeSpace(record.view.cloud(), kMargin, noise), T_view_map, evidence);
+    std::vector<PointHistory> histories(surfaces.cloud.size());
+    for (const std::uint32_t other : sessions) {
+      if (other == session) continue;
+      const std::vector<Evidence> evidence =
+          evidence_of(other, content, cubes, histories.size(), noise);
+      for (std::size_t i = 0; i < histories.size(); ++i) {
+        histories[i].add(evidence[i], other > session);
       }
     }
-    for (std::size_t i = 0; i < earlier.size(); ++i) {
-      result.changes.push_back(change_of(earlier[i], later[i]));
-    }
+    for (const PointHistory& history : histories) result.changes.push_back(history.change());
     append(result.map, surfaces.cloud);
     result.voxel_size = std::max(result.voxel_size, file.sessions()[session].voxel_size);
   }

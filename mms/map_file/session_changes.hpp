@@ -15,7 +15,7 @@ namespace mms {
 enum class Change : std::uint8_t {
   kUnchanged,  ///< another session measured a surface there
   kNew,        ///< an earlier session saw through it
-  kGone,       ///< a later session saw through it
+  kGone,       ///< the last later session that looked there saw through it
   kUnknown,    ///< no other session looked there
 };
 
@@ -35,8 +35,8 @@ struct MapChangeCloud {
 /// The points with some of the changes, one a voxel.
 MapCloud points_of(const MapChangeCloud& cloud, std::initializer_list<Change> changes);
 
-/// Compares the sessions of a map, by their order. A point is seen through by a session if two of
-/// its keyframes measured a surface behind it, and none one there.
+/// Compares the joined sessions of a map, by their order. A point is seen through by a session if
+/// two of its keyframes measured a surface behind it, and none one there.
 /// @param noise  of the depth images
 /// @param warn   called for each damaged part that is left out
 MapChangeCloud find_changes(const MapFile& file, const GlobalMapContent& content,

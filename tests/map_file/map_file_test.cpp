@@ -169,6 +169,33 @@ TEST(MapFile, TheSecondWriterIsRefusedAndReadersAreWelcome) {
   EXPECT_TRUE(reader.check().empty());
 }
 
+TEST(MapFile, AMapThatARunExtendsIsNotReplaced) {
+  const TempFolder folder;
+  write_first_session(folder.path() / "a");
+  {
+    const MapFile writer(folder.path() / "a", Mode::kExtend);
+    EXPECT_NE(message_of(folder.path() / "a", Mode::kCreate).find("another process"),
+              std::string::npos);
+    EXPECT_THROW(compact_map_file(folder.path() / "a"), FileError);
+  }
+  const MapFile replacing(folder.path() / "a", Mode::kCreate);
+  EXPECT_NE(message_of(folder.path() / "a", Mode::kExtend).find("another process"),
+            std::string::npos);
+}
+
+TEST(MapFile, AReaderSeesTheSessionsThatWereThere) {
+  const TempFolder folder;
+  write_first_session(folder.path() / "a");
+  const MapFile reader(folder.path() / "a", Mode::kRead);
+  const std::size_t before = reader.content(refuse).loops.size();
+  extend(folder.path() / "a");
+  EXPECT_TRUE(reader.check().empty());
+  const GlobalMapContent content = reader.content(refuse);
+  EXPECT_EQ(content.records.size(), static_cast<std::size_t>(kSteps));
+  EXPECT_EQ(content.poses.size(), static_cast<std::size_t>(kSteps));
+  EXPECT_EQ(content.loops.size(), before);
+}
+
 TEST(MapFile, TwoRunsDoNotMakeOneFile) {
   const TempFolder folder;
   {

@@ -105,8 +105,10 @@ KeyframeRecord seen_room(std::uint32_t session, double x, bool with_box, Timesta
   return record;
 }
 
-/// Two sessions of a room; the box comes first in their spatial order.
-std::vector<Change> changes_of(bool box_first, bool box_later, const std::string& name) {
+/// Sessions of a room with or without a box, which comes first in their spatial order.
+/// @param joined  number of the sessions that loops join
+std::vector<Change> changes_of(const std::vector<bool>& boxes, const std::string& name,
+                               std::size_t joined) {
   const TempFolder folder;
   GlobalMapContent content;
   const auto surfaces = [&](bool with_box) {
@@ -124,30 +126,48 @@ std::vector<Change> changes_of(bool box_first, bool box_later, const std::string
     return result;
   };
   MapFile file(folder.path() / name, MapFile::Mode::kCreate);
-  for (std::uint32_t session = 0; session < 2; ++session) {
-    const bool with_box = session == 0 ? box_first : box_later;
+  for (std::uint32_t session = 0; session < boxes.size(); ++session) {
+    const bool with_box = boxes[session];
     for (const double x : {0.0, 0.1, 0.2}) {
       content.records.push_back(seen_room(session, x, with_box, Timestamp(1)));
       content.poses.push_back(content.records.back().T_world_sensor.isometry());
     }
     file.add_session(some_session(name), surfaces(with_box), content.records);
   }
-  Loop loop;
-  loop.candidate = 0;
-  loop.query = 3;
-  loop.outcome = LoopOutcome::kAccepted;
-  content.loops = {loop};
+  for (std::size_t session = 1; session < joined; ++session) {
+    Loop loop;
+    loop.candidate = 0;
+    loop.query = 3 * session;
+    loop.outcome = LoopOutcome::kAccepted;
+    content.loops.push_back(loop);
+  }
   file.set_graph(content.poses, content.loops);
   return find_changes(file, content, DepthNoise{}, refuse).changes;
 }
 
 TEST(MapChanges, AreFoundByFreeSpace) {
   using enum Change;
-  EXPECT_EQ(changes_of(true, false, "gone"),
+  EXPECT_EQ(changes_of({true, false}, "gone", 2),
             (std::vector{kGone, kUnchanged, kUnknown, kUnchanged, kUnknown}));
-  EXPECT_EQ(changes_of(false, true, "new"),
+  EXPECT_EQ(changes_of({false, true}, "new", 2),
             (std::vector{kUnchanged, kUnknown, kNew, kUnchanged, kUnknown}));
-  EXPECT_EQ(changes_of(true, true, "same"),
+  EXPECT_EQ(changes_of({true, true}, "same", 2),
+            (std::vector{kUnchanged, kUnchanged, kUnknown, kUnchanged, kUnchanged, kUnknown}));
+}
+
+TEST(MapChanges, TheLastSessionTellsWhatIsGone) {
+  using enum Change;
+  EXPECT_EQ(changes_of({true, true, false}, "gone", 3),
+            (std::vector{kGone, kUnchanged, kUnknown, kGone, kUnchanged, kUnknown, kUnchanged,
+                         kUnknown}));
+  EXPECT_EQ(changes_of({true, false, true}, "back", 3),
+            (std::vector{kUnchanged, kUnchanged, kUnknown, kUnchanged, kUnknown, kNew, kUnchanged,
+                         kUnknown}));
+}
+
+TEST(MapChanges, SessionsInAnotherFrameSayNothing) {
+  using enum Change;
+  EXPECT_EQ(changes_of({true, true, false}, "other", 2),
             (std::vector{kUnchanged, kUnchanged, kUnknown, kUnchanged, kUnchanged, kUnknown}));
 }
 
@@ -209,6 +229,25 @@ TEST(MapMerge, JoinsWorldsThatWereUnrelated) {
   for (std::size_t i = 0; i < 24; ++i) {
     EXPECT_LT(distance(content.poses[i], T * view(i)), 0.03) << i;
   }
+}
+
+TEST(MapMerge, TakesKeyframesOfWhichOnlyThePoseIsKept) {
+  const TempFolder folder;
+  write_part(folder.path() / "a", 0, 12, 1, Eigen::Isometry3d::Identity());
+  GlobalMap visited = empty_map();
+  drive(visited, 6, 18, other_world());
+  std::deque<KeyframeRecord> records = visited.records();
+  records[6].features = {};  // as at a place that was visited often
+  records[6].keypoints = {};
+  records[6].view = {};
+  {
+    MapFile file(folder.path() / "b", MapFile::Mode::kCreate);
+    file.add_session(some_session("b"), some_surfaces(visited, 2000, 2), records);
+    file.set_graph(visited.poses(), visited.loops());
+    file.commit();
+  }
+  EXPECT_GT(merged_map({folder.path() / "a", folder.path() / "b"}, folder.path() / "ab").size(),
+            3000U);
 }
 
 TEST(MapMerge, RefusesACopy) {
