@@ -52,8 +52,10 @@ std::vector<Loop> LoopConfirmation::confirm(LoopGraph& graph, int min_inliers) {
     const Eigen::Isometry3d difference = pose_by(loops[i]).inverse() * pose_by(loop);
     return difference.translation().norm() < kMaxDifference && se3::angle(difference) < kMaxTurn;
   };
-  std::erase_if(pending_,
-                [&](std::size_t i) { return loops[i].query + kConfirmation < loop.query; });
+  std::erase_if(pending_, [&](std::size_t i) {
+    return loops[i].query + kConfirmation < loop.query ||
+           loops[i].outcome == LoopOutcome::kInconsistent;
+  });
   std::vector<Loop> accepted;
   std::vector<std::size_t> others;
   std::copy_if(pending_.begin(), pending_.end(), std::back_inserter(others), agrees);

@@ -98,7 +98,8 @@ void LoopGraph::solve() {
   if (fixed_ > 0) graph_.fix(std::max(fixed_, size() - std::min(size(), kWindow)));
   for (const PoseEdge& removed : graph_.solve()) {
     for (Loop& loop : loops_) {
-      if (loop.candidate == removed.a && loop.query == removed.b) {
+      if (loop.outcome == LoopOutcome::kAccepted && loop.candidate == removed.a &&
+          loop.query == removed.b) {
         loop.outcome = LoopOutcome::kInconsistent;
       }
     }
