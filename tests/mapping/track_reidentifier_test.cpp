@@ -86,6 +86,16 @@ TEST(TrackReidentifier, ReidentifiesWhileTrackCoasts) {
   EXPECT_EQ(map.confirmed(), 1);
 }
 
+TEST(TrackReidentifier, OnlyOneOfTwoAlikeContinuesACoastingTrack) {
+  DynamicMap map;
+  update(map, 0.0, {{3.0, -2.0, kRed}});
+  update(map, 1.4, {{3.0, -0.5, kRed}, {3.0, -3.5, kRed}});
+  const std::vector<int> both = ids(map);
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_NE(both[0], both[1]);
+  EXPECT_EQ(map.confirmed(), 2);
+}
+
 TEST(TrackReidentifier, NewIdBesideVisiblePersonOfEqualAppearance) {
   DynamicMap map;
   update(map, 0.0, {{3.0, -2.0, kRed}});

@@ -98,7 +98,7 @@ void DynamicMap::confirm_seen() {
   std::vector<int> back;
   for (Track& track : tracks_) {
     if (track.confirmed() || track.last_seen() != last_stamp_ || !is_sure(track)) continue;
-    if (const std::optional<Track> lost = reidentify(track)) {
+    if (const std::optional<Track> lost = reidentify(track, back)) {
       track.continue_as(*lost);
       back.push_back(track.id());
     } else {
@@ -120,10 +120,12 @@ bool DynamicMap::is_sure(const Track& track) const {
 }
 
 /// The object that `track` continues: one that was lost, or is out of view and predicted elsewhere.
-std::optional<Track> DynamicMap::reidentify(const Track& track) {
+/// @param back  ids of those that another track of this frame continues
+std::optional<Track> DynamicMap::reidentify(const Track& track, const std::vector<int>& back) {
   TrackReidentifier away = lost_;
   for (const Track& other : tracks_) {
-    if (other.confirmed() && other.last_seen() != last_stamp_) away.add(other);
+    const bool is_back = std::find(back.begin(), back.end(), other.id()) != back.end();
+    if (other.confirmed() && other.last_seen() != last_stamp_ && !is_back) away.add(other);
   }
   std::optional<Track> taken = away.take(track);
   if (taken) lost_.drop(taken->id());

@@ -80,7 +80,7 @@ class DynamicMap {
   bool is_shared(const ObjectMeasurement& object, const std::vector<bool>& has_own) const;
   void confirm_seen();
   bool is_sure(const Track& track) const;
-  std::optional<Track> reidentify(const Track& track);
+  std::optional<Track> reidentify(const Track& track, const std::vector<int>& back);
   void prune();
   bool is_over(const Track& track) const;
 
