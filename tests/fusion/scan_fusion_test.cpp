@@ -35,7 +35,8 @@ struct ScanView {
 };
 
 /// 48 rings from -25 to 10 degrees, with points 0.4 degrees apart over the full turn.
-ScanView scan(const Scene& scene, int mask_grow) {
+/// @param ring_step  of so many rings, one is kept
+ScanView scan(const Scene& scene, int mask_grow, int ring_step = 1) {
   const View view = render(scene);
   ScanView result;
   auto calibration = std::make_shared<Calibration>(*view.frame.calibration);
@@ -46,7 +47,7 @@ ScanView scan(const Scene& scene, int mask_grow) {
   result.segmentation = segmentation_of(view, {mask_of(view, Surface::kPerson, mask_grow)});
   const Eigen::Isometry3f T = extrinsics().isometry().cast<float>();
   constexpr float kDegree = std::numbers::pi_v<float> / 180.0F;
-  for (int ring = 0; ring < 48; ++ring) {
+  for (int ring = 0; ring < 48; ring += ring_step) {
     const float elevation = (-25.0F + 35.0F * static_cast<float>(ring) / 47.0F) * kDegree;
     for (int step = 0; step < 900; ++step) {
       const float azimuth = (0.4F * static_cast<float>(step) + 0.01F) * kDegree;
@@ -110,6 +111,17 @@ TEST(ScanFusion, DropsAPersonLargerThanARoom) {
   const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
   EXPECT_EQ(cloud.implausible_masks, 1);
   EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.97);
+  EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.001);
+}
+
+TEST(ScanFusion, RingsTooFarApartForAClusterAreLabeledByMask) {
+  const Scene hall = Scene()
+                         .add(Surface::kFloor, {-10, 1.2F, 0}, {10, 1.3F, 20})
+                         .add(Surface::kWall, {-10, -5, 15}, {10, 1.2F, 15.1F})
+                         .add(Surface::kPerson, {-0.25F, -0.5F, 10.0F}, {0.25F, 1.2F, 10.3F});
+  const ScanView view = scan(hall, 0, 3);
+  const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.9);
   EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.001);
 }
 

@@ -33,18 +33,19 @@ std::vector<Share> shares_of(const Nodes& nodes, const DynamicPart& part) {
 }
 
 /// The masks with an object of their own, the largest first.
-std::vector<Share> owners(const std::vector<Share>& shares, std::size_t part_size,
+std::vector<Share> owners(const std::vector<Share>& shares, const DynamicPart& part, bool is_scan,
                           const FusionConfig& config) {
   const double least = std::max(static_cast<double>(config.min_points),
-                                config.division_share * static_cast<double>(part_size));
+                                config.division_share * static_cast<double>(part.nodes.size()));
   const auto apart = static_cast<float>(config.division_distance);
   std::vector<Share> kept;
   for (const Share& share : shares) {
     if (share.nodes < least) continue;
     const bool is_apart = std::all_of(kept.begin(), kept.end(), [&](const Share& other) {
-      // Across the floor; the camera is held level, so its y axis is upright.
+      // Across the floor; the sensor is held level, so a camera's y axis is upright, and a LiDAR's
+      // z axis.
       const Eigen::Vector3f offset = share.center - other.center;
-      return Eigen::Vector2f(offset.x(), offset.z()).norm() > apart;
+      return Eigen::Vector2f(offset.x(), is_scan ? offset.y() : offset.z()).norm() > apart;
     });
     if (is_apart) kept.push_back(share);
   }
@@ -65,7 +66,7 @@ std::size_t owner_of(const Nodes& nodes, std::size_t node, const std::vector<Sha
 
 std::vector<DynamicPart> divide_part(const Nodes& nodes, DynamicPart part,
                                      const FusionConfig& config) {
-  const std::vector<Share> own = owners(shares_of(nodes, part), part.nodes.size(), config);
+  const std::vector<Share> own = owners(shares_of(nodes, part), part, nodes.width == 0, config);
   std::vector<DynamicPart> parts;
   if (own.size() < 2) {
     parts.push_back(std::move(part));

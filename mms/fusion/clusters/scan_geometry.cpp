@@ -1,6 +1,7 @@
 #include "mms/fusion/clusters/scan_geometry.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "mms/fusion/clouds/nodes.hpp"
 #include "mms/fusion/clusters/cluster_list.hpp"
@@ -23,9 +24,9 @@ constexpr float kNormalRadius = 0.4F;
 constexpr std::size_t kPlaneVotes = 2500;
 
 Nodes make_nodes(const MaskImage& mask, const Calibration& calibration, const FusionConfig& config,
-                 const LabeledCloud& cloud) {
+                 std::vector<Eigen::Vector3f> points) {
   Nodes nodes;
-  nodes.points = voxel_downsample(cloud.points, static_cast<float>(config.lidar_voxel)).points;
+  nodes.points = std::move(points);
   nodes.sigma.assign(nodes.size(), static_cast<float>(config.noise.range));
   PointMask covering = project_masks(nodes.points, mask, calibration, config.stride);
   nodes.raw = std::move(covering.raw);
@@ -92,9 +93,10 @@ class DynamicNodeSearch {
 };
 
 /// Transfers the dynamic objects to all points, as `relabel_grid` does.
-void relabel_scan(const Nodes& nodes, const DynamicObjects& objects,
-                  const std::vector<Plane>& planes, const PointMask& covering,
-                  const FusionConfig& config, LabeledCloud& cloud) {
+/// @param node_of  by point
+void relabel_scan(const Nodes& nodes, const std::vector<int>& node_of,
+                  const DynamicObjects& objects, const std::vector<Plane>& planes,
+                  const PointMask& covering, const FusionConfig& config, LabeledCloud& cloud) {
   // A node is the mean of its voxel, so its points are up to a voxel from it.
   const auto radius = static_cast<float>(config.relabel_radius + config.lidar_voxel);
   const float on_plane = config.planes.distance_limit(static_cast<float>(config.noise.range));
@@ -102,7 +104,11 @@ void relabel_scan(const Nodes& nodes, const DynamicObjects& objects,
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.labels[i] == PointLabel::kInvalid) continue;
     const int object = search.nearest_object(cloud.points[i]);
-    if (object == DynamicObjects::kNone) continue;
+    if (object == DynamicObjects::kNone) {
+      const bool is_unanchored = objects.loose[static_cast<std::size_t>(node_of[i])] != 0;
+      if (is_unanchored && covering.raw[i] != 0) cloud.labels[i] = PointLabel::kDynamic;
+      continue;
+    }
     if (covering.raw[i] == 0 && is_on_any(planes, cloud.points[i], on_plane)) continue;
     cloud.labels[i] = PointLabel::kDynamic;
     cloud.cluster[i] = static_cast<std::int16_t>(object);
@@ -114,14 +120,15 @@ void relabel_scan(const Nodes& nodes, const DynamicObjects& objects,
 void fuse_scan_geometry(const MaskImage& mask, const PointMask& covering,
                         const std::vector<Instance>& instances, const Calibration& calibration,
                         const FusionConfig& config, LabeledCloud& cloud) {
-  Nodes nodes = make_nodes(mask, calibration, config, cloud);
+  VoxelDownsampled voxels = voxel_downsample(cloud.points, static_cast<float>(config.lidar_voxel));
+  Nodes nodes = make_nodes(mask, calibration, config, std::move(voxels.points));
   const std::vector<Plane> planes = find_scan_planes(nodes, config);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const float limit = config.planes.distance_limit(nodes.sigma[i]);
     nodes.on_plane[i] = is_on_any(planes, nodes.points[i], limit) ? 1 : 0;
   }
   const DynamicObjects objects = find_dynamic_objects(nodes, instances, config);
-  relabel_scan(nodes, objects, planes, covering, config, cloud);
+  relabel_scan(nodes, voxels.voxel, objects, planes, covering, config, cloud);
   list_clusters(objects.objects, instances, cloud);
 }
 
