@@ -47,7 +47,7 @@ constexpr double kSigmaUpdate = 0.1;
 constexpr double kAllFit = 0.9;
 
 bool is_scan(const FeatureCloud& features) {
-  return features.intensity.empty() && features.points_offset > Duration::zero();
+  return features.intensity.empty() && features.half_duration > Duration::zero();
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ std::optional<Vector6d> Odometry::changed_velocity(const Alignment& alignment) c
   const Vector6d velocity = motion_.velocity_at(features.stamp, pose);
   const Vector6d change = velocity - alignment.velocity.value_or(motion_.velocity());
   const double displacement =
-      to_seconds(features.points_offset) *
+      to_seconds(features.half_duration) *
       (change.head<3>().norm() + change.tail<3>().norm() * median_range(features));
   if (displacement < kMinDisplacement) return std::nullopt;
   return velocity;
@@ -189,8 +189,9 @@ FeatureCloud Odometry::at_pose_time(FeatureCloud features) const {
   // The first two scans give the velocity themselves, see `begin_in_motion`.
   const bool begins = !maps_ || first_scan_;
   deskew(features, begins ? motion_.velocity()
-                          : motion_.velocity(features.stamp, center + features.points_offset));
-  features.stamp = features.stamp + features.points_offset;
+                          : motion_.velocity(center + -features.half_duration,
+                                             center + features.half_duration));
+  features.stamp = center;
   return features;
 }
 
@@ -253,9 +254,7 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
   make_maps(features);
   update_maps(features);
   still_camera_.follow(features.intensity, motion_.pose());
-  if (features.intensity.empty() && features.points_offset != Duration::zero()) {
-    first_scan_ = features;
-  }
+  if (is_scan(features)) first_scan_ = features;
   return estimate;
 }
 
@@ -274,7 +273,7 @@ OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud seco
   const Vector6d velocity = motion_.velocity();
   deskew(first, velocity);
   deskew(second, velocity);
-  motion_.place(first.stamp, origin_ * se3::exp(velocity * to_seconds(first.points_offset)));
+  motion_.move(first.stamp, origin_ * se3::exp(velocity * to_seconds(first.points_offset)));
   maps_.emplace(static_cast<double>(maps_->voxel_size()),
                 static_cast<std::size_t>(config_.max_voxels));
   update_maps(first);
@@ -306,9 +305,9 @@ std::optional<Transform<World, Sensor>> Odometry::expected(const FeatureCloud& f
   const double uncertain = turn_change_ * static_cast<double>(median_range(features));
   if (uncertain < kMaxExpectedSigma) return predicted;
   const Alignment alignment = align_at_pose_time(at_pose_time(features));
-  const auto offered = static_cast<double>(features.edges.size() + features.planes.size());
   const bool all_fit =
-      alignment.is_valid && alignment.registration->geometric.inliers() >= kAllFit * offered;
+      alignment.is_valid && alignment.registration->geometric.inliers() >=
+                                kAllFit * offered(features, config_.registration.geometric);
   if (!all_fit) return predicted;
   return Transform<World, Sensor>(alignment.registration->T_world_sensor);
 }

@@ -91,9 +91,10 @@ bool agrees_better(const RegistrationResult& other, const RegistrationResult& be
 
 bool RegistrationChoice::is_valid(const RegistrationResult& result) const {
   const int inliers = result.geometric.inliers();
-  const auto offered = static_cast<double>(features_.edges.size() + features_.planes.size());
   if (inliers + result.intensity_inliers < config_.min_inliers) return false;
-  if (inliers < config_.min_inlier_share * offered) return false;
+  if (inliers < config_.min_inlier_share * offered(features_, config_.registration.geometric)) {
+    return false;
+  }
   if (!result.T_world_sensor.matrix().allFinite()) return false;
   return motion_.is_feasible(features_.stamp, result.T_world_sensor);
 }
@@ -132,9 +133,9 @@ std::vector<Eigen::Isometry3d> RegistrationChoice::turn_guesses(bool at_predicte
 /// again from rotations that the images give: where few features fit, or the pixels do not agree.
 /// @param best  as predicted
 RegistrationResult RegistrationChoice::register_turned(RegistrationResult best) const {
-  const auto offered = static_cast<double>(features_.edges.size() + features_.planes.size());
   const bool has_images = !features_.intensity.empty() && !last_features_.intensity.empty();
-  const bool fits = best.geometric.inliers() >= kGoodFit * offered;
+  const bool fits =
+      best.geometric.inliers() >= kGoodFit * offered(features_, config_.registration.geometric);
   if (!has_images || (fits && looks_right(best))) return best;
   const std::vector<Eigen::Isometry3d> guesses = turn_guesses(fits);
   for (std::size_t i = 0; i < guesses.size(); ++i) {

@@ -58,7 +58,8 @@ bool agree(const OdometryEstimate& odometry, const Relocalization& place) {
 /// Start and end of a scan; twice the stamp of an image.
 std::pair<Timestamp, Timestamp> times_of(const LabeledCloud& cloud, const FeatureCloud& features) {
   if (cloud.organised()) return {cloud.stamp, cloud.stamp};
-  return {cloud.stamp, cloud.stamp + 2 * features.points_offset};
+  const Timestamp center = cloud.stamp + features.points_offset;
+  return {center + -features.half_duration, center + features.half_duration};
 }
 
 /// The modes without the method's geometry are baselines: they get none of the steps beyond it.

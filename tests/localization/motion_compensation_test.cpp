@@ -37,6 +37,13 @@ Eigen::Isometry3d pose_in_motion_at(double seconds) {
   return se3::exp(velocity() * seconds);
 }
 
+/// Drives ahead for a second, then begins to turn by 75 degrees a second within one scan.
+Eigen::Isometry3d pose_in_sudden_turn_at(double seconds) {
+  const Vector6d ahead = (Vector6d() << 1.0, 0.0, 0.0, 0.0, 0.0, 0.0).finished();
+  const Vector6d turn = (Vector6d() << 1.0, 0.0, 0.0, 0.0, 0.0, 1.3).finished();
+  return se3::exp(ahead * std::min(seconds, 1.0)) * se3::exp(turn * std::max(seconds - 1.0, 0.0));
+}
+
 LabeledCloud scan_at(double seconds, double noise = 0.0, PoseOf pose_of = pose_at) {
   return testing::moving_scan(
       hall(), [&](double since) { return pose_of(seconds + since); }, kPeriod, 32, noise,
@@ -106,9 +113,17 @@ TEST(MotionCompensation, EstimatesPoseAtStampAnywhereInScan) {
   EXPECT_GT(max_position_error(pose_at, false), 0.06);
 }
 
+TEST(MotionCompensation, DeskewsAgainInASuddenTurn) {
+  const double stamped_at_start = max_position_error(pose_in_sudden_turn_at, true);
+  EXPECT_LT(stamped_at_start, 0.04);
+  EXPECT_LT(max_position_error(pose_in_sudden_turn_at, true, -kPeriod), 0.04);
+  EXPECT_LT(max_position_error(pose_in_sudden_turn_at, true, -0.5 * kPeriod), 0.04);
+}
+
 TEST(MotionCompensation, TracksFromStartInMotion) {
   EXPECT_LT(max_position_error(pose_in_motion_at, true), 0.03);
   EXPECT_LT(max_position_error(pose_in_motion_at, true, -kPeriod), 0.03);
+  EXPECT_LT(max_position_error(pose_in_motion_at, true, -0.5 * kPeriod), 0.03);  // at its center
 }
 
 }  // namespace

@@ -194,6 +194,18 @@ TEST(Odometry, RejectsExcessiveAcceleration) {
   }
 }
 
+TEST(Odometry, FeaturesThatAreSwitchedOffDoNotCount) {
+  OdometryConfig config;
+  config.registration.geometric.edges = false;
+  Odometry odometry(config, {});
+  for (const int ms : {0, 50, 100}) {
+    FeatureCloud features = features_at(ms);
+    std::erase_if(features.planes, [n = 0](const PlaneFeature&) mutable { return n++ % 6 != 0; });
+    ASSERT_LT(features.planes.size(), features.edges.size() / 3);
+    EXPECT_NE(odometry.estimate(features).status, Status::kLost) << ms;
+  }
+}
+
 TEST(Odometry, SingleWallIsDegenerate) {
   const auto wall_at = [](int ms) {
     FeatureCloud features = features_at(ms);

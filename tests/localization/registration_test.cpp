@@ -194,6 +194,22 @@ TEST_P(RegisteredBy, InformativeDataOutweighPrediction) {
   EXPECT_LT(angle_error_deg(result.T_world_sensor, truth), 0.05);
 }
 
+TEST(Registration, KeepsUnknownDirectionsOfAPredictionOfTheRotationAlone) {
+  const BoxRoom room;
+  const Eigen::Isometry3d truth = motion(0.0, 0.0, 0.03, 0.0, 0.0, 0.0);
+  const FeatureCloud wall = faces_along(exact_features(room, kOrigin, 60), kOrigin, {2});
+  FeatureCloud frame = faces_along(exact_features(room, truth, 31), truth, {2});
+  // Normals that are inaccurate tell of a motion along the wall.
+  for (std::size_t i = 0; i < frame.planes.size(); ++i)
+    frame.planes[i].point.z() += 0.002F * static_cast<float>(i % 3);
+  const PosePrediction prediction{.T_world_sensor = kOrigin, .rotation_sigma = 0.001};
+  const auto result = register_frame(frame, {map_of(wall, Association::kSurface), {}}, prediction,
+                                     config_with(Association::kSurface), DepthNoise{});
+  EXPECT_GE(result.degenerate_directions, 2);
+  EXPECT_LT(result.T_world_sensor.translation().head<2>().norm(), 1e-3);
+  EXPECT_NEAR(result.T_world_sensor.translation().z(), 0.03, 0.01);
+}
+
 TEST(Registration, KeepsPredictionWithoutFeatures) {
   const LocalMaps maps = map_of(exact_features(BoxRoom{}, kOrigin), Association::kSurface);
   const Eigen::Isometry3d prediction = motion(1.0, 2.0, 3.0, 0.1, 0.2, 0.3);

@@ -294,6 +294,35 @@ TEST(SensedMotion, ModelPredictsAcceleratedMotionByWheels) {
   EXPECT_FALSE(model.contradiction(at(2.9), T_world_sensor(2.9)));
 }
 
+TEST(SensedMotion, ModelMovesOnAfterAGapInTheWheels) {
+  for (const bool has_gyroscope : {false, true}) {
+    std::vector<WheelSample> wheels = wheels_until(5.0, T_odom_base);
+    std::erase_if(wheels, [](const WheelSample& sample) {
+      return sample.stamp > at(1.5) && sample.stamp < at(1.8);
+    });
+    MotionModel model{MotionConfig{}};
+    model.sense({wheels, has_gyroscope ? rates_until(5.0) : std::vector<ImuSample>{}},
+                calibration(), true);
+    model.place(at(0.95), T_world_sensor(0.95));
+    model.measure(at(1.0), T_world_sensor(1.0));
+    for (int i = 1; i <= 60; ++i) model.coast(at(1.0 + 0.05 * i));
+    // In the gap the base drives on at 1 m/s, and turns by 16 degrees.
+    const double allowed = has_gyroscope ? 0.5 : 1.3;
+    EXPECT_LT(position_error(model.pose(), T_world_sensor(4.0)), allowed) << has_gyroscope;
+  }
+}
+
+TEST(SensedMotion, ModelForgetsPosesInAnotherFrame) {
+  MotionModel model{MotionConfig{}};
+  model.sense({wheels_until(3.0, T_odom_base), {}}, calibration(), true);
+  model.place(at(1.0), T_world_sensor(1.0));
+  model.measure(at(1.1), T_world_sensor(1.1));
+  const Eigen::Isometry3d moved = motion(0.1, 0, 0, 0, 0, 0);
+  model.move(at(1.0), moved * T_world_sensor(1.0));
+  model.measure(at(1.1), moved * T_world_sensor(1.1));
+  EXPECT_FALSE(model.contradiction(at(1.2), moved * T_world_sensor(1.2)));
+}
+
 TEST(SensedMotion, ModelTurnsByGyroscopeAndMovesOn) {
   MotionModel model{MotionConfig{}};
   model.sense({{}, rates_until(3.0)}, calibration(), true);

@@ -46,6 +46,7 @@ struct FeatureCloud {
   Timestamp stamp;
   Duration points_offset{0};  ///< time of edges and planes relative to `stamp`; of a scan its
                               ///< center
+  Duration half_duration{0};  ///< of a scan: from its first point to its center
   std::vector<EdgeFeature> edges;
   std::vector<PlaneFeature> planes;
   std::vector<IntensityLevel> intensity;  ///< finest first; empty without an image

@@ -72,19 +72,26 @@ class PointTimes {
     if (time_offset.empty()) return;
     const auto [first, last] = std::minmax_element(time_offset.begin(), time_offset.end());
     center_ = 0.5F * (*first + *last);
+    half_duration_ = center_ - *first;
   }
 
   /// From the center [s].
   float of(std::size_t i) const { return time_offset_.empty() ? 0.0F : time_offset_[i] - center_; }
 
   /// Of the center, from the scan's stamp.
-  Duration center() const {
-    return Timestamp::from_seconds(static_cast<double>(center_)) - Timestamp();
-  }
+  Duration center() const { return duration_of(center_); }
+
+  /// From the first point to the center.
+  Duration half_duration() const { return duration_of(half_duration_); }
 
  private:
+  static Duration duration_of(float seconds) {
+    return Timestamp::from_seconds(static_cast<double>(seconds)) - Timestamp();
+  }
+
   const std::vector<float>& time_offset_;
-  float center_ = 0.0F;
+  float center_ = 0.0F;         // [s]
+  float half_duration_ = 0.0F;  // [s]
 };
 
 /// Sums over points, in double precision, in which the coordinates of a scan leave enough digits.
@@ -267,6 +274,7 @@ void extract_scan_features(const LabeledCloud& cloud, const FeatureConfig& confi
                            FeatureCloud& features) {
   const PointTimes times(cloud.time_offset);
   features.points_offset = times.center();
+  features.half_duration = times.half_duration();
   const double voxel = config.scan_voxel > 0.0 ? config.scan_voxel : voxel_of(cloud);
   const ScanCells cells(cloud, kCell * voxel);
   std::vector<Analysis> analyses(cells.size());

@@ -53,12 +53,16 @@ void MotionModel::place(Timestamp stamp, const Eigen::Isometry3d& pose) {
   pose_ = measured_ = pose;
 }
 
-void MotionModel::rest(Timestamp stamp, const Eigen::Isometry3d& pose) {
+void MotionModel::move(Timestamp stamp, const Eigen::Isometry3d& pose) {
   place(stamp, pose);
-  velocity_.setZero();
-  interval_.reset();
   anchors_.clear();
   sensors_.compare(stamp, pose, false);
+}
+
+void MotionModel::rest(Timestamp stamp, const Eigen::Isometry3d& pose) {
+  move(stamp, pose);
+  velocity_.setZero();
+  interval_.reset();
 }
 
 void MotionModel::measure(Timestamp stamp, const Eigen::Isometry3d& pose, bool is_reliable) {
@@ -82,11 +86,25 @@ void MotionModel::measure(Timestamp stamp, const Eigen::Isometry3d& pose, bool i
 
 void MotionModel::coast(Timestamp stamp) {
   const PosePrediction prediction = predict(stamp);
+  const Eigen::Isometry3d last = pose_;
   pose_ = prediction.T_world_sensor;
   if (prediction.is_sensed) sensors_.compare(stamp, pose_, false);
   const double seconds = std::max(0.0, to_seconds(stamp - stamp_));  // stamps may go back
   velocity_ *= std::exp2(-seconds / kVelocityHalfLife);
+  if (seconds > kMinInterval && has_more_since_gap(stamp)) {
+    velocity_ = velocity(stamp_, stamp);
+    pose_ = last * se3::exp(velocity_ * seconds);
+  }
   stamp_ = stamp;
+}
+
+/// Whether the sensors tell more about the motion since the last frame than about that since the
+/// last measured pose, as after a gap in the measurements.
+bool MotionModel::has_more_since_gap(Timestamp stamp) const {
+  if (sensors_.empty()) return false;
+  const auto last = sensors_.between(stamp_, stamp);
+  const auto all = sensors_.between(measured_at_, stamp);
+  return last && (!all || (last->has_translation && !all->has_translation));
 }
 
 /// The velocity is that at the center of its interval: after a time t with acceleration a, the

@@ -39,6 +39,9 @@ class MotionModel {
   /// Sets the pose at `stamp`; the velocity stays.
   void place(Timestamp stamp, const Eigen::Isometry3d& pose);
 
+  /// The same where earlier poses were in another frame.
+  void move(Timestamp stamp, const Eigen::Isometry3d& pose);
+
   /// Sets the pose of a sensor of unknown velocity.
   void rest(Timestamp stamp, const Eigen::Isometry3d& pose);
 
@@ -46,7 +49,8 @@ class MotionModel {
   /// @param is_reliable  whether data determined it in all directions
   void measure(Timestamp stamp, const Eigen::Isometry3d& pose, bool is_reliable = true);
 
-  /// Without a measured pose: moves on with a decaying velocity, or by the sensors.
+  /// Without a measured pose: moves on by the sensors where they measured the motion, else with a
+  /// decaying velocity.
   void coast(Timestamp stamp);
 
   /// By the sensors where they measured the motion, else by the velocity.
@@ -81,6 +85,7 @@ class MotionModel {
  private:
   double since_measured(Timestamp stamp) const { return to_seconds(stamp - measured_at_); }
   double deviation(double acceleration, double seconds) const;
+  bool has_more_since_gap(Timestamp stamp) const;
 
   MotionConfig config_;
   Timestamp stamp_;

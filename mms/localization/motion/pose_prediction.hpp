@@ -17,6 +17,7 @@ struct PosePrediction {
   bool is_sensed = false;               ///< by wheels or a gyroscope
 
   bool is_informative() const { return translation_sigma < kUnknown || rotation_sigma < kUnknown; }
+  bool is_complete() const { return translation_sigma < kUnknown && rotation_sigma < kUnknown; }
 
   /// Of the deviation log(T_world_sensor^-1 pose), assumed small: its derivative is identity.
   NormalEquations equations(const Eigen::Isometry3d& pose) const {

@@ -92,6 +92,12 @@ GeometricEquations& GeometricEquations::operator+=(const GeometricEquations& oth
   return *this;
 }
 
+double offered(const FeatureCloud& features, const GeometricConfig& config) {
+  const std::size_t edges = config.edges ? features.edges.size() : 0;
+  const std::size_t planes = config.planes ? features.planes.size() : 0;
+  return static_cast<double>(edges + planes);
+}
+
 GeometricEquations geometric_equations(const Matches& matches,
                                        const Eigen::Isometry3d& T_world_sensor,
                                        const GeometricConfig& config, double annealed_scale) {

@@ -28,6 +28,9 @@ struct GeometricEquations {
   GeometricEquations& operator+=(const GeometricEquations& other);
 };
 
+/// Number of the features that take part.
+double offered(const FeatureCloud& features, const GeometricConfig& config);
+
 /// Normal equations of eqs. (3) and (4) at a pose: every residual weighted by the inverse variance
 /// of the measurement and the map, and by Cauchy's robust weight. Inliers lie within three sigma.
 /// @param annealed_scale  standard deviation [m] that the pose error adds to the residuals; widens

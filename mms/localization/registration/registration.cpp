@@ -63,13 +63,16 @@ Step solve(const NormalEquations& equations, double max_sigma) {
   return step;
 }
 
-/// With a prediction of known covariance, which counts like `weight` residuals.
-Step solve(const NormalEquations& equations, const NormalEquations& prior, double weight,
-           double max_sigma) {
+/// With a prediction, which counts like `weight` residuals.
+/// @param is_complete  whether its standard deviation is known in all directions
+Step solve(const NormalEquations& equations, const NormalEquations& prior, bool is_complete,
+           double weight, double max_sigma) {
   Step step = solve(equations, max_sigma);
-  const Matrix6d information = equations.information + weight * prior.information;
-  const Vector6d gradient = equations.gradient + weight * prior.gradient;
-  step.tangent = -information.ldlt().solve(gradient);
+  NormalEquations sum;
+  sum.information = equations.information + weight * prior.information;
+  sum.gradient = equations.gradient + weight * prior.gradient;
+  step.tangent = is_complete ? Vector6d(-sum.information.ldlt().solve(sum.gradient))
+                             : solve(sum, max_sigma).tangent;
   return step;
 }
 
@@ -156,7 +159,8 @@ class GaussNewton {
     const double max_sigma = std::hypot(config_.degenerate_sigma, annealed_scale_);
     if (!prediction_.is_informative()) return solve(equations, max_sigma);
     const double weight = features_.intensity.empty() ? 1.0 : kResidualsPerMeasurement;
-    return solve(equations, prediction_.equations(result_.T_world_sensor), weight, max_sigma);
+    return solve(equations, prediction_.equations(result_.T_world_sensor),
+                 prediction_.is_complete(), weight, max_sigma);
   }
 
   NormalEquations linearize(int level) {
