@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "mms/core/bounded_queue.hpp"
+#include "mms/core/left_out_frames.hpp"
 #include "mms/pipeline/mask_policy.hpp"
 #include "mms/pipeline/pace.hpp"
 
@@ -137,10 +138,17 @@ class StageThreads {
 
   void read_all(const AsyncPipeline::Source& source, std::atomic<std::size_t>& dropped) {
     Pace pace;
+    LeftOutFrames left_out;
     while (std::optional<Input> input = read(source, options_)) {
       if (options_.realtime) {
         input->due = pace.wait_for(input->frame.stamp);
-        if (!inputs_.try_push(std::move(*input))) ++dropped;
+        left_out.give_to(input->frame);
+        left_out.add(input->frame);  // which is gone where there is no room
+        if (inputs_.try_push(std::move(*input))) {
+          left_out = {};
+        } else {
+          ++dropped;
+        }
       } else if (!inputs_.push(std::move(*input))) {
         break;
       }
@@ -152,7 +160,9 @@ class StageThreads {
     MaskPolicy policy(options_.max_mask_age);
     while (std::optional<Input> input = inputs_.pop()) {
       TimedSegmentation masks;
-      if (!options_.realtime || policy.wants_masks(input->frame.stamp, had_to_wait(*input))) {
+      const bool is_scan = input->frame.depth.empty();  // the fusion follows objects in images only
+      if (!options_.realtime || is_scan ||
+          policy.wants_masks(input->frame.stamp, had_to_wait(*input))) {
         masks = system_.segment(input->frame);
       } else {
         ++without_masks;

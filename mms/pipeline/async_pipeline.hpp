@@ -16,7 +16,7 @@ struct AsyncOptions {
   int threads = 2;  ///< 1 runs every step in the calling thread
   /// Frames come at the pace of their stamps. Those that find no room are dropped; those that wait
   /// while the network is at work on another go without masks of their own, as long as the last
-  /// ones are not older than `max_mask_age`: the fusion follows the objects meanwhile.
+  /// ones are not older than `max_mask_age`: the fusion follows the objects meanwhile. Scans wait.
   bool realtime = false;
   bool live = false;          ///< a sensor: no pose waits for loop closure
   double max_mask_age = 0.1;  ///< [s]; 0: every frame has masks of its own

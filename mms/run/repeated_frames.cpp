@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <utility>
 
 namespace mms {
 namespace {
@@ -34,23 +33,15 @@ bool shows_anything(const Frame& frame) {
          std::any_of(depth.begin(), depth.end(), [](float z) { return z > 0.0F; });
 }
 
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 }  // namespace
 
 bool RepeatedFrames::omits(Frame& frame) {
-  append(motion_.wheels, frame.motion.wheels);
-  append(motion_.imu, frame.motion.imu);
-  if (frame.expected_place) expected_place_ = frame.expected_place;
   if (repeats(frame)) {
+    left_out_.add(frame);
     ++count_;
     return true;
   }
-  frame.motion = std::exchange(motion_, {});
-  frame.expected_place = std::exchange(expected_place_, std::nullopt);
+  left_out_.give_to(frame);
   keep(frame);
   if (has_old_color_) frame.color = {};
   return false;

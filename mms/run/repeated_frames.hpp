@@ -2,10 +2,10 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "mms/core/frame.hpp"
+#include "mms/core/left_out_frames.hpp"
 
 namespace mms {
 
@@ -32,8 +32,7 @@ class RepeatedFrames {
   Timestamp color_since_;
   Image<float> depth_;
   std::vector<Eigen::Vector3f> points_;
-  MotionSamples motion_;  // of frames that were left out
-  std::optional<Transform<Global, Sensor>> expected_place_;
+  LeftOutFrames left_out_;
   std::size_t count_ = 0;
   bool has_old_color_ = false;
 };

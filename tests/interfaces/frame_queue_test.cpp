@@ -19,6 +19,36 @@ TEST(FrameQueue, DropsOldestFrame) {
   EXPECT_EQ(queue.pop()->index, 2);
 }
 
+TEST(FrameQueue, DroppedFramesHandOnMotionAndPlace) {
+  const auto place = [](double x) {
+    return Transform<Global, Sensor>(Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)));
+  };
+  FrameQueue queue(2);
+  for (const int i : {0, 1, 2, 3, 4}) {
+    Frame frame = frame_of(i);
+    frame.motion.imu = {{Timestamp(2 * i)}, {Timestamp(2 * i + 1)}};
+    frame.motion.wheels = {{Timestamp(i), {}}};
+    if (i == 1) frame.expected_place = place(1.0);
+    if (i == 4) frame.expected_place = place(4.0);
+    queue.push(std::move(frame));
+  }
+  EXPECT_EQ(queue.dropped(), 3U);
+  const auto next = queue.pop();
+  ASSERT_EQ(next->index, 3);
+  ASSERT_EQ(next->motion.imu.size(), 8U);
+  ASSERT_EQ(next->motion.wheels.size(), 4U);
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(next->motion.imu[static_cast<std::size_t>(i)].stamp, Timestamp(i));
+  }
+  EXPECT_EQ(next->motion.wheels.front().stamp, Timestamp(0));
+  EXPECT_EQ(next->motion.wheels.back().stamp, Timestamp(3));
+  ASSERT_TRUE(next->expected_place);
+  EXPECT_EQ(next->expected_place->translation().x(), 1.0);
+  const auto last = queue.pop();
+  EXPECT_EQ(last->motion.imu.size(), 2U);
+  EXPECT_EQ(last->expected_place->translation().x(), 4.0);
+}
+
 TEST(FrameQueue, InterruptEndsOnePop) {
   FrameQueue queue(2);
   queue.push(frame_of(0));

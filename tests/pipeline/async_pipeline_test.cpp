@@ -6,6 +6,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "mms/core/error.hpp"
 #include "tests/io/temp_folder.hpp"
@@ -185,6 +186,32 @@ TEST(AsyncPipelineRealtime, SkipsMasksBeforeDroppingFrames) {
   EXPECT_GT(pipeline.without_masks(), 0U);
   EXPECT_EQ(static_cast<std::size_t>(SlowSegmenter::calls) + pipeline.without_masks(), processed);
   EXPECT_EQ(processed + pipeline.dropped(), 20U);
+}
+
+TEST(AsyncPipelineRealtime, DroppedFramesHandOnTheirMotion) {
+  SystemConfig config;
+  config.fusion.stride = 4;
+  SlamSystem system(config, std::make_unique<SlowSegmenter>());
+  AsyncPipeline pipeline({.threads = 2, .realtime = true, .max_mask_age = 0.0});
+  std::size_t next = 0;
+  const auto source = [&]() -> std::optional<Frame> {
+    if (next == 20) return std::nullopt;
+    Frame frame = scene_frame(next % kFrames);
+    frame.stamp = Timestamp(static_cast<std::int64_t>(next++) * 20'000'000);
+    frame.motion.imu = {{frame.stamp}};
+    return frame;
+  };
+  std::vector<Timestamp> sensed;
+  std::vector<Timestamp> expected;
+  pipeline.run(system, source, [&](const Processed& p) {
+    for (const ImuSample& sample : p.frame.motion.imu) sensed.push_back(sample.stamp);
+    while (expected.size() < sensed.size()) {
+      expected.emplace_back(static_cast<std::int64_t>(expected.size()) * 20'000'000);
+    }
+    EXPECT_EQ(sensed.back(), p.frame.stamp);
+  });
+  EXPECT_GT(pipeline.dropped(), 0U);
+  EXPECT_EQ(sensed, expected);
 }
 
 }  // namespace

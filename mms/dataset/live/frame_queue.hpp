@@ -8,11 +8,12 @@
 #include <optional>
 
 #include "mms/core/frame.hpp"
+#include "mms/core/left_out_frames.hpp"
 
 namespace mms {
 
 /// Queue of frames from the subscribers to the pipeline. When it is full, the oldest frame is
-/// dropped: a robot needs its present pose.
+/// dropped: a robot needs its present pose. The next one gets its motion samples and place.
 class FrameQueue {
  public:
   using Clock = std::chrono::steady_clock;
@@ -22,10 +23,7 @@ class FrameQueue {
   void push(Frame frame) {
     const std::scoped_lock lock(mutex_);
     frames_.push_back({std::move(frame), Clock::now()});
-    if (frames_.size() > capacity_) {
-      frames_.pop_front();
-      ++dropped_;
-    }
+    if (frames_.size() > capacity_) drop_oldest();
     filled_.notify_one();
   }
 
@@ -81,6 +79,14 @@ class FrameQueue {
     Frame frame;
     Clock::time_point at;
   };
+
+  void drop_oldest() {
+    LeftOutFrames left_out;
+    left_out.add(frames_.front().frame);
+    frames_.pop_front();
+    if (!frames_.empty()) left_out.give_to(frames_.front().frame);
+    ++dropped_;
+  }
 
   std::size_t capacity_;
   mutable std::mutex mutex_;
