@@ -72,9 +72,10 @@ void Ros2Results::publish(const Processed& processed, const SlamSystem& system,
 }
 
 void Ros2Results::publish_path(const msg::Header& world, const OdometryEstimate& odometry) {
-  path_.header = world;
-  path_.poses.push_back({world, pose_message(odometry.T_world_sensor.isometry())});
-  if (path_topic_.is_wanted() && is_due(last_path_, kPathPeriod)) path_topic_.publish(path_);
+  path_.add(world, pose_message(odometry.T_world_sensor.isometry()));
+  if (path_topic_.is_wanted() && is_due(last_path_, kPathPeriod)) {
+    path_topic_.publish(path_.message());
+  }
 }
 
 void Ros2Results::publish_clouds(const msg::Header& sensor, const LabeledCloud& cloud) {

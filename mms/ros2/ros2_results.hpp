@@ -7,6 +7,7 @@
 
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/ros/display_messages.hpp"
+#include "mms/ros/growing_path.hpp"
 #include "mms/ros2/ros2_node.hpp"
 #include "mms/ros2/ros2_source.hpp"
 
@@ -46,7 +47,7 @@ class Ros2Results {
   std::string node_name_;
   Ros2Writer odometry_, transforms_, path_topic_, static_cloud_, dynamic_cloud_, map_, markers_,
       objects_, mask_, diagnostics_;
-  msg::Path path_;
+  GrowingPath path_;
   Clock::time_point last_map_, last_path_;
 
   std::mutex mutex_;                          ///< guards all below

@@ -185,9 +185,9 @@ void Ros2Source::subscribe_initial_pose() {
 void Ros2Source::advance() {
   const auto hand_on = [this] {
     while (!pending_.empty() && is_complete(pending_.front())) {
-      Frame frame = std::move(pending_.front().frame);
+      Pending pending = std::move(pending_.front());
       pending_.pop_front();
-      release(std::move(frame));
+      release(std::move(pending));
     }
   };
   try {
@@ -214,7 +214,7 @@ void Ros2Source::take_frames() {
       continue;
     }
     last_stamp_ = frame->stamp;
-    pending_.push_back({std::move(*frame), Clock::now()});
+    pending_.push_back({std::move(*frame), assembler_.color_stamp(), Clock::now()});
   }
 }
 
@@ -263,8 +263,8 @@ bool Ros2Source::is_complete(const Pending& pending) {
     if (T_imu) mounting_->T_sensor_imu = Transform<Sensor, Imu>(*T_imu);
   }
   const Timestamp end = motion_end(pending.frame);
-  const bool mask = inputs_.mask.empty() || pending.frame.color.empty() ||
-                    (!masks_.empty() && masks_.back().first >= pending.frame.stamp);
+  const bool mask = inputs_.mask.empty() || !pending.color_stamp ||
+                    (!masks_.empty() && masks_.back().first >= *pending.color_stamp);
   const bool wheels = inputs_.wheels.empty() || (!wheels_.empty() && wheels_.back().stamp > end);
   const bool imu = inputs_.imu.empty() || (!imu_.empty() && imu_.back().stamp > end);
   if (mask && wheels && imu) return true;
@@ -274,23 +274,25 @@ bool Ros2Source::is_complete(const Pending& pending) {
   return true;
 }
 
-void Ros2Source::release(Frame frame) {
-  complete(frame);
+void Ros2Source::release(Pending pending) {
+  complete(pending);
   {
     const std::scoped_lock lock(mutex_);
     sensor_frame_ = is_camera() ? color_frame_ : cloud_frame_;
     ++counts_.frames;
   }
-  push(std::move(frame));
+  push(std::move(pending.frame));
 }
 
-void Ros2Source::complete(Frame& frame) {
+void Ros2Source::complete(Pending& pending) {
+  Frame& frame = pending.frame;
   frame.calibration = calibration_of(frame);
   frame.expected_place = std::exchange(expected_place_, std::nullopt);
-  while (!masks_.empty() && masks_.front().first <= frame.stamp) {
-    const bool size = masks_.front().second.width() == frame.color.width() &&
-                      masks_.front().second.height() == frame.color.height();
-    if (masks_.front().first == frame.stamp && size) frame.mask = std::move(masks_.front().second);
+  // Masks have the stamps of the images they were made of, not those of clouds.
+  while (pending.color_stamp && !masks_.empty() && masks_.front().first <= *pending.color_stamp) {
+    auto& [stamp, mask] = masks_.front();
+    const bool size = mask.width() == frame.color.width() && mask.height() == frame.color.height();
+    if (stamp == *pending.color_stamp && size) frame.mask = std::move(mask);
     masks_.pop_front();
   }
   const Timestamp end = motion_end(frame);

@@ -75,6 +75,7 @@ class Ros2Source final : public LiveSource {
   using Clock = std::chrono::steady_clock;
   struct Pending {
     Frame frame;
+    std::optional<Timestamp> color_stamp;  ///< of its color image, as of its mask
     Clock::time_point since;
   };
 
@@ -91,8 +92,8 @@ class Ros2Source final : public LiveSource {
   bool needs_mounting() const { return !inputs_.imu.empty() || !inputs_.wheels.empty(); }
   bool is_placed() const;
   bool is_complete(const Pending& pending);
-  void release(Frame frame);
-  void complete(Frame& frame);
+  void release(Pending pending);
+  void complete(Pending& pending);
   std::shared_ptr<const Calibration> calibration_of(const Frame& frame);
 
   Ros2Node& node_;

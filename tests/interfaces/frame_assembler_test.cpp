@@ -138,6 +138,24 @@ TEST(FrameAssembler, AssemblesCloudsWithAndWithoutImages) {
   EXPECT_EQ(with_camera.frames(), "200alone") << "a camera that fails does not stop the LiDAR";
 }
 
+TEST(FrameAssembler, TellsStampOfColorImage) {
+  Assembly images(Sensor::kDepth);
+  EXPECT_FALSE(images.assembler.color_stamp());
+  images.color(100);
+  images.depth(107);
+  ASSERT_TRUE(images.assembler.next());
+  EXPECT_EQ(images.assembler.color_stamp(), at(100));
+  Assembly clouds(Sensor::kCloudWithCamera);
+  clouds.assembler.set_extrinsics({});
+  clouds.cloud(100);
+  clouds.color(130);
+  ASSERT_TRUE(clouds.assembler.next());
+  EXPECT_EQ(clouds.assembler.color_stamp(), at(130));
+  for (const int t : {200, 300, 400}) clouds.cloud(t);
+  ASSERT_TRUE(clouds.assembler.next());  // without an image
+  EXPECT_FALSE(clouds.assembler.color_stamp());
+}
+
 TEST(FrameAssembler, CloudsWithImagesWaitForExtrinsics) {
   Assembly a(Sensor::kCloudWithCamera);
   for (const int t : {100, 200, 300, 400}) {

@@ -320,6 +320,33 @@ TEST_F(Ros2SourceTest, ScansWithImagesWaitForTransform) {
   EXPECT_EQ(source_->sensor_frame(), "lidar");
 }
 
+TEST_F(Ros2SourceTest, MasksOfScansAreThoseOfTheirImage) {
+  start({.color = "color", .camera_info = "camera_info", .points = "points", .mask = "mask"},
+        {&color_, &camera_info_, &points_, &mask_});
+  const msg::TransformStamped mounting{{0, at(0.0), "camera"}, "lidar", {}};
+  tf_static_.publish(msg::Transforms{{mounting}});
+  LidarScan scan;
+  scan.points = {Eigen::Vector3f(1.0F, 2.0F, 3.0F)};
+  publish_images(0.03);
+  points_.publish(cloud_message(header_at(0.01, "lidar"), scan));
+  publish_images(0.13);
+  points_.publish(cloud_message(header_at(0.14, "lidar"), scan));
+  publish_images(0.23);
+  const auto publish_mask = [&](double seconds, std::uint8_t label) {
+    mask_.publish(
+        image_message(header_at(seconds, "camera"), Image<std::uint8_t>(kWidth, kHeight, label)));
+  };
+  publish_mask(0.03, 1);
+  publish_mask(0.13, 2);
+  ASSERT_TRUE(source_->wait(ignore));
+  for (const std::uint8_t label : {std::uint8_t{1}, std::uint8_t{2}}) {
+    const auto frame = source_->next();
+    ASSERT_TRUE(frame);
+    ASSERT_FALSE(frame->mask.empty());
+    EXPECT_EQ(frame->mask(0, 0), label);
+  }
+}
+
 /// Of a camera of half the size, 5 cm beside the color camera.
 TEST_F(Ros2SourceTest, RegistersDepthOfAnotherFrame) {
   start({.color = "color",

@@ -9,8 +9,8 @@
 
 namespace mms::python {
 
-/// The last call may have come from another thread.
-SlamSystem& LiveSlam::system(const Calibration* calibration) {
+/// Made with the first frame, whose noise and calibration it needs.
+SlamSystem& LiveSlam::make_system(const Calibration* calibration) {
   if (!system_) system_.emplace(config_, std::move(segmenter_));
   if (!std::exchange(has_map_, true)) {
     try {
@@ -20,8 +20,14 @@ SlamSystem& LiveSlam::system(const Calibration* calibration) {
       throw;
     }
   }
+  return *system();
+}
+
+/// The last call may have come from another thread.
+SlamSystem* LiveSlam::system() {
+  if (!system_) return nullptr;
   system_->release_threads();
-  return *system_;
+  return &*system_;
 }
 
 FrameResult LiveSlam::process_locked(const Frame& frame) {
@@ -33,7 +39,7 @@ FrameResult LiveSlam::process_locked(const Frame& frame) {
   if (!system_ && config_.measure_depth_noise) {
     config_.noise.depth = measured_noise(config_.noise.depth, frame.depth);
   }
-  FrameResult result = system(frame.calibration.get()).process(frame);
+  FrameResult result = make_system(frame.calibration.get()).process(frame);
   map_.add(result);
   trajectory_.push_back({frame.stamp, result.odometry.T_world_sensor});
   frames_.push_back({result.session, result.is_searching()});
@@ -44,13 +50,13 @@ FrameResult LiveSlam::process_locked(const Frame& frame) {
 
 void LiveSlam::finish() {
   const std::scoped_lock lock(mutex_);
-  system().finalize();
+  if (SlamSystem* const present = system()) present->finalize();
 }
 
 bool LiveSlam::save_map() {
   const std::scoped_lock lock(mutex_);
   if (trajectory_.empty()) throw std::runtime_error("save_map: no frame was processed");
-  return map_.save(system(), [this](const std::string& line) { warn(line); });
+  return map_.save(*system(), [this](const std::string& line) { warn(line); });
 }
 
 std::vector<std::string> LiveSlam::take_warnings() {
@@ -60,8 +66,9 @@ std::vector<std::string> LiveSlam::take_warnings() {
 
 Trajectory LiveSlam::trajectory(bool corrected) {
   const std::scoped_lock lock(mutex_);
-  if (!corrected) return trajectory_;
-  const std::vector<SessionPlace> places = session_places(system().global_map(), session_count());
+  const SlamSystem* const present = system();
+  if (!corrected || present == nullptr) return trajectory_;
+  const std::vector<SessionPlace> places = session_places(present->global_map(), session_count());
   Trajectory poses;
   for (std::size_t i = 0; i < trajectory_.size(); ++i) {
     const auto& [stamp, T_world_sensor] = trajectory_[i];
@@ -73,10 +80,12 @@ Trajectory LiveSlam::trajectory(bool corrected) {
 
 MapCloud LiveSlam::static_map(bool corrected) {
   const std::scoped_lock lock(mutex_);
+  const SlamSystem* const present = system();
+  if (present == nullptr) return {};
   const MapFrame frame = has_image_ ? MapFrame::kCamera : MapFrame::kLidar;
-  if (!corrected) return result_map(system().static_map(), frame);
-  const std::vector<SessionPlace> places = session_places(system().global_map(), session_count());
-  return result_map(system().mapping(), frame, places);
+  if (!corrected) return result_map(present->static_map(), frame);
+  const std::vector<SessionPlace> places = session_places(present->global_map(), session_count());
+  return result_map(present->mapping(), frame, places);
 }
 
 std::vector<TrackedObject> LiveSlam::objects() {

@@ -15,7 +15,8 @@
 
 namespace mms::python {
 
-/// A SlamSystem for callers in any thread, which take turns. Knows nothing of Python.
+/// A SlamSystem for callers in any thread, which take turns. Before the first frame there is none,
+/// and all results are empty. Knows nothing of Python.
 class LiveSlam {
  public:
   /// @throws Error for map files that cannot be read or written
@@ -38,7 +39,7 @@ class LiveSlam {
     return process_locked(frame);
   }
 
-  /// Completes the maps after the last frame.
+  /// Completes the maps after the last frame. Does nothing before the first one.
   void finish();
 
   /// All poses so far.
@@ -62,14 +63,15 @@ class LiveSlam {
 
  private:
   FrameResult process_locked(const Frame& frame);
-  SlamSystem& system(const Calibration* calibration = nullptr);
+  SlamSystem& make_system(const Calibration* calibration);
+  SlamSystem* system();
   void warn(const std::string& line) { warnings_.push_back(line); }
   std::uint32_t session_count() const { return frames_.empty() ? 1U : frames_.back().session + 1U; }
 
   std::mutex mutex_;
   SystemConfig config_;
   std::unique_ptr<Segmenter> segmenter_;  ///< null once there is a system
-  std::optional<SlamSystem> system_;      ///< made with the noise of the first frame
+  std::optional<SlamSystem> system_;      ///< made with the first frame
   RunMap map_;
   bool has_map_ = false;  ///< whether the earlier map, if any, was given to the system
   std::vector<std::string> warnings_;

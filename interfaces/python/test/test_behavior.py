@@ -10,6 +10,9 @@ import pytest
 import mms_slam
 from conftest import SCENE
 
+# Its depth noise is measured in the first frame, and larger than that of the settings.
+NOISY_SCENE = "sim:rack_aisle?frames=8&width=320&sensor=d435"
+
 
 def test_errors_have_the_text_of_the_program(mms, tmp_path):
     (tmp_path / "empty").mkdir()
@@ -36,6 +39,23 @@ def test_errors_have_the_text_of_the_program(mms, tmp_path):
 def test_unknown_setting_is_named():
     with pytest.raises(mms_slam.DataError, match="settings: .*voxel_siz"):
         mms_slam.Slam(settings={"static_map.voxel_siz": 0.1})
+
+
+def test_results_before_the_first_frame_are_empty_and_change_nothing():
+    frames = list(mms_slam.Recording(NOISY_SCENE))
+
+    def poses(ask):
+        slam = mms_slam.Slam(calibration=frames[0].calibration)
+        if ask:
+            assert len(slam.static_map()) == len(slam.static_map(corrected=False)) == 0
+            assert len(slam.trajectory()) == len(slam.trajectory(corrected=True)) == 0
+            assert not slam.objects()
+            slam.finish()
+        for frame in frames:
+            slam.process_frame(frame)
+        return slam.trajectory().poses
+
+    assert np.array_equal(poses(ask=True), poses(ask=False))
 
 
 def test_recording_is_an_iterator():

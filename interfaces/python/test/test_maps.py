@@ -30,6 +30,16 @@ def test_map_of_a_run_is_used_by_the_next_one(mms, tmp_path):
     assert saved and "2 sessions" in mms("info", path)
 
 
+def test_maps_of_another_camera_are_named_after_a_look_at_the_empty_map(tmp_path):
+    path = tmp_path / "room.mmsmap"
+    run(tmp_path, save_map=path)
+    recording = mms_slam.Recording("sim:rack_aisle?frames=1&width=320&sensor=kinect")
+    slam = mms_slam.Slam(calibration=recording.calibration, map=path)
+    assert len(slam.static_map()) == 0
+    with pytest.warns(UserWarning, match="the map is of another camera"):
+        slam.process_frame(next(recording))
+
+
 def test_no_map_is_saved_unless_one_is_named(tmp_path):
     assert not run(tmp_path)[1]
 

@@ -61,9 +61,10 @@ void ResultPublisher::publish_transforms(const msg::Header& world, const std::st
 }
 
 void ResultPublisher::publish_path(const msg::Header& world, const FrameResult& result) {
-  path_.header = world;
-  path_.poses.push_back({world, pose_message(result.odometry.T_world_sensor.isometry())});
-  if (is_wanted(path_topic_) && has_passed(last_path_, kPathPeriod)) path_topic_.publish(path_);
+  path_.add(world, pose_message(result.odometry.T_world_sensor.isometry()));
+  if (is_wanted(path_topic_) && has_passed(last_path_, kPathPeriod)) {
+    path_topic_.publish(path_.message());
+  }
 }
 
 void ResultPublisher::publish_clouds(const msg::Header& sensor, const LabeledCloud& cloud) {

@@ -7,6 +7,7 @@
 #include "interfaces/ros1/src/node_settings.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/ros/display_messages.hpp"
+#include "mms/ros/growing_path.hpp"
 
 namespace mms {
 
@@ -32,7 +33,7 @@ class ResultPublisher {
   NodeSettings settings_;
   ros::Publisher odometry_, transforms_, path_topic_, static_cloud_, dynamic_cloud_, map_, markers_,
       objects_, mask_;
-  msg::Path path_;
+  GrowingPath path_;
   ros::WallTime last_map_;
   ros::WallTime last_path_;
 };

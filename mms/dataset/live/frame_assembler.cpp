@@ -134,6 +134,7 @@ std::optional<Frame> FrameAssembler::next_depth_frame() {
         "depth image");
     Frame frame = frame_at(stamp);
     frame.color = std::move(color);
+    color_stamp_ = stamp;
     frame.depth = std::move(depth->data);
     frame.depth_offset = depth->stamp - stamp;
     return frame;
@@ -151,10 +152,12 @@ std::optional<Frame> FrameAssembler::next_cloud_frame() {
   Frame frame = frame_at(stamp);
   frame.scan = std::move(cloud_.waiting.front().data);
   cloud_.waiting.pop_front();
+  color_stamp_.reset();
   if (!camera) return frame;
   if (auto color = take_nearest(stamp, color_, kScanReach)) {
     check_live_size(color->data, *calibration_.camera, "color image");
     frame.color = std::move(color->data);
+    color_stamp_ = color->stamp;
   } else {
     ++unmatched_;
   }

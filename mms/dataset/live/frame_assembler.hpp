@@ -41,6 +41,10 @@ class FrameAssembler {
   /// The next complete frame; nullopt if none is complete.
   std::optional<Frame> next();
 
+  /// Stamp of the color image of the last frame that `next` gave; nullopt if it has none. Frames of
+  /// clouds have the stamps of their clouds.
+  std::optional<Timestamp> color_stamp() const { return color_stamp_; }
+
   /// Statistics since the last call, and what is missing for frames: "depth images: none received".
   /// @param seconds  since the last call
   std::string report(double seconds);
@@ -78,6 +82,7 @@ class FrameAssembler {
   Stream<Image<Rgb>> color_;
   Stream<Image<float>> depth_;
   Stream<LidarScan> cloud_;
+  std::optional<Timestamp> color_stamp_;
   std::size_t unmatched_ = 0;
   std::size_t made_ = 0;  ///< since the last report
   std::int64_t count_ = 0;
