@@ -22,6 +22,7 @@
 #include "mms/dataset/video/video_rgbd.hpp"
 #include "mms/io/capture/packet_capture.hpp"
 #include "mms/io/text/files.hpp"
+#include "mms/io/video/video_reader.hpp"
 #include "mms/ros/bag/bag_files.hpp"
 
 namespace mms {

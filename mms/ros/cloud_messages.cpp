@@ -6,6 +6,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "mms/core/error.hpp"
 #include "mms/io/cloud/point_fields.hpp"
@@ -122,7 +123,8 @@ void add_float_field(msg::PointCloud2& message, const char* name) {
 
 }  // namespace
 
-LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::string& where) {
+LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::string& where,
+                  bool* other_clock) {
   const Column x = coordinate(message, "x", where);
   const Column y = coordinate(message, "y", where);
   const Column z = coordinate(message, "z", where);
@@ -146,7 +148,9 @@ LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::s
     times.reserve(count);
     for_points(message,
                [&](std::size_t row, std::size_t column) { times.push_back((*time)(row, column)); });
-    scan.time_offset = relative_point_times(times, time->is_integer(), stamp);
+    PointTimes relative = relative_point_times(times, time->is_integer(), stamp);
+    scan.time_offset = std::move(relative.offsets);
+    if (other_clock != nullptr) *other_clock = relative.other_clock;
   }
   return scan;
 }

@@ -11,11 +11,13 @@ namespace mms {
 /// intensity is the field intensity, reflectivity, reflectance or i. Times of points come from the
 /// field t, time, timestamp, time_offset or offset_time: seconds as floating-point numbers, or
 /// nanoseconds (microseconds if a scan would take less than 2 ms); relative to the message's stamp,
-/// or since 1970 as the stamp.
-/// @param stamp  of the frame, reference of the times
+/// or of its clock, or of another one (`relative_point_times`).
+/// @param stamp        of the frame, reference of the times
+/// @param other_clock  receives whether the times have another clock than the stamp; may be null
 /// @throws DataError at `where` for a cloud without x, y and z, with too few bytes, or with fields
 /// outside a point or of unknown type.
-LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::string& where);
+LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::string& where,
+                  bool* other_clock = nullptr);
 
 /// A message with x y z, and intensity and time [s] if available; all float32.
 msg::PointCloud2 cloud_message(const msg::Header& header, const LidarScan& scan);

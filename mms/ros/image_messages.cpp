@@ -9,6 +9,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/io/image/image_io.hpp"
+#include "mms/ros/raw_colors.hpp"
 #include "mms/ros/rvl.hpp"
 
 namespace mms {
@@ -71,10 +72,10 @@ Image<T> plain_image(const msg::Image& message, const std::string& where) {
   throw DataError(where, "has the encoding '" + encoding + "', expected " + expected);
 }
 
-Image<float> millimetres(const Image<std::uint16_t>& raw) {
-  constexpr float kUnits = 1000.0F;
+Image<float> metres_of(const Image<std::uint16_t>& raw, double scale) {
+  const float units = static_cast<float>(scale);
   Image<float> depth(raw.width(), raw.height());
-  for (std::size_t i = 0; i < raw.size(); ++i) depth[i] = static_cast<float>(raw[i]) / kUnits;
+  for (std::size_t i = 0; i < raw.size(); ++i) depth[i] = static_cast<float>(raw[i]) / units;
   return depth;
 }
 
@@ -127,7 +128,7 @@ bool is_depth_encoding(const std::string& encoding) {
 }
 
 bool is_color_encoding(const std::string& encoding) {
-  return color_layout(encoding) != nullptr;
+  return color_layout(encoding) != nullptr || raw_color_size(encoding) > 0;
 }
 
 Image<Rgb> color_of(const msg::Image& message, const std::string& where) {
@@ -140,9 +141,15 @@ Image<Rgb> color_of(const msg::Image& message, const std::string& where) {
     }
     return image;
   }
+  if (const std::size_t size = raw_color_size(message.encoding); size > 0) {
+    check_layout(message, size, where);
+    return raw_color_of(message, where);
+  }
   const ColorLayout* layout = color_layout(message.encoding);
   if (layout == nullptr) {
-    fail_encoding(message.encoding, "rgb8, bgr8, rgba8, bgra8, mono8, mono16, 8UC1, 8UC3 or 8UC4",
+    fail_encoding(message.encoding,
+                  "rgb8, bgr8, rgba8, bgra8, mono8, mono16, 8UC1, 8UC3, 8UC4, yuv422, yuv422_yuy2 "
+                  "or Bayer patterns of 8 bits (bayer_rggb8)",
                   where);
   }
   check_layout(message, layout->size, where);
@@ -161,16 +168,16 @@ Image<Rgb> color_of(const msg::CompressedImage& message, const std::string& wher
   return decode_color(message.data, where);
 }
 
-Image<float> depth_of(const msg::Image& message, const std::string& where) {
+Image<float> depth_of(const msg::Image& message, const std::string& where, double scale) {
   if (message.encoding == "32FC1") return plain_image<float>(message, where);
   if (!is_depth_encoding(message.encoding)) {
     fail_encoding(message.encoding, "16UC1, mono16 or 32FC1 of a depth image", where);
   }
-  return millimetres(plain_image<std::uint16_t>(message, where));
+  return metres_of(plain_image<std::uint16_t>(message, where), scale);
 }
 
-Image<float> depth_of(const msg::CompressedImage& message, const std::string& where) {
-  if (starts_as_png(message.data)) return millimetres(decode_depth16(message.data, where));
+Image<float> depth_of(const msg::CompressedImage& message, const std::string& where, double scale) {
+  if (starts_as_png(message.data)) return metres_of(decode_depth16(message.data, where), scale);
   const std::span bytes(message.data);
   if (bytes.size() < sizeof(DepthHeader)) throw DataError(where, "ends too early");
   DepthHeader header{};
@@ -182,7 +189,7 @@ Image<float> depth_of(const msg::CompressedImage& message, const std::string& wh
                     "compressed depth is supported as PNG and RVL");
   }
   const Image<std::uint16_t> raw = rvl ? decode_rvl(image, where) : decode_depth16(image, where);
-  return message.format.starts_with("32FC1") ? dequantised(raw, header) : millimetres(raw);
+  return message.format.starts_with("32FC1") ? dequantised(raw, header) : metres_of(raw, scale);
 }
 
 Image<std::uint8_t> mask_of(const msg::Image& message, const std::string& where) {

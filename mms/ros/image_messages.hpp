@@ -8,7 +8,7 @@
 namespace mms {
 
 /// Color image of an image message: rgb8, bgr8, rgba8, bgra8, mono8, mono16 and OpenCV's 8UC1, 8UC3
-/// (treated as bgr8), 8UC4.
+/// (treated as bgr8), 8UC4; and those of raw_colors.hpp.
 /// @throws DataError at `where` for other encodings, and for a size other than the header's.
 Image<Rgb> color_of(const msg::Image& message, const std::string& where);
 
@@ -16,15 +16,17 @@ Image<Rgb> color_of(const msg::Image& message, const std::string& where);
 /// @throws DataError at `where` if it cannot be decoded.
 Image<Rgb> color_of(const msg::CompressedImage& message, const std::string& where);
 
-/// Depth in meters, 0 for no return, of a 16UC1 or mono16 image in millimeters or a 32FC1 image in
-/// meters.
+/// Depth in meters, 0 for no return, of a 16UC1 or mono16 image or a 32FC1 image in meters.
+/// @param scale  units per meter of 16-bit images; ROS has millimeters
 /// @throws DataError at `where` as color_of.
-Image<float> depth_of(const msg::Image& message, const std::string& where);
+Image<float> depth_of(const msg::Image& message, const std::string& where, double scale = 1000.0);
 
 /// Depth of a PNG or RVL image of compressed_depth_image_transport, after its header of 12 bytes,
-/// or of a plain 16-bit PNG in millimeters.
+/// or of a plain 16-bit PNG.
+/// @param scale  units per meter of 16-bit images; not used for inverse depth of 32FC1
 /// @throws DataError at `where` if it cannot be decoded.
-Image<float> depth_of(const msg::CompressedImage& message, const std::string& where);
+Image<float> depth_of(const msg::CompressedImage& message, const std::string& where,
+                      double scale = 1000.0);
 
 /// Label image (0 static, else 1 + class id) of a mono8 or 8UC1 image.
 /// @throws DataError at `where` as color_of.

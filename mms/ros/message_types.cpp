@@ -25,6 +25,7 @@ const Entries& entries() {
                                                       "geometry_msgs/Quaternion"};
   static const Entries kEntries = {
       {"std_msgs/Header", {"", "uint32 seq\ntime stamp\nstring frame_id\n", {}}},
+      {"std_msgs/Float32", {"73fcbf46b49191e672908e50842a83d4", "float32 data\n", {}}},
       {"geometry_msgs/Point", {"", "float64 x\nfloat64 y\nfloat64 z\n", {}}},
       {"geometry_msgs/Vector3", {"", "float64 x\nfloat64 y\nfloat64 z\n", {}}},
       {"geometry_msgs/Quaternion", {"", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n", {}}},

@@ -19,6 +19,8 @@ struct MessageType {
 template <class Message>
 inline constexpr std::string_view kName = Message::kTypeName;
 template <>
+inline constexpr std::string_view kName<Float32> = "std_msgs/Float32";
+template <>
 inline constexpr std::string_view kName<Image> = "sensor_msgs/Image";
 template <>
 inline constexpr std::string_view kName<CompressedImage> = "sensor_msgs/CompressedImage";

@@ -25,6 +25,16 @@ struct Header {
   }
 };
 
+/// std_msgs/Float32
+struct Float32 {
+  float data = 0.0F;
+
+  template <class Self, class Archive>
+  static void fields(Self& self, Archive& archive) {
+    archive(self.data);
+  }
+};
+
 /// sensor_msgs/Image
 struct Image {
   Header header;

@@ -275,6 +275,40 @@ TEST_P(BagSources, ReadsCloudsWithCamera) {
   expect_in("/points message 2: has no points", played.warnings[0]);
 }
 
+TEST_P(BagSources, MasksOfCloudsAreThoseOfTheirImages) {
+  camera_info();
+  LidarScan scan;
+  scan.points = {{1, 2, 3}};
+  for (const int t : {0, 100, 200}) write("/points", cloud_message(header(t, "lidar"), scan));
+  for (const int t : {30, 130}) color(t);
+  for (const int t : {30, 130, 200}) {  // the last one without an image
+    write("/rgb/mask", image_message(header(t), Image<std::uint8_t>(kWidth, kHeight, 2)));
+  }
+  finish();
+  const Playback played = play();
+  ASSERT_EQ(played.frames.size(), 3U);
+  EXPECT_TRUE(played.source->has_masks());
+  for (const std::size_t i : {0U, 1U}) {
+    ASSERT_FALSE(played.frames[i].mask.empty()) << i;
+    EXPECT_EQ(played.frames[i].mask(0, 0), 2) << i;
+  }
+  EXPECT_TRUE(played.frames[2].mask.empty());
+  EXPECT_TRUE(any_has(played.source->describe(), "masks: 2 of 3 in /rgb/mask"));
+}
+
+TEST_P(BagSources, WarnsOncePerRecordingOfPointTimesOfAnotherClock) {
+  LidarScan scan;
+  scan.points = {{1, 2, 3}, {4, 5, 6}};
+  scan.time_offset = {51.5F, 51.75F};  // since the start of the sensor
+  for (const int t : {0, 100}) write("/points", cloud_message(header(t, "lidar"), scan));
+  finish();
+  const Playback played = play();
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[1].scan.time_offset, (std::vector<float>{0.0F, 0.25F}));
+  ASSERT_EQ(played.warnings.size(), 1U);
+  expect_in("the times of points of /points are more than 1 s from the stamps", played.warnings[0]);
+}
+
 TEST_P(BagSources, CalibrationFileReplacesCameraInfo) {
   color(0);
   depth(0);

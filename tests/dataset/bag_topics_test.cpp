@@ -84,6 +84,18 @@ TEST(BagTopics, ChoosesCompressedImages) {
   EXPECT_EQ(chosen.depth, "/cam/depth_registered/image_raw/compressedDepth");
 }
 
+/// image_transport offers depth as JPEG, too, which is none.
+TEST(BagTopics, PrefersTransportOfDepth) {
+  const Topics topics =
+      Topics()
+          .add("/cam/color/image_raw/compressed", "sensor_msgs/CompressedImage", "jpeg")
+          .add("/cam/depth/image_raw/compressed", "sensor_msgs/CompressedImage", "16UC1; png")
+          .add("/cam/depth/image_raw/compressedDepth", "sensor_msgs/CompressedImage")
+          .add("/cam/aligned_depth/image/compressed", "sensor_msgs/CompressedImage", "16UC1; jpeg");
+  EXPECT_EQ(topics.choose().depth, "/cam/depth/image_raw/compressedDepth");
+  EXPECT_EQ(topics.choose().color, "/cam/color/image_raw/compressed");
+}
+
 TEST(BagTopics, ChoosesLidarWithCameraAndGroundTruth) {
   const BagTopicNames chosen = Topics()
                                    .add("/odom", "nav_msgs/Odometry")
@@ -113,6 +125,35 @@ TEST(BagTopics, ChoosesWheelsAndGyroscopeButNoOtherOdometry) {
   EXPECT_EQ(topics.choose().wheels, "/wheel_odometry");
   EXPECT_EQ(topics.choose().imu, "/camera/gyro/sample");
   EXPECT_EQ(topics.choose({.wheels = "/odom"}).wheels, "/odom");
+}
+
+TEST(BagTopics, TakesRawColorsWhereThereAreNoOthers) {
+  Topics topics = Topics()
+                      .image("/camera/color/image_raw", "yuv422_yuy2")
+                      .image("/camera/depth/image_raw", "16UC1")
+                      .add("/camera/points", "sensor_msgs/PointCloud2");
+  EXPECT_EQ(topics.choose().color, "/camera/color/image_raw");
+  EXPECT_EQ(topics.choose().depth, "/camera/depth/image_raw");
+  EXPECT_EQ(topics.choose().cloud, "");
+  EXPECT_EQ(topics.image("/other", "mono8").choose().color, "/other");
+  const Topics lidar =
+      Topics().image("/camera/image_raw", "bayer_rggb8").add("/points", "sensor_msgs/PointCloud2");
+  EXPECT_EQ(lidar.choose().color, "");
+  EXPECT_EQ(lidar.choose({.color = "/camera/image_raw"}).color, "/camera/image_raw");
+}
+
+TEST(BagTopics, NamesColorInEncodingsThatAreNotRead) {
+  Topics topics =
+      Topics().image("/camera/color/image_raw", "nv12").image("/camera/depth/image_raw", "16UC1");
+  expect_in("nor point clouds; encodings that are not read: /camera/color/image_raw is 'nv12'",
+            topics.error());
+  topics.add("/camera/points", "sensor_msgs/PointCloud2");
+  expect_in(
+      "has depth in /camera/depth/image_raw, but color in an encoding that is not read: "
+      "/camera/color/image_raw is 'nv12'",
+      topics.error());
+  expect_in("or choose the clouds with --topic-cloud /camera/points", topics.error());
+  EXPECT_EQ(topics.choose({.cloud = "/camera/points"}).cloud, "/camera/points");
 }
 
 TEST(BagTopics, DoesNotUseMasksAsColor) {

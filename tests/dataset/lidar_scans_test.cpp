@@ -55,6 +55,24 @@ TEST(LidarScans, ReadsStampsFromTimes) {
             message_of<DataError>([&] { open_dataset(folder.path()); }));
 }
 
+TEST(LidarScans, ReadsStampsSinceTheStartOfTheSensor) {
+  const TempFolder names;
+  const TempFolder times;
+  std::string lines;
+  for (const std::string stamp : {"5000000000000", "5000100000000", "5000200000000"}) {
+    names.write(stamp + ".bin", kPoint);
+    times.write("velodyne/" + stamp.substr(4, 1) + ".bin", kPoint);
+    lines += stamp + "\n";
+  }
+  times.write("times.txt", lines);
+  for (const auto& folder : {names.path(), times.path()}) {
+    const Playback played(open_dataset(folder));
+    ASSERT_EQ(played.frames.size(), 3U);
+    EXPECT_EQ(played.frames[0].stamp, Timestamp(5'000'000'000'000));
+    EXPECT_EQ(played.frames[2].stamp, Timestamp(5'000'200'000'000));
+  }
+}
+
 /// A ring of points 10 m away, with these numbers after x y z.
 std::string ring_of_points(const std::vector<float>& more) {
   std::string bytes;

@@ -167,5 +167,62 @@ TEST(Euroc, NamesMissingDepth) {
             message_of<DataError>([&] { open_dataset(folder.path()); }));
 }
 
+// ---------------------------------------------------------------- since the start of a camera
+
+constexpr std::int64_t kUptime = 5'000'000'000'000;  // [ns]; as milliseconds since 1970 in 2128
+
+/// The frames are at 30 Hz.
+void expect_frames_since_start(const std::filesystem::path& folder) {
+  const Playback played(open_dataset(folder));
+  ASSERT_EQ(played.frames.size(), 4U);
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(kUptime));
+  EXPECT_EQ(played.frames[3].stamp, Timestamp(kUptime + 100'000'000));
+  EXPECT_TRUE(played.warnings.empty());
+}
+
+std::string name_since_start(int frame) {
+  return std::to_string(kUptime + 100'000'000 * frame / 3);
+}
+
+TEST(StampsSinceStart, AreReadFromLists) {
+  const TempFolder folder;
+  write_tum(folder, 4);
+  for (const std::string image : {"rgb", "depth"}) {
+    std::string list = "timestamp filename\n";
+    for (int i = 0; i < 4; ++i) list += name_since_start(i) + " " + image + "/" + file_of(i) + "\n";
+    folder.write(image + ".txt", "# " + list);
+  }
+  folder.write("groundtruth.txt", name_since_start(0) + " 0 0 0 0 0 0 1\n" + name_since_start(1) +
+                                      " 0 0 0 0 0 0 1\n" + name_since_start(2) +
+                                      " 0 0 0 0 0 0 1\n");
+  expect_frames_since_start(folder.path());
+  EXPECT_EQ(open_dataset(folder.path())->ground_truth()[0].stamp, Timestamp(kUptime));
+}
+
+TEST(StampsSinceStart, AreReadFromNames) {
+  const TempFolder folder;
+  for (int i = 0; i < 4; ++i) {
+    write_color(folder.path() / "color" / (name_since_start(i) + ".png"));
+    write_depth(folder.path() / "depth" / (name_since_start(i) + ".png"));
+  }
+  folder.write("calibration.yaml", kCalibration);
+  expect_frames_since_start(folder.path());
+}
+
+TEST(StampsSinceStart, WarnsOfFramesFarApart) {
+  const TempFolder folder;
+  write_tum(folder, 5);
+  for (const std::string image : {"rgb", "depth"}) {
+    std::string list;  // microseconds since the start, which no one can tell from seconds
+    for (int i = 0; i < 5; ++i) {
+      list += std::to_string(5'000'000'000 + 33'333 * i) + " " + image + "/" + file_of(i) + "\n";
+    }
+    folder.write(image + ".txt", list);
+  }
+  const Playback played(open_dataset(folder.path()));
+  EXPECT_TRUE(any_has(played.warnings, "the frames are 33333 s apart, for a map at most 10 s"));
+  EXPECT_TRUE(any_has(played.source->describe(), "warning: the frames are 33333 s apart"));
+}
+
 }  // namespace
 }  // namespace mms

@@ -136,6 +136,32 @@ TEST_F(VideoRgbd, ReadsStrayScanner) {
   EXPECT_EQ(truth[1].T_world_sensor.translation().x(), 0.5);
 }
 
+/// Of older versions of the app.
+TEST_F(VideoRgbd, ReadsNumpyFilesOfStrayScannerInMillimeters) {
+  const auto npy = [](const std::string& type, const auto& pixels) {
+    const std::string header =
+        "{'descr': '" + type + "', 'fortran_order': False, 'shape': (6, 8), }\n";
+    return std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(header.size()) + '\0' + header +
+           std::string(reinterpret_cast<const char*>(pixels.data()), sizeof(pixels));
+  };
+  std::array<std::uint16_t, 48> integers{};
+  integers.fill(1250);
+  std::array<float, 48> floats{};
+  floats.fill(2500.0F);
+  write(0, 0);
+  folder_.write("depth/000000.npy", npy("<u2", integers));
+  folder_.write("depth/000001.npy", npy("<f4", floats));
+  std::filesystem::remove(folder_.path() / "calibration.yaml");
+  folder_.write("camera_matrix.csv", "20.0, 0.0, 8.5\n0.0, 22.0, 6.5\n0.0, 0.0, 1.0\n");
+  folder_.write("odometry.csv",
+                "timestamp, frame, x, y, z, qx, qy, qz, qw\n"
+                "71.50, 000000, 0, 0, 0, 0, 0, 0, 1\n");
+  const Playback played(open_dataset(folder_.path()));
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[0].depth(3, 3), 1.25F);
+  EXPECT_EQ(played.frames[1].depth(3, 3), 2.5F);
+}
+
 TEST_F(VideoRgbd, ErrorsNameTheFault) {
   folder_.write("depth/readme.txt", "");
   folder_.write("x.mp4", "not a video");

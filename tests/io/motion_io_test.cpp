@@ -53,6 +53,14 @@ TEST_F(MotionIo, ReadsEurocImu) {
   EXPECT_TRUE(imu[0].acceleration.isApprox(Eigen::Vector3d(8.1, -0.4, -2.4)));
 }
 
+TEST_F(MotionIo, ReadsStampsSinceTheStartOfTheSensor) {
+  folder_.write("imu.csv", "5000000000000,0,0,0.1\n5000005000000,0,0,0.1\n5000010000000,0,0,0.1\n");
+  const auto imu = read_imu(folder_.path() / "imu.csv");
+  ASSERT_EQ(imu.size(), 3U);
+  EXPECT_EQ(imu[0].stamp.nanoseconds(), 5'000'000'000'000);
+  EXPECT_EQ(imu[2].stamp.nanoseconds(), 5'000'010'000'000);
+}
+
 TEST_F(MotionIo, WritesWithoutLoss) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Vector3d(0.1, 1.0 / 3.0, 0.0);

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "mms/io/text/stamp_reader.hpp"
+
 namespace mms {
 namespace {
 
@@ -44,6 +46,30 @@ TEST(Numbers, ParsesStampsInOtherUnits) {
   EXPECT_EQ(parse_stamp("1403636579763")->nanoseconds(), 1403636579763000000);
   EXPECT_EQ(parse_stamp("1403636579763.5")->nanoseconds(), 1403636579763000000);
   EXPECT_EQ(parse_stamp("-3")->nanoseconds(), -3'000'000'000);
+}
+
+std::vector<std::int64_t> numbers_from(std::int64_t first, std::int64_t step) {
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t i = 0; i < 5; ++i) numbers.push_back(first + step * i);
+  return numbers;
+}
+
+TEST(StampReader, KnowsNanosecondsSinceTheStartOfASensor) {
+  const auto are = [](std::int64_t first, std::int64_t step) {
+    return are_nanoseconds_since_start(numbers_from(first, step), kLongestImageStep);
+  };
+  EXPECT_TRUE(are(5'000'000'000'000, 33'333'333)) << "not milliseconds since 1970";
+  EXPECT_TRUE(are(5'000'000'000'000'000, 33'333'333)) << "not microseconds since 1970";
+  EXPECT_TRUE(are(50'000'000'000, 33'333'333)) << "no other unit";
+  EXPECT_TRUE(are(2'000'000'000, 33'333'333)) << "not seconds";
+  EXPECT_FALSE(are(1'400'000'000'000, 33)) << "milliseconds";
+  EXPECT_FALSE(are(1'400'000'000'000, 5'000)) << "milliseconds";
+  EXPECT_FALSE(are(1'400'000'000'000'000, 33'333)) << "microseconds";
+  EXPECT_FALSE(are(1'400'000'000'000'000, 2'000'000)) << "microseconds";
+  EXPECT_FALSE(are(1'400'000'000'000'000'000, 33'333'333)) << "nanoseconds since 1970";
+  EXPECT_FALSE(are(1'400'000'000, 1)) << "seconds";
+  EXPECT_FALSE(are(0, 1)) << "a count";
+  EXPECT_FALSE(are_nanoseconds_since_start({5'000'000'000'000, 5'000'033'333'333}, 10.0));
 }
 
 }  // namespace

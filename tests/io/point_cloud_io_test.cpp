@@ -251,6 +251,31 @@ TEST(Pcd, ReadsAsciiWithPackedColors) {
   EXPECT_EQ(cloud.colors[0], (Rgb{255, 0, 255}));
 }
 
+/// Drivers store stamps of points so, also in fields that are not used.
+TEST(Pcd, ReadsIntegersOf64Bits) {
+  const TempFolder folder;
+  std::string points;
+  const auto put = [&points](auto value) {
+    points.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const std::uint64_t time : {1'700'000'000'500'000'000U, 1'700'000'000'600'000'000U}) {
+    for (const float coordinate : {1.0F, 2.0F, 3.0F}) put(coordinate);
+    put(std::int64_t{-7});
+    put(time);
+  }
+  const std::string header =
+      "SIZE 4 4 4 8 8\nTYPE F F F I U\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA binary\n";
+  const PointCloudFile unused =
+      read_pcd(folder.write("a.pcd", "FIELDS x y z id other\n" + header + points));
+  EXPECT_EQ(unused.points[1], Eigen::Vector3f(1, 2, 3));
+  EXPECT_TRUE(unused.time_offsets.empty());
+  const PointCloudFile timed =
+      read_pcd(folder.write("a.pcd", "FIELDS x y z id timestamp\n" + header + points));
+  ASSERT_EQ(timed.time_offsets.size(), 2U);
+  EXPECT_NEAR(timed.time_offsets[0], 0.0F, 1e-6F);
+  EXPECT_NEAR(timed.time_offsets[1], 0.1F, 1e-6F);
+}
+
 TEST(Pcd, RejectsInvalidHeaders) {
   const TempFolder folder;
   const std::string xyz = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";

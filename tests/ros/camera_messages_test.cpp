@@ -43,6 +43,15 @@ TEST(CameraMessages, RejectsUnsupportedDistortion) {
   expect_in("of 8 coefficients", error(message));
 }
 
+TEST(CameraMessages, KnowsNamesOfRealSense) {
+  msg::CameraInfo message = camera_info_message({}, kCamera);
+  message.distortion_model = "Brown Conrady";
+  EXPECT_EQ(intrinsics_of(message, false, "test"), kCamera);
+  message.distortion_model = "Inverse Brown Conrady";
+  expect_in("has the distortion model 'Inverse Brown Conrady' of 5 coefficients",
+            message_of<DataError>([&] { intrinsics_of(message, false, "test"); }));
+}
+
 TEST(CameraMessages, RejectsUncalibratedCameras) {
   expect_in("is not calibrated",
             message_of<DataError>([] { intrinsics_of(msg::CameraInfo(), false, "test"); }));

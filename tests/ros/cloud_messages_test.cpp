@@ -108,6 +108,31 @@ TEST(CloudMessages, ReadsPointTimesInEveryUnit) {
   EXPECT_NEAR(absolute_ns.scan().time_offset[1], 0.1, 1e-5);
 }
 
+/// A sensor whose clock is not set counts from its start, and so does the driver that stamps by it.
+TEST(CloudMessages, ReadsPointTimesSinceTheStartOfTheSensor) {
+  const auto cloud =
+      CloudBuilder(2, 1, 20).positions().field<double>("timestamp", 12, 8, {51.35e9, 51.45e9});
+  bool other_clock = true;
+  const LidarScan scan = scan_of(cloud.cloud(), Timestamp(51'350'000'000), "test", &other_clock);
+  EXPECT_NEAR(scan.time_offset[0], 0.0, 1e-6);
+  EXPECT_NEAR(scan.time_offset[1], 0.1, 1e-6);
+  EXPECT_FALSE(other_clock);
+}
+
+TEST(CloudMessages, PointTimesOfAnotherClockBeginAtTheStamp) {
+  const auto since_start =
+      CloudBuilder(2, 1, 20).positions().field<double>("timestamp", 12, 8, {51.45e9, 51.35e9});
+  const auto since_1970 = CloudBuilder(2, 1, 20).positions().field<double>(
+      "timestamp", 12, 8, {1'600'000'000.1, 1'600'000'000.0});
+  for (const auto& cloud : {since_start, since_1970}) {
+    bool other_clock = false;
+    const LidarScan scan = scan_of(cloud.cloud(), kStamp, "test", &other_clock);
+    EXPECT_NEAR(scan.time_offset[0], 0.1, 1e-6);
+    EXPECT_EQ(scan.time_offset[1], 0.0F);
+    EXPECT_TRUE(other_clock);
+  }
+}
+
 TEST(CloudMessages, NanTimesEqualStamp) {
   const auto some = CloudBuilder(2, 1, 16).positions().field<float>("time", 12, 7, {NAN, 0.05F});
   EXPECT_EQ(some.scan().time_offset, (std::vector<float>{0.0F, 0.05F}));

@@ -59,6 +59,63 @@ TEST(ImageMessages, ReadsGreyImages) {
   EXPECT_EQ(color_of(image_of("mono16", {0, 1, 0, 2, 0, 3, 0, 4}), "test")(0, 1), (Rgb{3, 3, 3}));
 }
 
+TEST(ImageMessages, ReadsYuv) {
+  // Black and white, and twice pure red, in limited range of ITU-R BT.601.
+  for (const std::string encoding : {"yuv422", "uyvy"}) {
+    const Image<Rgb> image =
+        color_of(image_of(encoding, {128, 16, 128, 235, 90, 81, 240, 81}, 3), "test");
+    EXPECT_EQ(image(0, 0), (Rgb{0, 0, 0})) << encoding;
+    EXPECT_EQ(image(1, 0), (Rgb{255, 255, 255})) << encoding;
+    EXPECT_EQ(image(0, 1), (Rgb{255, 0, 0})) << encoding;
+  }
+  for (const std::string encoding : {"yuv422_yuy2", "yuyv"}) {
+    const Image<Rgb> image =
+        color_of(image_of(encoding, {16, 128, 235, 128, 81, 90, 81, 240}), "test");
+    EXPECT_EQ(image(1, 0), (Rgb{255, 255, 255})) << encoding;
+    EXPECT_EQ(image(1, 1), (Rgb{255, 0, 0})) << encoding;
+  }
+}
+
+TEST(ImageMessages, ReadsBayerPatterns) {
+  const ColorCase cases[] = {{"bayer_rggb8", {100, 50, 60, 200}},
+                             {"bayer_bggr8", {200, 60, 50, 100}},
+                             {"bayer_grbg8", {50, 100, 200, 60}},
+                             {"bayer_gbrg8", {60, 200, 100, 50}}};
+  for (const ColorCase& one : cases) {
+    const Image<Rgb> image = color_of(image_of(one.encoding, one.bytes, 1), "test");
+    for (int i = 0; i < 4; ++i) {
+      const Rgb pixel = image(i % 2, i / 2);
+      const std::uint8_t sample = one.bytes[static_cast<std::size_t>(i)];
+      EXPECT_EQ(pixel.r, 100) << one.encoding << " pixel " << i;
+      EXPECT_EQ(pixel.g, sample == 50 || sample == 60 ? sample : 55) << one.encoding;
+      EXPECT_EQ(pixel.b, 200) << one.encoding << " pixel " << i;
+    }
+  }
+}
+
+/// The colors that a pixel lacks are means of its neighbors.
+TEST(ImageMessages, InterpolatesBayerPatterns) {
+  msg::Image message;
+  message.encoding = "bayer_rggb8";
+  message.width = message.height = 4;
+  message.step = 4;
+  message.data = {10, 0, 20, 0, 0, 7, 0, 9, 30, 0, 40, 0, 0, 11, 0, 13};
+  const Image<Rgb> image = color_of(message, "test");
+  EXPECT_EQ(image(1, 1), (Rgb{25, 0, 7})) << "of four red samples";
+  EXPECT_EQ(image(2, 2), (Rgb{40, 0, 10})) << "of four blue samples";
+  EXPECT_EQ(image(1, 2), (Rgb{35, 0, 9})) << "of two each";
+}
+
+TEST(ImageMessages, RefusesSidesThatRawColorsDoNotHave) {
+  msg::Image message = image_of("yuv422", {128, 16, 128, 235, 90, 81, 240, 81});
+  message.width = 1;
+  expect_in("test: is 1x2 pixels of yuv422, allowed: an even width",
+            message_of<DataError>([&] { color_of(message, "test"); }));
+  message.encoding = "bayer_rggb8";
+  expect_in("test: is 1x2 pixels of bayer_rggb8, allowed: 2x2 and more",
+            message_of<DataError>([&] { color_of(message, "test"); }));
+}
+
 TEST(ImageMessages, ReadsDepthInMillimetersInBothByteOrders) {
   msg::Image message = image_of("16UC1", {0, 0, 0xE8, 0x03, 0xDC, 0x05, 0xFF, 0xFF}, 2);
   const Image<float> depth = depth_of(message, "test");
@@ -69,6 +126,17 @@ TEST(ImageMessages, ReadsDepthInMillimetersInBothByteOrders) {
   message = image_of("mono16", {0, 0, 0x03, 0xE8, 0x05, 0xDC, 0xFF, 0xFF});
   message.is_bigendian = 1;
   EXPECT_EQ(depth_of(message, "test").pixels(), depth.pixels());
+}
+
+TEST(ImageMessages, ReadsDepthInUnitsOfAScale) {
+  const msg::Image message = image_of("mono16", {0, 0, 0xE8, 0x03, 0xDC, 0x05, 0xFF, 0xFF});
+  EXPECT_EQ(depth_of(message, "test", 4000.0)(1, 0), 0.25F);
+  const msg::CompressedImage compressed = compressed_message({}, Image<std::uint16_t>(2, 1, 3000));
+  EXPECT_EQ(depth_of(compressed, "test", 4000.0)(1, 0), 0.75F);
+  const msg::CompressedImage plain{{}, "png", encode_png(Image<std::uint16_t>(2, 1, 3000))};
+  EXPECT_EQ(depth_of(plain, "test", 4000.0)(1, 0), 0.75F);
+  msg::Image metres = image_message({}, Image<float>(2, 1, 1.5F));
+  EXPECT_EQ(depth_of(metres, "test", 4000.0)(0, 0), 1.5F) << "has meters";
 }
 
 TEST(ImageMessages, ReadsDepthInMeters) {
@@ -217,9 +285,9 @@ TEST(ImageMessages, ErrorsExplainProblem) {
     });
   };
   msg::Image valid = image_of("rgb8", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
-  expect_in("topic message 3: has the encoding 'yuv422', expected rgb8", error([&] {
+  expect_in("topic message 3: has the encoding 'nv12', expected rgb8", error([&] {
               msg::Image m = valid;
-              m.encoding = "yuv422";
+              m.encoding = "nv12";
               return m;
             }()));
   expect_in("has the encoding 'rgb8', expected 16UC1", error(valid, true));

@@ -8,13 +8,16 @@
 namespace mms {
 
 /// Calibration of a bag: the given file, else NAME.calibration.yaml next to NAME.bag or
-/// calibration.yaml in a folder, else the camera of a camera_info topic and extrinsics of the
-/// bag's transforms. Adds the origin to the recording's facts.
-/// @param topics  camera_info, wheels and imu are used; empty for none
-/// @param given   calibration file; empty for none
+/// calibration.yaml in a folder, in any format of `read_any_calibration`; else the camera of a
+/// camera_info topic and extrinsics of the bag's transforms. The depth scale is the given one, else
+/// that of the file, of the depth sensor's option in bags of RealSense's SDK, or 1000. Adds the
+/// origin to the recording's facts. Images beside clouds are removed from the recording, with a
+/// warning, if their camera is not known and no option asks for them.
+/// @param topics   camera_info, wheels and imu are used; empty for none
+/// @param options  camera, topics and masks are used
 /// @throws DataError if there are images without a camera; ConfigError for an invalid file.
 Calibration bag_calibration(BagRecording& recording, const BagTopicNames& topics,
                             const TransformTree& transforms, const std::filesystem::path& path,
-                            const std::filesystem::path& given);
+                            const SourceOptions& options);
 
 }  // namespace mms

@@ -9,8 +9,8 @@
 #include "mms/dataset/bag/bag_motion.hpp"
 #include "mms/dataset/bag/bag_topics.hpp"
 #include "mms/dataset/bag/bag_truth.hpp"
-#include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/frame_association.hpp"
+#include "mms/ros/cloud_messages.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -162,8 +162,18 @@ void find_masks(BagRecording& recording, const SourceOptions& options) {
     recording.facts.emplace_back("masks: none");
     return;
   }
-  const std::size_t found = match(recording.frames, recording.mask, Duration(0), &BagFrame::mask);
-  recording.facts.push_back("masks: " + std::to_string(found) + " of " +
+  // Masks have the stamps of the images they were made of, not those of clouds.
+  std::vector<std::size_t> with_color;
+  std::vector<Timestamp> stamps;
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    const std::size_t color = recording.frames[i].color;
+    if (color == BagFrame::kNone) continue;
+    with_color.push_back(i);
+    stamps.push_back(recording.color.stamps[color]);
+  }
+  const auto pairs = associate(stamps, recording.mask.stamps, Duration(0));
+  for (const auto& [i, j] : pairs) recording.frames[with_color[i]].mask = j;
+  recording.facts.push_back("masks: " + std::to_string(pairs.size()) + " of " +
                             std::to_string(recording.frames.size()) + " in " +
                             recording.mask.topic);
 }
@@ -210,10 +220,47 @@ void check_clocks(BagRecording& recording) {
   }
 }
 
+/// Tells by the first cloud that the times of points have another clock than the stamps.
+void check_point_clock(BagRecording& recording) {
+  if (recording.cloud.empty()) return;
+  const std::string& topic = recording.cloud.topic;
+  const std::string where = recording.bag->where(topic, 0);
+  bool other_clock = false;
+  try {
+    scan_of(recording.bag->read<msg::PointCloud2>(topic, 0), recording.cloud.stamps[0], where,
+            &other_clock);
+  } catch (const DataError&) {  // its frame is skipped with a warning
+    return;
+  }
+  if (!other_clock) return;
+  recording.warnings.push_back("the times of points of " + topic +
+                               " are more than 1 s from the stamps: each scan is taken to begin at "
+                               "its stamp");
+}
+
+/// @throws DataError for options of the camera that this bag has no use for.
+void check_camera_options(const CameraOptions& camera, const BagTopicNames& topics,
+                          const std::string& where) {
+  if (camera.intrinsics) {
+    throw DataError(where, "is no folder of color and depth images",
+                    "--intrinsics is for those; use --calibration");
+  }
+  if (camera.depth_scale && topics.depth.empty()) {
+    throw DataError(where, "is read without depth images", "omit --depth-scale");
+  }
+}
+
 BagTopicNames topics_of(const BagReader& bag, const BagTopicNames& given,
                         const std::string& where) {
   const auto encoding_of = [&](const BagTopic& topic) {
-    return bag.first<msg::Image>(topic.name).encoding;
+    if (topic.type != "sensor_msgs/CompressedImage") {
+      return bag.first<msg::Image>(topic.name).encoding;
+    }
+    try {
+      return bag.first<msg::CompressedImage>(topic.name).format;
+    } catch (const DataError&) {  // its frames are skipped with a warning
+      return std::string();
+    }
   };
   const std::string damage = bag.damage().empty() ? "" : " (" + bag.damage().front() + ")";
   if (bag.topics().empty()) throw DataError(where, "is empty: it has no topics" + damage);
@@ -223,11 +270,11 @@ BagTopicNames topics_of(const BagReader& bag, const BagTopicNames& given,
 }  // namespace
 
 BagRecording read_bag_recording(const fs::path& path, const SourceOptions& options) {
-  reject_image_options(path, options.camera);
   BagRecording recording;
   recording.bag = std::make_unique<BagReader>(path);
   const BagReader& bag = *recording.bag;
   const BagTopicNames topics = topics_of(bag, options.topics, path.string());
+  check_camera_options(options.camera, topics, path.string());
   recording.warnings = bag.damage();
   recording.facts.push_back("layout: " + bag.layout());
   recording.facts.emplace_back(topics.cloud.empty() ? "sensor: depth camera" : "sensor: LiDAR");
@@ -239,11 +286,12 @@ BagRecording read_bag_recording(const fs::path& path, const SourceOptions& optio
                 {bag, recording.cloud, topics.cloud},
                 {bag, recording.mask, masks ? topics.mask : ""}});
   check_clocks(recording);
+  check_point_clock(recording);
   topics.cloud.empty() ? make_rgbd_frames(recording, path.string()) : make_cloud_frames(recording);
   const TransformTree transforms = read_transforms(bag, recording.warnings);
   recording.motion = read_bag_motion(bag, topics, options.motion, recording.warnings);
   const auto calibration = std::make_shared<const Calibration>(
-      bag_calibration(recording, topics, transforms, path, options.camera.file));
+      bag_calibration(recording, topics, transforms, path, options));
   recording.calibration = registered_calibration(calibration);
   recording.registration = make_registration(*calibration);
   find_masks(recording, options);

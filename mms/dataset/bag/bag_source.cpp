@@ -20,12 +20,13 @@ Image<Rgb> read_color(const BagReader& bag, const BagStream& stream, std::size_t
   return color_of(bag.read<msg::Image>(stream.topic, index), where);
 }
 
-Image<float> read_depth(const BagReader& bag, const BagStream& stream, std::size_t index) {
+Image<float> read_depth(const BagReader& bag, const BagStream& stream, std::size_t index,
+                        double scale) {
   const std::string where = bag.where(stream.topic, index);
   if (stream.compressed) {
-    return depth_of(bag.read<msg::CompressedImage>(stream.topic, index), where);
+    return depth_of(bag.read<msg::CompressedImage>(stream.topic, index), where, scale);
   }
-  return depth_of(bag.read<msg::Image>(stream.topic, index), where);
+  return depth_of(bag.read<msg::Image>(stream.topic, index), where, scale);
 }
 
 template <class T>
@@ -83,7 +84,8 @@ class BagSource final : public RecordedSource {
     check_size(frame.color, camera, bag.where(recording_.color.topic, at.color));
     if (at.depth != BagFrame::kNone) {
       const auto& registration = recording_.registration;
-      frame.depth = read_depth(bag, recording_.depth, at.depth);
+      frame.depth =
+          read_depth(bag, recording_.depth, at.depth, recording_.calibration->depth_scale);
       check_size(frame.depth, registration ? registration->depth_camera() : camera,
                  bag.where(recording_.depth.topic, at.depth),
                  registration ? "" : "it must be registered to the color image");

@@ -6,6 +6,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/ros/image_messages.hpp"
+#include "mms/ros/raw_colors.hpp"
 
 namespace mms {
 namespace {
@@ -34,10 +35,18 @@ int common(const std::string& a, const std::string& b) {
   return static_cast<int>(ends.first - a.begin());
 }
 
-/// The name without its last part and the parts of compressed or rectified images.
-std::string camera_of(std::string topic) {
-  if (topic.ends_with("/compressed")) topic.resize(topic.rfind('/'));
-  return topic.substr(0, topic.rfind('/') + 1);
+/// The name without the part that transports of compressed images add.
+std::string without_transport(std::string topic) {
+  for (const char* part : {"/compressedDepth", "/compressed"}) {
+    if (topic.ends_with(part)) topic.resize(topic.rfind('/'));
+  }
+  return topic;
+}
+
+/// The name without its last part and the parts of compressed images.
+std::string camera_of(const std::string& topic) {
+  const std::string image = without_transport(topic);
+  return image.substr(0, image.rfind('/') + 1);
 }
 
 /// Selection of one topic: the given one, or the best match.
@@ -60,13 +69,19 @@ class Choice {
     return chosen == nullptr ? "" : chosen->name;
   }
 
+  /// 0 for a missing topic.
+  template <class Rank>
+  int rank_of(const std::string& name, const Rank& rank) const {
+    for (const BagTopic& topic : topics_) {
+      if (topic.name == name) return rank(topic);
+    }
+    return 0;
+  }
+
   /// A topic of the rank of `chosen` that belongs to another camera; empty for none.
   template <class Rank>
   std::string rival(const std::string& chosen, const Rank& rank) const {
-    int highest = 0;
-    for (const BagTopic& topic : topics_) {
-      if (topic.name == chosen) highest = rank(topic);
-    }
+    const int highest = rank_of(chosen, rank);
     for (const BagTopic& topic : topics_) {
       const bool other = camera_of(topic.name) != camera_of(chosen);
       if (other && topic.count > 0 && rank(topic) == highest) return topic.name;
@@ -116,11 +131,17 @@ bool is_depth(const BagTopic& topic, const EncodingOf& encoding_of) {
 
 int depth_rank(const BagTopic& topic, const EncodingOf& encoding_of) {
   if (!is_depth(topic, encoding_of)) return 0;
-  int rank = topic.type == kImage ? 2 : 1;
-  if (has_word(topic.name, {"aligned", "registered", "to_color", "to_rgb"})) rank += 4;
-  if (has_word(topic.name, {"depth"})) rank += 2;
+  const bool compressed = topic.type == kCompressed;
+  // JPEG has 8 bits, which are no depth: all else is better.
+  if (compressed && has_word(encoding_of(topic), {"jpeg", "jpg"})) return 1;
+  int rank = !compressed ? 4 : topic.name.ends_with("/compressedDepth") ? 3 : 2;
+  if (has_word(topic.name, {"aligned", "registered", "to_color", "to_rgb"})) rank += 8;
+  if (has_word(topic.name, {"depth"})) rank += 4;
   return rank;
 }
+
+/// Of color as the sensor sends it: all else was decoded by the camera's own driver.
+constexpr int kRawRank = 1;
 
 int color_rank(const BagTopic& topic, const EncodingOf& encoding_of) {
   const bool compressed = topic.type == kCompressed;
@@ -132,16 +153,51 @@ int color_rank(const BagTopic& topic, const EncodingOf& encoding_of) {
   }
   const std::string encoding = compressed ? "" : encoding_of(topic);
   if (!compressed && !is_color_encoding(encoding)) return 0;
+  if (raw_color_size(encoding) > 0) return kRawRank;
   int rank = compressed ? 1 : 2;
   if (encoding != "mono8" && encoding != "8UC1") rank += 4;
   if (has_word(topic.name, {"color", "rgb"})) rank += 8;
   return rank;
 }
 
+bool is_color_like(const std::string& encoding) {
+  constexpr const char* kStarts[] = {"bayer_", "yuv", "uyvy",  "yuyv", "nv",
+                                     "rgb",    "bgr", "16UC3", "16UC4"};
+  return std::any_of(std::begin(kStarts), std::end(kStarts),
+                     [&](const char* start) { return encoding.starts_with(start); });
+}
+
+/// Images that seem to be of color, in encodings that are not read: "/a is 'nv12', /b ...".
+std::string unread_colors(const std::vector<BagTopic>& topics, const EncodingOf& encoding_of) {
+  std::string text;
+  for (const BagTopic& topic : topics) {
+    if (topic.type != kImage || topic.count == 0 || is_mask_name(topic.name)) continue;
+    if (has_word(topic.name, {"depth", "infra", "confidence"})) continue;
+    const std::string encoding = encoding_of(topic);
+    if (is_color_encoding(encoding) || !is_color_like(encoding)) continue;
+    text += (text.empty() ? "" : ", ") + topic.name + " is '" + encoding + "'";
+  }
+  return text;
+}
+
 /// Of topics with equal rank, the one whose name begins most like `other` counts more.
 int beside(int rank, const std::string& name, const std::string& other) {
   constexpr int kLongest = 1000;  // [characters] that count
   return rank == 0 ? 0 : rank * kLongest + std::min(common(name, other), kLongest - 1);
+}
+
+/// @param depth   of the bag, which goes without color here; empty for none
+/// @param unread  as of `unread_colors`
+std::string find_cloud(const Choice& choice, const std::string& depth, const std::string& unread) {
+  const std::string best = choice.best([](const BagTopic& topic) {
+    return topic.type != "sensor_msgs/PointCloud2" ? 0 : static_cast<int>(topic.count);
+  });
+  // The clouds of a depth camera are no scans of a LiDAR.
+  if (!best.empty() && !unread.empty() && !depth.empty()) {
+    choice.fail("has depth in " + depth + ", but color in an encoding that is not read: " + unread,
+                "convert the images to rgb8, or choose the clouds with --topic-cloud " + best);
+  }
+  return best;
 }
 
 std::string find_camera_info(const Choice& choice, const std::string& color) {
@@ -183,23 +239,9 @@ std::string find_truth(const Choice& choice) {
   });
 }
 
-}  // namespace
-
-std::string camera_info_beside(std::string topic) {
-  for (const char* part : {"/compressedDepth", "/compressed"}) {
-    if (topic.ends_with(part)) topic.resize(topic.rfind('/'));
-  }
-  return topic.substr(0, topic.rfind('/') + 1) + "camera_info";
-}
-
-bool is_named_registered(const std::string& depth_topic) {
-  const auto has = [&](const char* word) { return depth_topic.find(word) != std::string::npos; };
-  return has("aligned") || has("registered") || has("to_color") || has("to_rgb");
-}
-
-BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicNames& given,
-                            const EncodingOf& encoding_of, const std::string& where) {
-  const Choice choice(topics, where);
+/// Topics of color, depth and clouds, see `choose_topics`.
+BagTopicNames choose_frames(const Choice& choice, const std::vector<BagTopic>& topics,
+                            const BagTopicNames& given, const EncodingOf& encoding_of) {
   const auto pick = [&](const std::string& name, const char* option, Words types,
                         const auto& find) {
     return name.empty() ? find() : choice.given(name, option, types);
@@ -224,18 +266,43 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
                   "choose one with --topic-color " + chosen.color);
     }
   }
+  const std::string unread = chosen.color.empty() ? unread_colors(topics, encoding_of) : "";
   chosen.cloud = pick(given.cloud, "--topic-cloud", {"sensor_msgs/PointCloud2"}, [&] {
     if (!chosen.depth.empty()) return std::string();
-    return choice.best([](const BagTopic& topic) {
-      return topic.type != "sensor_msgs/PointCloud2" ? 0 : static_cast<int>(topic.count);
-    });
+    return find_cloud(choice, choice.best(rank_depth), unread);
   });
+  // Beside a LiDAR, images as the sensor sends them count if they are named only.
+  const bool raw = choice.rank_of(chosen.color, rank_color) == kRawRank;
+  if (given.color.empty() && chosen.depth.empty() && raw) chosen.color.clear();
   if (chosen.cloud.empty() && (chosen.depth.empty() || chosen.color.empty())) {
     choice.fail(
-        "has neither color images with depth nor point clouds",
+        "has neither color images with depth nor point clouds" +
+            (unread.empty() ? "" : "; encodings that are not read: " + unread),
         "expected sensor_msgs/Image or CompressedImage of color and of depth, or "
         "sensor_msgs/PointCloud2; select them with --topic-color, --topic-depth and --topic-cloud");
   }
+  return chosen;
+}
+
+}  // namespace
+
+std::string camera_info_beside(const std::string& topic) {
+  return camera_of(topic) + "camera_info";
+}
+
+bool is_named_registered(const std::string& depth_topic) {
+  const auto has = [&](const char* word) { return depth_topic.find(word) != std::string::npos; };
+  return has("aligned") || has("registered") || has("to_color") || has("to_rgb");
+}
+
+BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicNames& given,
+                            const EncodingOf& encoding_of, const std::string& where) {
+  const Choice choice(topics, where);
+  const auto pick = [&](const std::string& name, const char* option, Words types,
+                        const auto& find) {
+    return name.empty() ? find() : choice.given(name, option, types);
+  };
+  BagTopicNames chosen = choose_frames(choice, topics, given, encoding_of);
   if (!chosen.color.empty()) {
     chosen.camera_info = pick(given.camera_info, "--topic-camera-info", {"sensor_msgs/CameraInfo"},
                               [&] { return find_camera_info(choice, chosen.color); });

@@ -9,7 +9,8 @@
 
 namespace mms {
 
-/// Returns the encoding of an image topic, such as "rgb8" or "16UC1", from its first message.
+/// Returns the encoding of an image topic, such as "rgb8" or "16UC1", from its first message; of
+/// compressed images the format, such as "jpeg", empty if it cannot be read.
 using EncodingOf = std::function<std::string(const BagTopic&)>;
 
 /// Selects the topics to read: the given ones, and the best match for the others. Depth with a
@@ -25,7 +26,7 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
                             const EncodingOf& encoding_of, const std::string& where);
 
 /// Topic of the camera_info beside a topic of images: "/rgb/camera_info" for "/rgb/image".
-std::string camera_info_beside(std::string topic);
+std::string camera_info_beside(const std::string& topic);
 
 /// Whether the name of a topic of depth images says that they are registered to color images, as
 /// drivers name it: "aligned_depth_to_color", "depth_registered".

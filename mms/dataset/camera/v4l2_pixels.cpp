@@ -1,30 +1,13 @@
 #include "mms/dataset/camera/v4l2_pixels.hpp"
 
-#include <algorithm>
+#include "mms/io/image/yuv_color.hpp"
 
 namespace mms {
 namespace {
 
 constexpr std::size_t kPixelBytes = 2;  // of YUYV and Z16
 
-// Factors of ITU-R BT.601 in 1/256, from limited range (16 to 235, 16 to 240) to 0 to 255.
-constexpr int kLuma = 298;
-constexpr int kRedOfCr = 409;
-constexpr int kGreenOfCb = -100;
-constexpr int kGreenOfCr = -208;
-constexpr int kBlueOfCb = 516;
-constexpr int kBlack = 16;
 constexpr int kGray = 128;
-
-std::uint8_t channel(int value) {
-  return static_cast<std::uint8_t>(std::clamp((value + 128) >> 8, 0, 255));
-}
-
-Rgb color_of(int y, int cb, int cr) {
-  const int luma = kLuma * (y - kBlack);
-  return {channel(luma + kRedOfCr * cr), channel(luma + kGreenOfCb * cb + kGreenOfCr * cr),
-          channel(luma + kBlueOfCb * cb)};
-}
 
 const std::uint8_t* row_of(std::span<const std::uint8_t> bytes, const RawImageLayout& layout,
                            int y) {
@@ -48,8 +31,8 @@ Image<Rgb> color_from_yuyv(std::span<const std::uint8_t> bytes, const RawImageLa
     for (int x = 0; x + 1 < layout.width; x += 2, pair += 2 * kPixelBytes) {
       const int cb = pair[1] - kGray;
       const int cr = pair[3] - kGray;
-      pixel[x] = color_of(pair[0], cb, cr);
-      pixel[x + 1] = color_of(pair[2], cb, cr);
+      pixel[x] = rgb_of_yuv(pair[0], cb, cr);
+      pixel[x + 1] = rgb_of_yuv(pair[2], cb, cr);
     }
   }
   return color;

@@ -8,6 +8,7 @@
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/assumed_stamp.hpp"
 #include "mms/io/text/numbers.hpp"
+#include "mms/io/text/stamp_reader.hpp"
 #include "mms/io/text/text_table.hpp"
 
 namespace mms {
@@ -25,10 +26,31 @@ std::string_view last_digits(std::string_view text) {
   return text.substr(begin);
 }
 
-/// Stamp in a name, as in N008__LIDAR_TOP__1532402927647951.pcd.bin.
-std::optional<Timestamp> stamp_in_name(const fs::path& scan) {
+/// Name of a scan without its endings.
+std::string name_of(const fs::path& scan) {
   std::string name = scan.stem().string();
   if (name.ends_with(".pcd")) name.resize(name.size() - 4);
+  return name;
+}
+
+/// Stamps in names that are nanoseconds since the sensor was turned on; empty for others.
+std::vector<Timestamp> start_stamps_in_names(const std::vector<fs::path>& scans) {
+  std::vector<std::int64_t> numbers;
+  std::vector<Timestamp> stamps;
+  for (const fs::path& scan : scans) {
+    const std::string name = name_of(scan);
+    const auto number = parse_integer(last_digits(name));
+    if (!number || *number < kSecond) return {};  // a count, or nanoseconds after seconds
+    numbers.push_back(*number);
+    stamps.emplace_back(*number);
+  }
+  if (!are_nanoseconds_since_start(std::move(numbers), kLongestImageStep)) return {};
+  return stamps;
+}
+
+/// Stamp in a name, as in N008__LIDAR_TOP__1532402927647951.pcd.bin.
+std::optional<Timestamp> stamp_in_name(const fs::path& scan) {
+  const std::string name = name_of(scan);
   const std::string_view text = name;
   const std::string_view digits = last_digits(text);
   const auto number = parse_integer(digits);
@@ -44,7 +66,8 @@ std::optional<Timestamp> stamp_in_name(const fs::path& scan) {
 }
 
 std::vector<Timestamp> stamps_in_names(const std::vector<fs::path>& scans) {
-  std::vector<Timestamp> stamps;
+  std::vector<Timestamp> stamps = start_stamps_in_names(scans);
+  if (!stamps.empty()) return stamps;
   for (const fs::path& scan : scans) {
     const auto stamp = stamp_in_name(scan);
     if (!stamp) return {};
@@ -56,8 +79,9 @@ std::vector<Timestamp> stamps_in_names(const std::vector<fs::path>& scans) {
 std::vector<Timestamp> read_times(const fs::path& file, std::size_t count) {
   std::vector<Timestamp> stamps;
   const TextTable table(file);
+  const StampReader read_stamp(table, 0, kLongestImageStep);
   for (const TextLine& line : table.lines()) {
-    const auto stamp = parse_stamp(line.fields[0]);
+    const auto stamp = read_stamp(line.fields[0]);
     if (!stamp) throw DataError(table.where(line), "is not a stamp in seconds");
     stamps.push_back(*stamp);
   }

@@ -8,6 +8,7 @@
 #include "mms/dataset/source/assumed_stamp.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/io/text/numbers.hpp"
+#include "mms/io/text/stamp_reader.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -68,6 +69,14 @@ std::optional<std::int64_t> number_of(std::string_view name, const ImageSeries& 
   return std::nullopt;
 }
 
+/// Whether the numbers of images are nanoseconds since the camera was turned on.
+bool are_since_start(const std::map<std::int64_t, fs::path>& files) {
+  std::vector<std::int64_t> numbers;
+  for (const auto& [number, file] : files) numbers.push_back(number);
+  return !numbers.empty() && numbers.front() > kMaxImageNumber &&
+         are_nanoseconds_since_start(std::move(numbers), kLongestImageStep);
+}
+
 /// Stamp of an image: its number, or at the assumed rate.
 Timestamp stamp_of_image(std::int64_t number, const AssumedRate& rate, const fs::path& file) {
   if (const auto stamp = stamp_of_number(number)) return *stamp;
@@ -112,16 +121,18 @@ std::vector<std::int64_t> add_numbered_frames(RgbdRecording& recording, const Im
                                               const ImageSeries& depth, const AssumedRate& rate) {
   const auto colors = find_numbered(color);
   const auto depths = find_numbered(depth);
+  const bool since_start = are_since_start(colors);
   std::vector<std::int64_t> numbers;
   for (const auto& [number, file] : colors) {
     const auto other = depths.find(number);
     if (other == depths.end()) continue;
-    recording.frames.push_back({stamp_of_image(number, rate, file),
-                                Duration::zero(),
-                                file,
-                                other->second,
-                                {},
-                                file.stem().string()});
+    recording.frames.push_back(
+        {since_start ? Timestamp(number) : stamp_of_image(number, rate, file),
+         Duration::zero(),
+         file,
+         other->second,
+         {},
+         file.stem().string()});
     numbers.push_back(number);
   }
   const std::string counts = std::to_string(colors.size()) + " color images " +
@@ -132,7 +143,7 @@ std::vector<std::int64_t> add_numbered_frames(RgbdRecording& recording, const Im
   }
   recording.facts.push_back("images: " + counts + ", " + std::to_string(numbers.size()) +
                             " with both");
-  if (stamp_of_number(numbers.front())) {
+  if (since_start || stamp_of_number(numbers.front())) {
     recording.facts.emplace_back("stamps: names of the images");
   } else {
     recording.assumed_rate = rate;

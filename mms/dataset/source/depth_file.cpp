@@ -20,19 +20,23 @@ Image<float> to_metres(const Image<std::uint16_t>& raw, double scale, std::uint1
   return depth;
 }
 
-Image<float> without_invalid(Image<float> depth) {
+Image<float> to_metres(Image<float> depth, double scale) {
+  const float units = static_cast<float>(scale);
   for (std::size_t i = 0; i < depth.size(); ++i) {
-    if (!(std::isfinite(depth[i]) && depth[i] > 0.0F)) depth[i] = 0.0F;
+    const bool valid = std::isfinite(depth[i]) && depth[i] > 0.0F;
+    depth[i] = valid ? depth[i] / units : 0.0F;
   }
   return depth;
 }
 
 }  // namespace
 
-Image<float> read_depth(const std::filesystem::path& path, double scale, std::uint16_t invalid) {
-  if (path.extension() == ".npy") return without_invalid(read_npy(path));
-  StoredDepth stored = read_stored_depth(path);
-  if (auto* metres = std::get_if<Image<float>>(&stored)) return without_invalid(std::move(*metres));
+Image<float> read_depth(const std::filesystem::path& path, double scale, std::uint16_t invalid,
+                        double float_scale) {
+  StoredDepth stored = path.extension() == ".npy" ? read_npy(path) : read_stored_depth(path);
+  if (auto* numbers = std::get_if<Image<float>>(&stored)) {
+    return to_metres(std::move(*numbers), float_scale);
+  }
   return to_metres(std::get<Image<std::uint16_t>>(stored), scale, invalid);
 }
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "mms/core/error.hpp"
-#include "mms/io/text/numbers.hpp"
+#include "mms/io/text/stamp_reader.hpp"
 #include "mms/io/text/text_table.hpp"
 
 namespace mms {
@@ -33,8 +33,8 @@ class LineFaults {
 };
 
 std::optional<ListedImage> parse_image(const fs::path& folder, const TextLine& line,
-                                       std::size_t column) {
-  const auto stamp = parse_stamp(line.fields[column]);
+                                       std::size_t column, const StampReader& read_stamp) {
+  const auto stamp = read_stamp(line.fields[column]);
   if (!stamp) return std::nullopt;
   return ListedImage{*stamp, folder / line.fields[column + 1]};
 }
@@ -45,9 +45,10 @@ bool depth_comes_first(const TextLine& line) {
   return line.fields[1].find("depth") != kNone && line.fields[3].find("depth") == kNone;
 }
 
-std::optional<ListedPair> parse_pair(const fs::path& folder, const TextLine& line) {
-  auto first = parse_image(folder, line, 0);
-  auto second = parse_image(folder, line, 2);
+std::optional<ListedPair> parse_pair(const fs::path& folder, const TextLine& line,
+                                     const StampReader& read_stamp) {
+  auto first = parse_image(folder, line, 0, read_stamp);
+  auto second = parse_image(folder, line, 2, read_stamp);
   if (!first || !second) return std::nullopt;
   if (depth_comes_first(line)) std::swap(first, second);
   return ListedPair{*first, *second};
@@ -65,13 +66,15 @@ template <class Parse>
 auto read_list(const fs::path& list, std::size_t columns, const std::string& form, Parse parse,
                std::vector<std::string>& warnings) {
   const TextTable table(list);
+  const StampReader read_stamp(table, 0, kLongestImageStep);
   const fs::path folder = list.parent_path();
   LineFaults damaged("line skipped, expected '" + form + "'");
   LineFaults duplicate("line skipped, duplicate stamp");
-  std::vector<typename decltype(parse(folder, table.lines()[0]))::value_type> entries;
+  std::vector<typename decltype(parse(folder, table.lines()[0], read_stamp))::value_type> entries;
   std::set<Timestamp> seen;
   for (const TextLine& line : table.lines()) {
-    const auto entry = line.fields.size() == columns ? parse(folder, line) : std::nullopt;
+    const auto entry =
+        line.fields.size() == columns ? parse(folder, line, read_stamp) : std::nullopt;
     if (!entry) {
       damaged.add(table.where(line));
     } else if (!seen.insert(stamp_of(*entry)).second) {
@@ -92,8 +95,9 @@ auto read_list(const fs::path& list, std::size_t columns, const std::string& for
 
 std::vector<ListedImage> read_image_list(const fs::path& list, std::vector<std::string>& warnings,
                                          const fs::path& below) {
-  const auto parse = [&below](const fs::path& folder, const TextLine& line) {
-    return parse_image(below.empty() ? folder : folder / below, line, 0);
+  const auto parse = [&below](const fs::path& folder, const TextLine& line,
+                              const StampReader& read_stamp) {
+    return parse_image(below.empty() ? folder : folder / below, line, 0, read_stamp);
   };
   return read_list(list, 2, "stamp path", parse, warnings);
 }

@@ -9,6 +9,7 @@
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/results/objects_io.hpp"
 #include "mms/io/text/numbers.hpp"
+#include "mms/io/text/stamp_reader.hpp"
 
 namespace mms {
 namespace {
@@ -110,6 +111,19 @@ std::string RecordedSource::rate_fault() const {
          " Hz is assumed; --rate gives the right one, if it is another";
 }
 
+std::string RecordedSource::step_fault() const {
+  constexpr std::size_t kMinFrames = 5;  // fewer may be chosen by hand
+  if (size() < kMinFrames) return "";
+  std::vector<Duration> steps;
+  for (std::size_t i = 1; i < size(); ++i) steps.push_back(stamp_of(i) - stamp_of(i - 1));
+  const auto center = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), center, steps.end());
+  if (to_seconds(*center) <= kLongestImageStep) return "";
+  return "the frames are " + decimals("%.0f s", to_seconds(*center)) +
+         " apart, for a map at most 10 s: are the stamps in seconds, or in milli-, micro- or "
+         "nanoseconds since 1970?";
+}
+
 std::vector<std::string> RecordedSource::describe() const {
   std::vector<std::string> lines = facts();
   if (assumed_rate_) lines.push_back(rate_fact());
@@ -129,8 +143,9 @@ std::vector<std::string> RecordedSource::describe() const {
                                           ? std::string("none")
                                           : std::to_string(ground_truth_.size()) + " poses"));
   lines.insert(lines.end(), motion_facts_.begin(), motion_facts_.end());
-  const std::string clock = clock_fault();
-  if (!clock.empty()) lines.push_back("warning: " + clock);
+  for (const std::string& fault : {step_fault(), clock_fault()}) {
+    if (!fault.empty()) lines.push_back("warning: " + fault);
+  }
   if (std::filesystem::exists(map_truth_)) {
     lines.push_back("map truth: " + map_truth_.filename().string());
   }
@@ -154,7 +169,7 @@ void RecordedSource::on_warning(WarningHandler handler) {
   if (!handler_) return;
   for (const std::string& message : std::exchange(pending_warnings_, {})) handler_(message);
   if (std::exchange(has_told_faults_, true)) return;
-  for (const std::string& fault : {rate_fault(), clock_fault()}) {
+  for (const std::string& fault : {rate_fault(), step_fault(), clock_fault()}) {
     if (!fault.empty()) handler_(fault);
   }
 }

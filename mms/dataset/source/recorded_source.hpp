@@ -58,6 +58,8 @@ class RecordedSource : public FrameSource {
   std::string rate_fact() const;
   /// That the rate is a guess; empty if it is not.
   std::string rate_fault() const;
+  /// That the frames are too far apart for their stamps to be in a known unit; empty if not.
+  std::string step_fault() const;
   /// That the ground truth is of another time than the recording; empty if it is not.
   std::string clock_fault() const;
   std::optional<Frame> try_read(std::size_t index);

@@ -104,8 +104,8 @@ Frame RgbdSource::read(std::size_t index) const {
   const CameraIntrinsics color_camera = recording_.color_camera.value_or(camera);
   frame.color = read_color_of(recording_, files);
   check_size(frame.color, color_camera, files.color);
-  frame.depth =
-      read_depth(files.depth, recording_.calibration->depth_scale, recording_.invalid_depth);
+  frame.depth = read_depth(files.depth, recording_.calibration->depth_scale,
+                           recording_.invalid_depth, recording_.float_depth_scale);
   check_size(frame.depth, registration_ ? registration_->depth_camera() : camera, files.depth);
   if (registration_) frame.depth = registration_->apply(frame.depth);
   if (!files.mask.empty()) {

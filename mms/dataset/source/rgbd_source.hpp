@@ -36,6 +36,7 @@ struct RgbdRecording {
   std::optional<CameraIntrinsics> color_camera;
   std::shared_ptr<VideoReader> video;       ///< of the color images; null: each is a file
   std::uint16_t invalid_depth = 0;          ///< raw value for no return besides 0
+  double float_depth_scale = 1.0;           ///< units per meter of floating-point depth images
   std::optional<AssumedRate> assumed_rate;  ///< of the stamps; nullopt: they are the recording's
   Trajectory ground_truth;                  ///< empty for none
   std::vector<std::string> facts;           ///< lines for `describe`

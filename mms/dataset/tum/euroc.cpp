@@ -5,8 +5,8 @@
 #include "mms/dataset/source/folder_names.hpp"
 #include "mms/dataset/tum/matched_lists.hpp"
 #include "mms/io/config/calibration_formats.hpp"
-#include "mms/io/text/numbers.hpp"
 #include "mms/io/text/pose_text.hpp"
+#include "mms/io/text/stamp_reader.hpp"
 #include "mms/io/text/text_table.hpp"
 
 namespace mms {
@@ -21,9 +21,10 @@ void read_body_poses(RgbdRecording& recording, const fs::path& file,
   constexpr std::size_t kNumbers = 8;  // stamp, position, quaternion; velocities and biases follow
   if (!fs::exists(file)) return;
   const TextTable table(file);
+  const StampReader read_stamp(table, 0, kLongestImageStep);
   for (const TextLine& line : table.lines()) {
     const std::string where = table.where(line);
-    const auto stamp = parse_stamp(line.fields[0]);
+    const auto stamp = read_stamp(line.fields[0]);
     if (!stamp || line.fields.size() < kNumbers) {
       throw DataError(where, "is not a pose", "expected stamp,x,y,z,qw,qx,qy,qz");
     }

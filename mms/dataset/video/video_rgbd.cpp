@@ -17,6 +17,7 @@
 #include "mms/io/text/files.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/pose_text.hpp"
+#include "mms/io/text/stamp_reader.hpp"
 #include "mms/io/text/text_table.hpp"
 
 namespace mms {
@@ -71,6 +72,16 @@ std::optional<NumberedDepth> parse_depth_name(const fs::path& file) {
   return NumberedDepth{file, *number, stamp_of_number(*number)};
 }
 
+/// Numbers that are nanoseconds since the camera was turned on are stamps, too.
+void find_stamps_since_start(std::vector<NumberedDepth>& images) {
+  std::vector<std::int64_t> numbers;
+  for (const NumberedDepth& image : images) numbers.push_back(image.number);
+  const auto least = std::min_element(numbers.begin(), numbers.end());
+  if (least == numbers.end() || *least <= kMaxImageNumber) return;
+  if (!are_nanoseconds_since_start(std::move(numbers), kLongestImageStep)) return;
+  for (NumberedDepth& image : images) image.stamp = Timestamp(image.number);
+}
+
 /// In the order of stamps or numbers.
 std::vector<NumberedDepth> find_depth(const fs::path& folder) {
   const auto& endings = depth_endings();
@@ -81,6 +92,7 @@ std::vector<NumberedDepth> find_depth(const fs::path& folder) {
     if (auto image = parse_depth_name(file)) images.push_back(std::move(*image));
   }
   if (images.empty()) throw DataError(folder.string(), "has no depth images with numbers");
+  find_stamps_since_start(images);
   std::sort(images.begin(), images.end(), [](const NumberedDepth& a, const NumberedDepth& b) {
     return std::pair(a.stamp, a.number) < std::pair(b.stamp, b.number);
   });
@@ -255,6 +267,8 @@ std::unique_ptr<FrameSource> open_video_rgbd(const fs::path& folder, const Sourc
   const bool stray = fs::exists(folder / kCameraMatrix) && fs::exists(folder / kOdometry);
   recording.facts.emplace_back(stray ? "layout: Stray Scanner, color video and depth images"
                                      : "layout: color video and depth images");
+  // Its .npy files are in millimeters whatever their type is, as of its stray_visualize.py.
+  if (stray) recording.float_depth_scale = 1000.0;
   match_images(recording, video);
   choose_calibration(recording, options.camera, [&] { return read_camera_matrix(recording); });
   fit_cameras(recording);

@@ -15,9 +15,10 @@ namespace mms {
 namespace {
 
 const std::map<std::string, ScalarType> kPcdTypes = {
-    {"I1", ScalarType::kInt8},    {"U1", ScalarType::kUint8},  {"I2", ScalarType::kInt16},
-    {"U2", ScalarType::kUint16},  {"I4", ScalarType::kInt32},  {"U4", ScalarType::kUint32},
-    {"F4", ScalarType::kFloat32}, {"F8", ScalarType::kFloat64}};
+    {"I1", ScalarType::kInt8},    {"U1", ScalarType::kUint8},   {"I2", ScalarType::kInt16},
+    {"U2", ScalarType::kUint16},  {"I4", ScalarType::kInt32},   {"U4", ScalarType::kUint32},
+    {"F4", ScalarType::kFloat32}, {"F8", ScalarType::kFloat64}, {"I8", ScalarType::kInt64},
+    {"U8", ScalarType::kUint64}};
 
 const std::map<std::string, Channel> kPcdChannels = {{"x", Channel::kX},
                                                      {"y", Channel::kY},

@@ -38,6 +38,10 @@ double load(const char* bytes, ScalarType type) {
       return load<float>(bytes);
     case ScalarType::kFloat64:
       return load<double>(bytes);
+    case ScalarType::kInt64:
+      return load<std::int64_t>(bytes);
+    case ScalarType::kUint64:
+      return load<std::uint64_t>(bytes);
   }
   return 0.0;
 }
@@ -122,7 +126,7 @@ class CloudBuilder {
   void set_packed(std::size_t i, std::uint32_t packed) { cloud_.colors[i] = unpack(packed); }
 
   PointCloudFile take() {
-    cloud_.time_offsets = relative_point_times(times_, integer_times_, std::nullopt);
+    cloud_.time_offsets = relative_point_times(times_, integer_times_, std::nullopt).offsets;
     return std::move(cloud_);
   }
 
@@ -136,7 +140,7 @@ class CloudBuilder {
     if (channel == Channel::kIntensity) cloud_.intensities.resize(count);
     if (channel != Channel::kTime) return;
     times_.resize(count);
-    integer_times_ = column.type < ScalarType::kFloat32;
+    integer_times_ = !is_float(column.type);
   }
 
   PointCloudFile cloud_;

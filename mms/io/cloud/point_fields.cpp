@@ -13,10 +13,29 @@ double unit_of(bool integer, double span) {
   return span * 1e-9 < kMinScanTime ? 1e-6 : 1e-9;
 }
 
+/// The time that the others are relative to.
+struct PointOrigin {
+  double time = 0.0;  ///< [s]
+  bool other_clock = false;
+};
+
+/// @param first  the earliest time [s]
+PointOrigin origin_of(double first, std::optional<Timestamp> stamp) {
+  // [s]: larger times are absolute, as no scan takes eleven days
+  constexpr double kAbsolute = 1e6;
+  // [s]: farthest times of points from their stamp, as of scans in files. Those of a sensor whose
+  // clock is not set count from its start, and may be minutes.
+  constexpr double kReach = 1.0;
+  if (!stamp) return {first > kAbsolute ? first : 0.0, false};
+  if (std::abs(first) <= kReach) return {};
+  if (std::abs(first - stamp->seconds()) <= kReach) return {stamp->seconds(), false};
+  return {first, true};
+}
+
 }  // namespace
 
-std::vector<float> relative_point_times(const std::vector<double>& times, bool integer,
-                                        std::optional<Timestamp> stamp) {
+PointTimes relative_point_times(const std::vector<double>& times, bool integer,
+                                std::optional<Timestamp> stamp) {
   double first = INFINITY;
   double last = -INFINITY;
   for (const double time : times) {
@@ -26,13 +45,11 @@ std::vector<float> relative_point_times(const std::vector<double>& times, bool i
   }
   if (!(first <= last)) return {};
   const double unit = unit_of(integer, last - first);
-  constexpr double kAbsolute = 1e6;  // [s]: larger times are absolute, as no scan takes eleven days
-  const bool absolute = first * unit > kAbsolute;
-  const double start = stamp ? stamp->seconds() : first * unit;
-  std::vector<float> result(times.size());
+  const PointOrigin origin = origin_of(first * unit, stamp);
+  PointTimes result{std::vector<float>(times.size()), origin.other_clock};
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const double since = times[i] * unit - (absolute ? start : 0.0);
-    result[i] = std::isfinite(since) ? static_cast<float>(since) : 0.0F;
+    const double since = times[i] * unit - origin.time;
+    result.offsets[i] = std::isfinite(since) ? static_cast<float>(since) : 0.0F;
   }
   return result;
 }

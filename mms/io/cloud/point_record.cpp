@@ -33,8 +33,12 @@ void check_group(const PointRecord& record, std::span<const Channel> group,
 }  // namespace
 
 std::size_t size_of(ScalarType type) {
-  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8, 8, 8};
   return kSizes[static_cast<std::size_t>(type)];
+}
+
+bool is_float(ScalarType type) {
+  return type == ScalarType::kFloat32 || type == ScalarType::kFloat64;
 }
 
 std::size_t stride_of(const PointRecord& record) {

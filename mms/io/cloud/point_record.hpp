@@ -14,10 +14,24 @@
 namespace mms {
 
 /// How one scalar of a point is stored; little-endian in binary files.
-enum class ScalarType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+enum class ScalarType {
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kFloat32,
+  kFloat64,
+  kInt64,
+  kUint64
+};
 
 /// [B]
 std::size_t size_of(ScalarType type);
+
+/// Whether values are stored as floating-point numbers.
+bool is_float(ScalarType type);
 
 /// Meaning of a column of a point file; kPackedRgb is 0x00RRGGBB in four bytes.
 enum class Channel {

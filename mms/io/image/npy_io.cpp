@@ -54,27 +54,28 @@ int side_of(const std::string& text, const fs::path& path) {
   throw DataError(path.string(), "has a side of " + text + " px");
 }
 
-template <class T>
-Image<float> convert(const std::string& bytes, std::size_t begin, int width, int height,
-                     const fs::path& path) {
+/// The pixels, stored as `From`.
+template <class From, class To = From>
+Image<To> convert(const std::string& bytes, std::size_t begin, int width, int height,
+                  const fs::path& path) {
   const std::size_t size =
-      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(T);
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(From);
   if (bytes.size() - begin != size) {
     throw DataError(path.string(), "has " + std::to_string(bytes.size() - begin) +
                                        " bytes of data, not " + std::to_string(size));
   }
-  Image<float> image(width, height);
+  Image<To> image(width, height);
   for (std::size_t i = 0; i < image.size(); ++i) {
-    T value;
-    std::memcpy(&value, bytes.data() + begin + i * sizeof(T), sizeof(T));
-    image[i] = static_cast<float>(value);
+    From value;
+    std::memcpy(&value, bytes.data() + begin + i * sizeof(From), sizeof(From));
+    image[i] = static_cast<To>(value);
   }
   return image;
 }
 
 }  // namespace
 
-Image<float> read_npy(const fs::path& path) {
+StoredDepth read_npy(const fs::path& path) {
   const std::string bytes = read_file(path);
   const Header header = read_header(bytes, path);
   field(header, R"('fortran_order': *(False))", path);
@@ -82,7 +83,7 @@ Image<float> read_npy(const fs::path& path) {
   const int height = side_of(field(header, R"('shape': *\( *(\d+) *, *\d+ *,? *\))", path), path);
   const int width = side_of(field(header, R"('shape': *\( *\d+ *, *(\d+) *,? *\))", path), path);
   if (type == "<f4") return convert<float>(bytes, header.data, width, height, path);
-  if (type == "<f8") return convert<double>(bytes, header.data, width, height, path);
+  if (type == "<f8") return convert<double, float>(bytes, header.data, width, height, path);
   if (type == "<u2") return convert<std::uint16_t>(bytes, header.data, width, height, path);
   throw DataError(path.string(), "has numbers of type " + type, "expected <f4, <f8 or <u2");
 }

@@ -8,6 +8,7 @@
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/pose_text.hpp"
+#include "mms/io/text/stamp_reader.hpp"
 #include "mms/io/text/text_table.hpp"
 
 namespace mms {
@@ -34,6 +35,7 @@ constexpr const char* kImuColumns = "stamp wx wy wz, or stamp wx wy wz ax ay az"
 std::vector<StampedNumbers> read_stamped(const fs::path& path, std::array<std::size_t, 2> columns,
                                          const char* form) {
   const TextTable table(path);
+  const StampReader read_stamp(table, 0, kLongestMotionStep);
   std::vector<StampedNumbers> lines;
   for (const TextLine& line : table.lines()) {
     const std::string where = table.where(line);
@@ -42,7 +44,7 @@ std::vector<StampedNumbers> read_stamped(const fs::path& path, std::array<std::s
       throw DataError(where, std::to_string(count) + " columns, expected " + form,
                       "a header begins with #");
     }
-    const auto stamp = parse_stamp(line.fields[0]);
+    const auto stamp = read_stamp(line.fields[0]);
     if (!stamp) {
       throw DataError(where, "'" + std::string(line.fields[0]) + "' is not a stamp",
                       "stamps are seconds, or nanoseconds since 1970; a header begins with #");

@@ -4,6 +4,7 @@
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/pose_text.hpp"
+#include "mms/io/text/stamp_reader.hpp"
 #include "mms/io/text/text_table.hpp"
 
 namespace mms {
@@ -23,14 +24,14 @@ void expect_poses(const std::filesystem::path& path, const Trajectory& trajector
   if (trajectory.empty()) throw DataError(path.string(), "has no poses");
 }
 
-Timestamp stamp_of(const TextTable& table, const TextLine& line) {
-  const auto stamp = parse_stamp(line.fields[0]);
+Timestamp stamp_of(const TextTable& table, const TextLine& line, const StampReader& read_stamp) {
+  const auto stamp = read_stamp(line.fields[0]);
   if (stamp) return *stamp;
   throw DataError(table.where(line), "'" + std::string(line.fields[0]) + "' is not a stamp",
                   "stamps are seconds below 9.2e9");
 }
 
-StampedPose tum_pose(const TextTable& table, const TextLine& line) {
+StampedPose tum_pose(const TextTable& table, const TextLine& line, const StampReader& read_stamp) {
   expect_columns(table, line, kTumColumns, "stamp tx ty tz qx qy qz qw");
   const std::string where = table.where(line);
   const auto n = parse_finite(std::span(line.fields).subspan(1), where);
@@ -41,12 +42,15 @@ StampedPose tum_pose(const TextTable& table, const TextLine& line) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = rotation.normalized().toRotationMatrix();
   pose.translation() = Eigen::Vector3d(n[0], n[1], n[2]);
-  return {stamp_of(table, line), Transform<World, Sensor>(pose)};
+  return {stamp_of(table, line, read_stamp), Transform<World, Sensor>(pose)};
 }
 
 Trajectory tum_trajectory(const TextTable& table) {
+  const StampReader read_stamp(table, 0, kLongestImageStep);
   Trajectory trajectory;
-  for (const TextLine& line : table.lines()) trajectory.push_back(tum_pose(table, line));
+  for (const TextLine& line : table.lines()) {
+    trajectory.push_back(tum_pose(table, line, read_stamp));
+  }
   return trajectory;
 }
 
