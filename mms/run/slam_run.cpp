@@ -28,12 +28,21 @@ void check_range(const RunOptions& options, const FrameSource& source) {
                                          source.size()));
 }
 
+/// A live source has no end, whatever is skipped at its start.
+std::size_t frames_to_process(const RunOptions& options, const FrameSource& source) {
+  if (source.size() == FrameSource::kEndless) return options.frames;
+  return std::min(options.frames, source.size() - options.start);
+}
+
 /// @param warnings  receives warnings about the settings
 SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
                            const std::optional<Frame>& first, std::vector<std::string>& warnings) {
   SystemConfig config =
       sensor_settings(source.calibration().get(), options.config, options.set, "--set", warnings);
-  if (!options.weights.empty()) config.segmentation.weights = options.weights;
+  std::string& weights = config.segmentation.weights;
+  if (!options.weights.empty()) weights = options.weights;
+  // The settings are kept with the results, which are viewed from other folders.
+  if (!weights.empty()) weights = absolute_path(weights);
   if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
   if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;
@@ -67,6 +76,20 @@ std::optional<Frame> read_first(const RunOptions& options, FrameSource& source,
   return first;
 }
 
+[[noreturn]] void throw_no_frames(const RunOptions& options, const FrameSource& source) {
+  if (source.size() == FrameSource::kEndless) {
+    throw DataError(options.data,
+                    options.start == 0
+                        ? "none of its frames could be processed"
+                        : fmt::format("none of its frames after the first {} could be processed",
+                                      options.start),
+                    "see the warnings above");
+  }
+  throw DataError(options.data,
+                  fmt::format("none of its {} frames could be processed", source.size()),
+                  "see the warnings above; mms info DATA describes the recording");
+}
+
 AsyncOptions threads_of(const RunOptions& options, const SystemConfig& config,
                         const FrameSource& source) {
   const auto cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -91,7 +114,7 @@ SlamRun::SlamRun(const RunOptions& options, std::unique_ptr<FrameSource> source)
       system_(config_, make_segmenter(options.segmenter, options.data, config_, *source_)),
       map_({options_.map, options_.save_map, options_.localize, options_.overwrite, options_.data},
            config_),
-      frames_(std::min(options.frames, source_->size() - options.start)) {
+      frames_(frames_to_process(options, *source_)) {
   if (!options_.view) return;
   view_ = std::make_unique<LiveView>(*options_.view, options_.data, *source_, config_, frames_);
 }
@@ -148,11 +171,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   log_->finish(source_->skipped() + repeated_.count(), source_->dropped(), pipeline, system_);
   warn_if_not_localized(observer);
   warn_of_sessions_outside(observer);
-  if (log_->size() == 0) {
-    throw DataError(options_.data,
-                    fmt::format("none of its {} frames could be processed", source_->size()),
-                    "see the warnings above; mms info DATA describes the recording");
-  }
+  if (log_->size() == 0) throw_no_frames(options_, *source_);
   compare_with_truth(observer);
 }
 

@@ -153,6 +153,14 @@ TEST_F(Camera, EndsAfterFrames) {
   EXPECT_GE(open_dataset(temp_.path() / "kept")->size(), 5U);
 }
 
+TEST_F(Camera, SkippedFramesAreNotCounted) {
+  expect_success(localize("camera:openni2", "live", {"--start", "3", "--frames", "5"}));
+  EXPECT_EQ(metrics("live")["frames"], 5);
+  const Outcome outcome = localize("camera:openni2", "all", {"--start", "3"});
+  expect_success(outcome);
+  expect_in("camera:openni2, until Ctrl-C", outcome.err);
+}
+
 TEST_F(Camera, GoesOnWithoutFramesUntilInterrupted) {
   set_fault("silent");
   RunningMms live(temp_.path(), {"run", "camera:openni2", "--segmenter", "none", "-o", "live",

@@ -27,6 +27,7 @@ Seeds run_record_seeds() {
   RunRecord given = some_record();
   given.given = {
       .file = "camera.yaml", .intrinsics = {{500.0, 500.0, 320.0, 240.0}}, .depth_scale = 1000.0};
+  given.topics.color = "/color";
   Seeds seeds;
   for (const RunRecord& record : {some_record(), given}) {
     seeds.push_back(bytes_of("run.json", [&](const auto& file) {

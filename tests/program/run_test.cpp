@@ -431,6 +431,22 @@ TEST(Run, AcceptsOtherNetwork) {
                      "--weights: is for masks of the network, but they come from none");
 }
 
+/// The settings of the results are used in other working folders, as by mms view.
+TEST(Run, KeepsAbsolutePathOfNetwork) {
+  const TempFolder folder;
+  fs::copy(MMS_SOURCE_DIR "/weights/nano.safetensors", folder.path() / "own.safetensors");
+  const std::string path = (fs::canonical(folder.path()) / "own.safetensors").string();
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--weights", "own.safetensors"},
+        {"--set", "segmentation.weights=own.safetensors"}}) {
+    std::vector<std::string> arguments = {"run", "sim:corridor?width=320&frames=2", "-o", "out",
+                                          "--overwrite"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    expect_success(run_mms(folder.path(), arguments));
+    expect_in("weights: " + path, read_file(folder.path() / "out/config.yaml"));
+  }
+}
+
 TEST(Run, RealTimeProcessesOrCountsEveryFrame) {
   const TempFolder folder;
   expect_success(run_mms(folder.path(), {"run", "sim:corridor?width=320&frames=8&hz=40",

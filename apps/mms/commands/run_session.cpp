@@ -69,7 +69,7 @@ void add_mapping_options(CLI::App& command, RunOptions& options) {
       ->check(CLI::IsMember({"on", "off"}));
   command
       .add_option("--save-map", options.save_map,
-                  "write the map to this file, to localize in it later (depth images)")
+                  "write the map to this file, to localize in it later")
       ->type_name("FILE");
   command
       .add_option("--map", options.map,

@@ -14,6 +14,14 @@ StaticMap empty_map(const JournalHeader& header) {
   return StaticMap(config);
 }
 
+/// Whether a session begins with this frame. One that begins where an earlier place is recognized
+/// has no status of its own, but its first map replaces the one before. So does a map that grew out
+/// of its memory, but with larger voxels.
+bool begins_session(const JournalFrame& frame, const StaticMap& map) {
+  if (frame.status == Status::kInitialized) return true;
+  return frame.map && frame.map->whole && frame.map->voxel_size <= map.voxel_size();
+}
+
 }  // namespace
 
 RecoveredRun recover_run(const std::filesystem::path& journal) {
@@ -26,7 +34,7 @@ RecoveredRun recover_run(const std::filesystem::path& journal) {
     map = empty_map(run.header);
   };
   while (const std::optional<JournalFrame> frame = reader.next()) {
-    if (frame->status == Status::kInitialized && map.size() > 0) end_session();
+    if (map.size() > 0 && begins_session(*frame, map)) end_session();
     if (frame->map) map.apply(*frame->map);
     const bool has_evidence_again =
         !run.trajectory.empty() && run.trajectory.back().stamp == frame->stamp;

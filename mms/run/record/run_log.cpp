@@ -30,6 +30,13 @@ bool is_in_map(const FrameResult& result) {
   return result.odometry.status != Status::kLost && result.correction.T_global_world.has_value();
 }
 
+/// Nothing where too few poses match for it: a metric must not cost the results of a run.
+std::optional<TrajectoryError> error_of(const Trajectory& truth, const Trajectory& estimate) {
+  const auto matched = match_by_stamp(truth, estimate, TrajectoryErrorOptions{}.max_difference);
+  if (matched.size() < kMinPosesForError) return std::nullopt;
+  return evaluate_trajectory(truth, estimate);
+}
+
 }  // namespace
 
 RunLog::RunLog(Trajectory truth, bool compare_masks, const DynamicMapConfig& objects,
@@ -149,9 +156,8 @@ void RunLog::sum_up_latency(std::size_t dropped, const AsyncPipeline& pipeline) 
 
 void RunLog::sum_up_accuracy() {
   const Trajectory estimate = trajectory();
-  const auto matched = match_by_stamp(truth_, estimate, TrajectoryErrorOptions{}.max_difference);
-  if (matched.size() < kMinPosesForError) return;
-  metrics_.trajectory = evaluate_trajectory(truth_, estimate);
+  metrics_.trajectory = error_of(truth_, estimate);
+  if (!metrics_.trajectory) return;
   metrics_.drift = evaluate_drift(estimate);
   metrics_.stood_still = evaluate_drift(truth_).mtde_m < kStandsStill;
 }
@@ -182,7 +188,7 @@ void RunLog::sum_up_loops(const GlobalMap& map) {
   if (map.earlier_sessions() > 0) loops.earlier_map = earlier;
   loops.relocalized = std::count_if(frames_.begin(), frames_.end(),
                                     [](const LoggedFrame& frame) { return frame.relocalized; });
-  if (metrics_.trajectory) loops.trajectory = evaluate_trajectory(truth_, corrected_trajectory());
+  if (metrics_.trajectory) loops.trajectory = error_of(truth_, corrected_trajectory());
 }
 
 SessionMetrics RunLog::session_metrics() const {

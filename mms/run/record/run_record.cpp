@@ -26,11 +26,20 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kFramesHeader =
     "stamp,index,status,dynamic_share,overruled_share,implausible_masks,session,in_map";
 
-std::string absolute_path(const fs::path& path) {
-  std::error_code error;
-  const fs::path found = fs::absolute(path, error);
-  return error ? path.string() : found.lexically_normal().string();
-}
+struct TopicField {
+  const char* key;
+  std::string BagTopicNames::*name;
+};
+
+/// Keys of the topics in run.json.
+constexpr std::array<TopicField, 8> kTopicFields{{{"color", &BagTopicNames::color},
+                                                  {"depth", &BagTopicNames::depth},
+                                                  {"cloud", &BagTopicNames::cloud},
+                                                  {"camera_info", &BagTopicNames::camera_info},
+                                                  {"mask", &BagTopicNames::mask},
+                                                  {"wheels", &BagTopicNames::wheels},
+                                                  {"imu", &BagTopicNames::imu},
+                                                  {"truth", &BagTopicNames::truth}}};
 
 Json json_of(const std::optional<CameraIntrinsics>& camera) {
   if (!camera) return nullptr;
@@ -61,6 +70,25 @@ Json json_of(const CameraOptions& given) {
   return {{"file", given.file.string()},
           {"intrinsics", given.intrinsics ? Json(*given.intrinsics) : Json(nullptr)},
           {"depth_scale", given.depth_scale ? Json(*given.depth_scale) : Json(nullptr)}};
+}
+
+/// The given ones alone.
+Json json_of(const BagTopicNames& topics) {
+  Json json = Json::object();
+  for (const TopicField& field : kTopicFields) {
+    if (!(topics.*field.name).empty()) json[field.key] = topics.*field.name;
+  }
+  return json;
+}
+
+/// Runs of earlier versions, and those of other recordings than bags, have none.
+BagTopicNames topics_of(const Json& run) {
+  BagTopicNames topics;
+  if (!run.contains("topics")) return topics;
+  for (const TopicField& field : kTopicFields) {
+    topics.*field.name = run["topics"].value(field.key, "");
+  }
+  return topics;
 }
 
 /// Runs of earlier versions have none.
@@ -122,12 +150,19 @@ std::optional<FrameRecord> frame_of(const TextLine& line) {
 
 }  // namespace
 
+std::string absolute_path(const fs::path& path) {
+  std::error_code error;
+  const fs::path found = fs::absolute(path, error);
+  return error ? path.string() : found.lexically_normal().string();
+}
+
 RunRecord record_of(const RunOptions& options, const std::optional<CameraIntrinsics>& camera,
                     bool depth_camera, double voxel_size) {
   const bool address = options.data.starts_with("sim:") || options.data.starts_with("camera:");
   return {address ? options.data : absolute_path(options.data),
           options.segmenter,
           options.masks.empty() ? "" : absolute_path(options.masks),
+          options.topics,
           with_absolute_path(options.camera),
           options.rate,
           depth_camera,
@@ -136,14 +171,15 @@ RunRecord record_of(const RunOptions& options, const std::optional<CameraIntrins
 }
 
 void write_run_record(const fs::path& folder, const RunRecord& record, const RunLog& log) {
-  const Json json = {{"data", record.data},
-                     {"segmenter", record.segmenter},
-                     {"masks", record.masks},
-                     {"calibration", json_of(record.given)},
-                     {"rate", record.rate ? Json(*record.rate) : Json(nullptr)},
-                     {"sensor", record.depth_camera ? "depth camera" : "lidar"},
-                     {"voxel_size", record.voxel_size},
-                     {"camera", json_of(record.camera)}};
+  Json json = {{"data", record.data},
+               {"segmenter", record.segmenter},
+               {"masks", record.masks},
+               {"calibration", json_of(record.given)},
+               {"rate", record.rate ? Json(*record.rate) : Json(nullptr)},
+               {"sensor", record.depth_camera ? "depth camera" : "lidar"},
+               {"voxel_size", record.voxel_size},
+               {"camera", json_of(record.camera)}};
+  if (!record.topics.empty()) json["topics"] = json_of(record.topics);
   write_file(folder / "run.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   write_file(folder / "frames.csv", frames_csv(log));
   const Trajectory truth = aligned_truth(log.truth(), log.corrected_trajectory());
@@ -156,6 +192,7 @@ RunRecord read_run_record(const fs::path& file) {
     return {json.at("data").get<std::string>(),
             json.at("segmenter").get<std::string>(),
             json.at("masks").get<std::string>(),
+            topics_of(json),
             camera_options_of(json),
             rate_of(json),
             json.at("sensor").get<std::string>() == "depth camera",

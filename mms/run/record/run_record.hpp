@@ -19,6 +19,7 @@ struct RunRecord {
   std::string data;            ///< absolute path of the recording, or address of a simulation
   std::string segmenter;       ///< "network", "masks" or "none"
   std::string masks;           ///< folder of label images; empty: the recording's own
+  BagTopicNames topics;        ///< given for a bag
   CameraOptions given;         ///< calibration in place of the recording's
   std::optional<double> rate;  ///< [Hz], given for a recording without time stamps
   bool depth_camera = true;    ///< false: LiDAR
@@ -34,6 +35,9 @@ struct FrameRecord {
   double dynamic_share = 0.0;
   std::optional<double> overruled_share;  ///< unknown of runs of earlier versions
 };
+
+/// A path that is the same in every working folder.
+std::string absolute_path(const std::filesystem::path& path);
 
 RunRecord record_of(const RunOptions& options, const std::optional<CameraIntrinsics>& camera,
                     bool depth_camera, double voxel_size);

@@ -19,6 +19,7 @@ std::unique_ptr<FrameSource> SensorViews::open() const {
   return open_dataset(record_.data, {.masks = record_.masks,
                                      .load_masks = record_.segmenter == "masks",
                                      .map_truth = false,
+                                     .topics = record_.topics,
                                      .camera = record_.given,
                                      .rate = record_.rate});
 }

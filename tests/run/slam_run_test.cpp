@@ -1,0 +1,83 @@
+#include "mms/run/slam_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mms/core/error.hpp"
+#include "mms/dataset/live/live_source.hpp"
+#include "tests/io/temp_folder.hpp"
+#include "tests/pipeline/played_scene.hpp"
+
+namespace mms {
+namespace {
+
+using namespace testing;  // NOLINT: helpers of the tests
+
+/// A sensor that gave some frames of a scene, and ended.
+class EndedSensor final : public LiveSource {
+ public:
+  explicit EndedSensor(std::size_t frames) : LiveSource(100) {
+    for (std::size_t i = 0; i < frames; ++i) push(scene_frame(i));
+    end();
+    wait({});
+  }
+  std::vector<std::string> describe() const override { return {}; }
+};
+
+/// Keeps what is said at the start.
+struct Announced : RunObserver {
+  std::size_t frames = 0;
+  std::vector<std::string> heading;
+
+  void on_start(const std::vector<std::string>& lines, std::size_t count) override {
+    heading = lines;
+    frames = count;
+  }
+  void on_frame(const RunLog&) override {}
+  void on_warning(const std::string&) override {}
+  void on_end() override {}
+  bool stop_requested() const override { return false; }
+};
+
+RunOptions options_of(std::size_t start) {
+  RunOptions options;
+  options.data = "camera:test";
+  options.segmenter = "none";
+  options.start = start;
+  return options;
+}
+
+TEST(SlamRun, LiveSourcesHaveNoEndAfterSkippedFrames) {
+  const TempFolder folder;
+  SlamRun run(options_of(2), std::make_unique<EndedSensor>(4));
+  Announced announced;
+  run.play(folder.path(), announced);
+  EXPECT_EQ(run.log().size(), 2U);
+  EXPECT_EQ(announced.frames, FrameSource::kEndless);
+  expect_in("camera:test, until Ctrl-C", announced.heading.front());
+}
+
+TEST(SlamRun, FramesOfLiveSourcesAreThoseAfterTheSkippedOnes) {
+  const TempFolder folder;
+  RunOptions options = options_of(2);
+  options.frames = 1;
+  SlamRun run(options, std::make_unique<EndedSensor>(4));
+  Announced announced;
+  run.play(folder.path(), announced);
+  EXPECT_EQ(run.log().size(), 1U);
+  EXPECT_EQ(announced.frames, 1U);
+}
+
+TEST(SlamRun, ErrorOfLiveSourcesHasNoCount) {
+  const TempFolder folder;
+  Announced announced;
+  SlamRun run(options_of(2), std::make_unique<EndedSensor>(1));
+  expect_in("camera:test: none of its frames after the first 2 could be processed",
+            message_of<DataError>([&] { run.play(folder.path(), announced); }));
+}
+
+}  // namespace
+}  // namespace mms
