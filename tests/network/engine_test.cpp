@@ -101,6 +101,14 @@ TEST(NetworkEngine, EqualsLibtorchWithWindow) {
   expect_equal_on_noise(config, 96, 128);
 }
 
+TEST(NetworkEngine, EqualsLibtorchWithStatisticsOfEachLevel) {
+  NetworkConfig config;
+  config.head.level_norms = true;
+  expect_equal_on_noise(config, 96, 128);
+  config.head.shared_tower = false;
+  expect_equal_on_noise(config, 96, 128);
+}
+
 class EngineOfEachVariant : public ::testing::TestWithParam<NetworkVariant> {};
 
 TEST_P(EngineOfEachVariant, EqualsLibtorch) {

@@ -55,6 +55,26 @@ TEST(WeightTransfer, AddsWindowToKernels) {
   EXPECT_EQ(grown_to(config, damaged), damaged);
 }
 
+TEST(WeightTransfer, GivesEachLevelTheStatisticsOfAll) {
+  NetworkConfig config = nano(NetworkVariant::kSolov2);
+  config.head.level_norms = true;
+  Weights given;
+  std::vector<float> means(128, 0.5F);
+  means.back() = 2.0F;
+  given.tensors["mask_head.kernel_convs.1.bn.running_mean"] = {{128}, means};
+  given.tensors["mask_head.mask_feature_head.conv_pred.bn.running_mean"] = {{128}, means};
+  const Weights grown = grown_to(config, given);
+  const WeightTensor& tower = grown.tensors.at("mask_head.kernel_convs.1.bn.running_mean");
+  EXPECT_EQ(tower.shape, (std::vector<std::int64_t>{HeadConfig::kLevels, 128}));
+  ASSERT_EQ(tower.values.size(), HeadConfig::kLevels * 128U);
+  EXPECT_EQ(tower.values[127], 2.0F);
+  EXPECT_EQ(tower.values.back(), 2.0F);
+  EXPECT_EQ(tower.values[128], 0.5F);
+  EXPECT_EQ(grown.tensors.at("mask_head.mask_feature_head.conv_pred.bn.running_mean"),
+            given.tensors.at("mask_head.mask_feature_head.conv_pred.bn.running_mean"));
+  EXPECT_EQ(grown_to(config, grown), grown);
+}
+
 TEST(WeightTransfer, KeepsGivenTensors) {
   Weights given = stem();
   given.tensors["backbone.conv1.weight_gamma"] = {{64, 1, 1, 1}, std::vector<float>(64, 7.0F)};

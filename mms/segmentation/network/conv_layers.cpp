@@ -152,14 +152,14 @@ torch::Tensor SwitchableConvImpl::forward(const torch::Tensor& input) {
   return add_context(torch::lerp(large, small, share), post_context_);
 }
 
-HeadUnitImpl::HeadUnitImpl(const ConvShape& shape, HeadNorm norm) {
+HeadUnitImpl::HeadUnitImpl(const ConvShape& shape, HeadNorm norm, std::int64_t levels) {
   conv_ = register_module("conv", nn::Conv2d(nn::Conv2dOptions(shape.in, shape.out, shape.kernel)
                                                  .stride(shape.stride)
                                                  .padding(shape.kernel / 2)
                                                  .bias(false)));
   nn::init::kaiming_normal_(conv_->weight, 0.0, torch::kFanOut, torch::kReLU);
   if (norm == HeadNorm::kBatch) {
-    batch_norm_ = register_module("bn", BatchNorm(shape.out));
+    batch_norm_ = register_module("bn", BatchNorm(shape.out, levels));
   } else {
     const std::int64_t groups = std::gcd(kGroups, shape.out);
     group_norm_ = register_module("gn", nn::GroupNorm(groups, shape.out));
@@ -167,16 +167,16 @@ HeadUnitImpl::HeadUnitImpl(const ConvShape& shape, HeadNorm norm) {
 }
 
 void HeadUnitImpl::fold() {
-  if (batch_norm_.is_empty()) return;
+  if (batch_norm_.is_empty() || batch_norm_->has_levels()) return;
   const auto [weight, bias] = folded_weight(conv_->weight, *batch_norm_);
   conv_->weight.set_data(weight);
   conv_->bias = register_buffer("folded_bias", bias);
   batch_norm_ = nullptr;
 }
 
-torch::Tensor HeadUnitImpl::forward(const torch::Tensor& x) {
+torch::Tensor HeadUnitImpl::forward(const torch::Tensor& x, std::int64_t level) {
   torch::Tensor y = convolve(x, conv_);
-  if (!batch_norm_.is_empty()) y = batch_norm_(y);
+  if (!batch_norm_.is_empty()) y = batch_norm_(y, level);
   if (!group_norm_.is_empty()) y = group_norm_(y);
   return y.relu_();
 }

@@ -77,9 +77,11 @@ TORCH_MODULE(SwitchableConv);
 /// 3x3 or 1x1 convolution without bias, norm, ReLU: the unit of the heads.
 class HeadUnitImpl : public torch::nn::Module {
  public:
-  HeadUnitImpl(const ConvShape& shape, HeadNorm norm);
-  torch::Tensor forward(const torch::Tensor& x);
-  /// Folds the batch norm into the convolution, for inference.
+  /// @param levels  whose batch norms have statistics of their own; 0: one for all
+  HeadUnitImpl(const ConvShape& shape, HeadNorm norm, std::int64_t levels = 0);
+  /// @param level  of the pyramid
+  torch::Tensor forward(const torch::Tensor& x, std::int64_t level = 0);
+  /// Folds the batch norm, unless it is one of levels, into the convolution, for inference.
   void fold();
 
  private:

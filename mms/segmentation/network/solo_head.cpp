@@ -62,7 +62,7 @@ nn::ModuleList make_tower(const HeadConfig& config, std::int64_t in) {
   for (int i = 0; i < config.tower_depth; ++i) {
     units->push_back(
         HeadUnit(ConvShape{.in = i == 0 ? in : config.tower_channels, .out = config.tower_channels},
-                 config.norm));
+                 config.norm, config.level_norms ? HeadConfig::kLevels : 0));
   }
   return units;
 }
@@ -124,8 +124,10 @@ SoloHeadImpl::SoloHeadImpl(const HeadConfig& config, std::int64_t in, std::int64
   mask_features_ = register_module("mask_feature_head", MaskFeatureHead(config, in));
 }
 
-torch::Tensor SoloHeadImpl::tower(nn::ModuleList& units, torch::Tensor x) {
-  for (std::size_t i = 0; i < units->size(); ++i) x = units->ptr<HeadUnitImpl>(i)->forward(x);
+torch::Tensor SoloHeadImpl::tower(nn::ModuleList& units, torch::Tensor x, std::size_t level) {
+  for (std::size_t i = 0; i < units->size(); ++i) {
+    x = units->ptr<HeadUnitImpl>(i)->forward(x, static_cast<std::int64_t>(level));
+  }
   return x;
 }
 
@@ -136,10 +138,10 @@ HeadOutput SoloHeadImpl::forward(const Pyramid& pyramid) {
   const auto grids = config_.grids();
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const torch::Tensor cells = resized(with_coordinates(levels[i]), grids[i], grids[i]);
-    const torch::Tensor for_kernels = tower(kernel_tower_, cells);
+    const torch::Tensor for_kernels = tower(kernel_tower_, cells, i);
     const torch::Tensor for_categories =
         config_.shared_tower ? for_kernels
-                             : tower(category_tower_, cells.narrow(1, 0, cells.size(1) - 2));
+                             : tower(category_tower_, cells.narrow(1, 0, cells.size(1) - 2), i);
     output.kernels[i] = convolve(for_kernels, kernel_);
     output.categories[i] = convolve(for_categories, category_);
   }

@@ -39,7 +39,7 @@ class SoloHeadImpl : public torch::nn::Module {
   HeadOutput forward(const Pyramid& pyramid);
 
  private:
-  torch::Tensor tower(torch::nn::ModuleList& units, torch::Tensor x);
+  torch::Tensor tower(torch::nn::ModuleList& units, torch::Tensor x, std::size_t level);
 
   HeadConfig config_;
   torch::nn::ModuleList kernel_tower_;

@@ -81,6 +81,9 @@ void HeadConfig::visit(ConfigVisitor& v) {
   v.number({"object_scale", "px", "largest object of the finest grid, square root of its box area"},
            object_scale, {4.0, 400.0});
   v.enumeration({"norm", "", "normalization in the heads"}, norm, kNorms);
+  v.boolean(
+      {"level_norms", "", "statistics of the towers' batch norms for each level of the pyramid"},
+      level_norms);
   v.boolean({"window", "", "masks have a predicted window around their cell"}, window);
 }
 

@@ -47,6 +47,7 @@ struct HeadConfig {
   double object_scale =
       96;  ///< largest object of the finest grid, square root of its box area [px]
   HeadNorm norm = HeadNorm::kGroup;
+  bool level_norms = false;  ///< batch norms of the towers have statistics for each level
   bool window = false;  ///< kernels have `kWindowTerms` more values: a window around the cell
 
   void visit(ConfigVisitor& v);

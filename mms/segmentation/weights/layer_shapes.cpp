@@ -35,9 +35,10 @@ void LayerShapes::group_norm(const std::string& name, std::int64_t channels) {
   for (const char* part : {".weight", ".bias"}) add(name + part, {channels});
 }
 
-void LayerShapes::batch_norm(const std::string& name, std::int64_t channels) {
+void LayerShapes::batch_norm(const std::string& name, std::int64_t channels, std::int64_t levels) {
   group_norm(name, channels);
-  for (const char* part : {".running_mean", ".running_var"}) add(name + part, {channels});
+  const TensorShape shape = levels > 0 ? TensorShape{levels, channels} : TensorShape{channels};
+  for (const char* part : {".running_mean", ".running_var"}) add(name + part, shape);
 }
 
 }  // namespace mms

@@ -26,7 +26,8 @@ class LayerShapes {
   /// Weight and bias.
   void group_norm(const std::string& name, std::int64_t channels);
   /// Weight, bias and the statistics.
-  void batch_norm(const std::string& name, std::int64_t channels);
+  /// @param levels  with statistics of their own; 0: one for all
+  void batch_norm(const std::string& name, std::int64_t channels, std::int64_t levels = 0);
 
   const TensorShapes& shapes() const { return shapes_; }
 

@@ -48,8 +48,9 @@ class MetadataWriter final : public PathVisitor {
   std::map<std::string, std::string>& metadata_;
 };
 
-/// Files from before it existed lack it: their networks have no window.
-constexpr std::string_view kLaterSetting = "network.head.window";
+/// Files from before these existed lack them: their networks have neither.
+constexpr std::array<std::string_view, 2> kLaterSettings = {"network.head.level_norms",
+                                                            "network.head.window"};
 
 class MetadataReader final : public PathVisitor {
  public:
@@ -63,7 +64,10 @@ class MetadataReader final : public PathVisitor {
     parse(info, value, range, "an integer");
   }
   void boolean(const FieldInfo& info, bool& value) override {
-    if (path(info) == kLaterSetting && !metadata_.contains(path(info))) return;
+    const std::string name = path(info);
+    const bool is_later =
+        std::find(kLaterSettings.begin(), kLaterSettings.end(), name) != kLaterSettings.end();
+    if (is_later && !metadata_.contains(name)) return;
     constexpr std::array<std::string_view, 2> kWords = {"false", "true"};
     int index = 0;
     choice(info, index, kWords);

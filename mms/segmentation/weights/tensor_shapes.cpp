@@ -31,13 +31,14 @@ void add_neck(const NetworkConfig& config, LayerShapes& layers) {
 }
 
 /// Convolution without bias, with norm.
+/// @param levels  with statistics of their own; 0: one for all
 void add_unit(const std::string& name, std::int64_t out, std::int64_t in, std::int64_t side,
-              HeadNorm norm, LayerShapes& layers) {
+              HeadNorm norm, LayerShapes& layers, std::int64_t levels = 0) {
   layers.conv(name + ".conv", out, in, side);
   if (norm == HeadNorm::kGroup) {
     layers.group_norm(name + ".gn", out);
   } else {
-    layers.batch_norm(name + ".bn", out);
+    layers.batch_norm(name + ".bn", out, levels);
   }
 }
 
@@ -45,7 +46,8 @@ void add_tower(const std::string& name, std::int64_t in, const HeadConfig& confi
                LayerShapes& layers) {
   for (int i = 0; i < config.tower_depth; ++i) {
     add_unit(name + "." + std::to_string(i), config.tower_channels,
-             i == 0 ? in : config.tower_channels, 3, config.norm, layers);
+             i == 0 ? in : config.tower_channels, 3, config.norm, layers,
+             config.level_norms ? HeadConfig::kLevels : 0);
   }
 }
 

@@ -32,6 +32,22 @@ void copy_backbone(Weights& weights) {
   weights.tensors.merge(second.tensors);
 }
 
+/// The statistics of the towers for each level, where they are those of all levels.
+void divide_statistics(const HeadConfig& config, Weights& weights) {
+  const TensorShape of_all = {config.tower_channels};
+  for (auto& [name, tensor] : weights.tensors) {
+    const bool is_tower =
+        name.starts_with("mask_head.kernel_convs.") || name.starts_with("mask_head.cls_convs.");
+    const bool is_statistic = name.ends_with(".running_mean") || name.ends_with(".running_var");
+    if (!is_tower || !is_statistic || tensor.shape != of_all) continue;
+    const std::vector<float> values = tensor.values;
+    tensor.shape.insert(tensor.shape.begin(), HeadConfig::kLevels);
+    for (int level = 1; level < HeadConfig::kLevels; ++level) {
+      tensor.values.insert(tensor.values.end(), values.begin(), values.end());
+    }
+  }
+}
+
 /// To the kernels of a head without one.
 void add_window(const HeadConfig& config, Weights& weights) {
   const auto weight = weights.tensors.find("mask_head.conv_kernel.weight");
@@ -54,6 +70,7 @@ void add_window(const HeadConfig& config, Weights& weights) {
 Weights grown_to(const NetworkConfig& config, Weights weights) {
   add_standardisation(config.backbone, weights);
   if (config.neck.recursive) copy_backbone(weights);
+  if (config.head.level_norms) divide_statistics(config.head, weights);
   if (config.head.window) add_window(config.head, weights);
   return weights;
 }

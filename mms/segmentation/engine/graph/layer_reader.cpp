@@ -31,18 +31,19 @@ const std::vector<float>& LayerReader::values(const std::string& name) const {
   return weights_.tensors.at(name).values;
 }
 
-ChannelAffine LayerReader::batch_norm(const std::string& name) const {
+ChannelAffine LayerReader::batch_norm(const std::string& name, std::size_t level) const {
   const std::vector<float>& gamma = values(name + ".weight");
   const std::vector<float>& beta = values(name + ".bias");
   const std::vector<float>& mean = values(name + ".running_mean");
   const std::vector<float>& variance = values(name + ".running_var");
+  const std::size_t first = mean.size() > gamma.size() ? level * gamma.size() : 0;
   ChannelAffine affine;
   for (std::size_t i = 0; i < gamma.size(); ++i) {
-    const double scale =
-        static_cast<double>(gamma[i]) / std::sqrt(static_cast<double>(variance[i]) + kNormFloor);
+    const double scale = static_cast<double>(gamma[i]) /
+                         std::sqrt(static_cast<double>(variance[first + i]) + kNormFloor);
     affine.scale.push_back(static_cast<float>(scale));
-    affine.shift.push_back(
-        static_cast<float>(static_cast<double>(beta[i]) - static_cast<double>(mean[i]) * scale));
+    affine.shift.push_back(static_cast<float>(static_cast<double>(beta[i]) -
+                                              static_cast<double>(mean[first + i]) * scale));
   }
   return affine;
 }
@@ -109,16 +110,20 @@ ConvLayerPtr LayerReader::biased_conv(const std::string& name, const ConvShape& 
   return kept(name, std::move(layer));
 }
 
-ConvLayerPtr LayerReader::head_unit(const std::string& name) {
-  if (ConvLayerPtr layer = known(name)) return layer;
-  ConvLayer layer = unbiased(name + ".conv", {.relu = true});
-  take_in(layer, batch_norm(name + ".bn"));
-  return kept(name, std::move(layer));
+ConvLayerPtr LayerReader::head_unit(const std::string& name, std::size_t level) {
+  const bool has_levels = weights_.tensors.at(name + ".bn.running_mean").shape.size() > 1;
+  const std::string key = has_levels ? name + " " + std::to_string(level) : name;
+  if (ConvLayerPtr layer = known(key)) return layer;
+  ConvLayer layer = *bare_unit(name);
+  layer.relu = true;
+  take_in(layer, batch_norm(name + ".bn", level));
+  return kept(key, std::move(layer));
 }
 
 ConvLayerPtr LayerReader::bare_unit(const std::string& name) {
-  if (ConvLayerPtr layer = known(name)) return layer;
-  return kept(name, unbiased(name + ".conv", {}));
+  const std::string key = name + ".conv";
+  if (ConvLayerPtr layer = known(key)) return layer;
+  return kept(key, unbiased(key, {}));
 }
 
 }  // namespace mms::engine

@@ -42,11 +42,12 @@ class LayerReader {
   /// NAME.weight with NAME.bias.
   ConvLayerPtr biased_conv(const std::string& name, const ConvShape& shape = {});
   /// NAME.conv with the batch norm NAME.bn and ReLU.
-  ConvLayerPtr head_unit(const std::string& name);
+  /// @param level  of the pyramid, whose statistics the norm takes if it has some for each
+  ConvLayerPtr head_unit(const std::string& name, std::size_t level = 0);
   /// NAME.conv without bias, norm and ReLU.
   ConvLayerPtr bare_unit(const std::string& name);
 
-  ChannelAffine batch_norm(const std::string& name) const;
+  ChannelAffine batch_norm(const std::string& name, std::size_t level = 0) const;
   const std::vector<float>& values(const std::string& name) const;
   const Weights& weights() const { return weights_; }
   bool has(const std::string& name) const { return weights_.tensors.contains(name); }

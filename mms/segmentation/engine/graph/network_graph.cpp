@@ -77,9 +77,9 @@ class NetworkGraph {
   }
 
   /// Convolution, norm, ReLU.
-  ValueId head_unit(const std::string& name, ValueId x) {
+  ValueId head_unit(const std::string& name, ValueId x, std::size_t level = 0) {
     if (config_.head.norm == HeadNorm::kBatch) {
-      return graph_.convolution(layers_.head_unit(name), x);
+      return graph_.convolution(layers_.head_unit(name, level), x);
     }
     const ConvLayerPtr layer = layers_.bare_unit(name);
     return graph_.group_norm({.groups = std::gcd(kGroups, layer->out),
@@ -140,19 +140,21 @@ class NetworkGraph {
     return {like(p[0], p[1]), p[1], p[2], p[3], like(p[4], p[3])};
   }
 
-  ValueId tower(const std::string& name, ValueId x) {
-    for (int i = 0; i < config_.head.tower_depth; ++i) x = head_unit(name + std::to_string(i), x);
+  ValueId tower(const std::string& name, ValueId x, std::size_t level) {
+    for (int i = 0; i < config_.head.tower_depth; ++i) {
+      x = head_unit(name + std::to_string(i), x, level);
+    }
     return x;
   }
 
   void add_level(ValueId level, std::size_t i, GraphOutputs& outputs) {
     const int side = config_.head.grids()[i];
     const ValueId cells = graph_.resized(true, with_coordinates(level), side, side);
-    const ValueId for_kernels = tower("mask_head.kernel_convs.", cells);
+    const ValueId for_kernels = tower("mask_head.kernel_convs.", cells, i);
     const ValueId for_categories =
         config_.head.shared_tower
             ? for_kernels
-            : tower("mask_head.cls_convs.", graph_.resized(true, level, side, side));
+            : tower("mask_head.cls_convs.", graph_.resized(true, level, side, side), i);
     outputs.kernels[i] =
         graph_.convolution(layers_.biased_conv("mask_head.conv_kernel"), for_kernels);
     outputs.categories[i] =
