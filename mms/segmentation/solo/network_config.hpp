@@ -48,7 +48,7 @@ struct HeadConfig {
       96;  ///< largest object of the finest grid, square root of its box area [px]
   HeadNorm norm = HeadNorm::kGroup;
   bool level_norms = false;  ///< batch norms of the towers have statistics for each level
-  bool window = false;  ///< kernels have `kWindowTerms` more values: a window around the cell
+  bool window = false;       ///< kernels have `kWindowTerms` more values: a window around the cell
 
   void visit(ConfigVisitor& v);
 
