@@ -77,8 +77,7 @@ void FusionConfig::visit(ConfigVisitor& v) {
            division_distance, {0.0, 10.0});
   v.number({"relabel_radius", "m", "how far a dynamic cluster relabels points, before noise"},
            relabel_radius, {0.0, 2.0});
-  v.boolean({"plausibility", "", "drop masks that cannot be objects in 3D"},
-            plausibility);
+  v.boolean({"plausibility", "", "drop masks that cannot be objects in 3D"}, plausibility);
   v.number(
       {"memory", "s", "how long an object stays dynamic without a mask at most; 0: not at all"},
       memory, {0.0, 60.0});
