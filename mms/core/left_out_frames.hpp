@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,6 +17,8 @@ class LeftOutFrames {
   void add(const Frame& left_out) {
     append(motion_.wheels, left_out.motion.wheels);
     append(motion_.imu, left_out.motion.imu);
+    forget_old(motion_.wheels);
+    forget_old(motion_.imu);
     if (left_out.expected_place) expected_place_ = left_out.expected_place;
   }
 
@@ -28,6 +31,17 @@ class LeftOutFrames {
   }
 
  private:
+  /// [s]: age of the samples that are kept. Source: the odometry forgets older ones, too; a sensor
+  /// whose frames are left out for hours must not fill the memory.
+  static constexpr Duration kMaxAge = std::chrono::seconds(60);
+
+  template <class Sample>
+  static void forget_old(std::vector<Sample>& samples) {
+    if (samples.empty()) return;
+    const Timestamp last = samples.back().stamp;
+    std::erase_if(samples, [&](const Sample& sample) { return last - sample.stamp > kMaxAge; });
+  }
+
   template <class Sample>
   static void append(std::vector<Sample>& all, const std::vector<Sample>& more) {
     all.insert(all.end(), more.begin(), more.end());

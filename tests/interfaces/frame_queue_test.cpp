@@ -49,6 +49,20 @@ TEST(FrameQueue, DroppedFramesHandOnMotionAndPlace) {
   EXPECT_EQ(last->expected_place->translation().x(), 4.0);
 }
 
+TEST(FrameQueue, SamplesOfDroppedFramesDoNotFillTheMemory) {
+  FrameQueue queue(1);
+  for (int second = 0; second < 200; ++second) {
+    Frame frame = frame_of(second);
+    ImuSample& sample = frame.motion.imu.emplace_back();
+    sample.stamp = Timestamp::from_seconds(second);
+    queue.push(std::move(frame));
+  }
+  const std::optional<Frame> last = queue.pop();
+  EXPECT_LE(last->motion.imu.size(), 62U);
+  EXPECT_GE(last->motion.imu.size(), 60U);
+  EXPECT_EQ(last->motion.imu.back().stamp, Timestamp::from_seconds(199.0));
+}
+
 TEST(FrameQueue, InterruptEndsOnePop) {
   FrameQueue queue(2);
   queue.push(frame_of(0));
