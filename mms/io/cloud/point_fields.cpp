@@ -13,23 +13,25 @@ double unit_of(bool integer, double span) {
   return span * 1e-9 < kMinScanTime ? 1e-6 : 1e-9;
 }
 
-/// The time that the others are relative to.
+/// The time that the others are relative to, in their unit.
 struct PointOrigin {
-  double time = 0.0;  ///< [s]
+  double time = 0.0;
   bool other_clock = false;
 };
 
-/// @param first  the earliest time [s]
-PointOrigin origin_of(double first, std::optional<Timestamp> stamp) {
+/// @param earliest  time
+/// @param unit      of the times [s]
+PointOrigin origin_of(double earliest, double unit, std::optional<Timestamp> stamp) {
   // [s]: larger times are absolute, as no scan takes eleven days
   constexpr double kAbsolute = 1e6;
   // [s]: farthest times of points from their stamp, as of scans in files. Those of a sensor whose
   // clock is not set count from its start, and may be minutes.
   constexpr double kReach = 1.0;
-  if (!stamp) return {first > kAbsolute ? first : 0.0, false};
-  if (std::abs(first) <= kReach) return {};
-  if (std::abs(first - stamp->seconds()) <= kReach) return {stamp->seconds(), false};
-  return {first, true};
+  const double seconds = earliest * unit;
+  if (!stamp) return {seconds > kAbsolute ? earliest : 0.0, false};
+  if (std::abs(seconds) <= kReach) return {};
+  if (std::abs(seconds - stamp->seconds()) <= kReach) return {stamp->seconds() / unit, false};
+  return {earliest, true};
 }
 
 }  // namespace
@@ -45,10 +47,10 @@ PointTimes relative_point_times(const std::vector<double>& times, bool integer,
   }
   if (!(first <= last)) return {};
   const double unit = unit_of(integer, last - first);
-  const PointOrigin origin = origin_of(first * unit, stamp);
+  const PointOrigin origin = origin_of(first, unit, stamp);
   PointTimes result{std::vector<float>(times.size()), origin.other_clock};
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const double since = times[i] * unit - origin.time;
+    const double since = (times[i] - origin.time) * unit;
     result.offsets[i] = std::isfinite(since) ? static_cast<float>(since) : 0.0F;
   }
   return result;

@@ -24,7 +24,9 @@ bool are_nanoseconds_since_start(std::vector<std::int64_t> numbers, double longe
 /// Reads the stamps of one list, whose unit follows from all of them together.
 class StampReader {
  public:
-  /// @param column  of the stamps; shorter lines are passed over
+  /// @param table         with a stamp in each line
+  /// @param column        of the stamps; shorter lines are passed over
+  /// @param longest_step  [s]: stamps further apart have another unit
   StampReader(const TextTable& table, std::size_t column, double longest_step);
 
   /// As `parse_stamp`, or nanoseconds since a sensor was turned on.
