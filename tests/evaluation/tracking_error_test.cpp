@@ -146,6 +146,45 @@ TEST(TrackingError, MeasuresDelayOfDetectedStop) {
   EXPECT_NEAR(error.motion_state_delay_max, 58 * kPeriod, 1e-6);
 }
 
+TEST(TrackingError, CountsStopMissedUntilTheEnd) {
+  ObjectHistory truth;
+  ObjectHistory tracks;
+  for (int i = 0; i < kFrames; ++i) {
+    truth.push_back({stamp(i), {object(0, {0, 0, 5}, {i < 30 ? 1.0 : 0.0, 0, 0})}});
+    tracks.push_back({stamp(i), {object(4, {0, 0, 5})}});
+  }
+  const TrackingError error = evaluate_tracking(truth, tracks, static_sensor());
+  EXPECT_EQ(error.motion_state_changes, 1);
+  EXPECT_NEAR(error.motion_state_delay_max, 59 * kPeriod, 1e-6);
+}
+
+TEST(TrackingError, FramesThatWereNotPlayedDoNotCount) {
+  Trajectory played = static_sensor();
+  played.resize(30);
+  ObjectHistory tracks = two_walkers();
+  tracks.resize(30);
+  const TrackingError error =
+      evaluate_tracking(frames_with_pose(two_walkers(), played), tracks, static_sensor());
+  EXPECT_EQ(error.objects, 60);
+  EXPECT_EQ(error.recall, 1.0);
+  EXPECT_EQ(error.idf1, 1.0);
+}
+
+TEST(TrackingError, TrackBelongsToTheObjectThatHadItLast) {
+  const auto frame = [](int i, std::vector<ObjectBox> objects) {
+    return ObjectFrame{stamp(i), std::move(objects)};
+  };
+  const ObjectHistory truth = {frame(0, {object(0, {0, 0, 5})}),
+                               frame(1, {object(0, {9, 0, 5}), object(2, {0, 0, 5})}),
+                               frame(2, {object(0, {0.9, 0, 5}), object(2, {0, 0, 5})})};
+  const ObjectHistory tracks = {frame(0, {object(1, {0, 0, 5})}), frame(1, {object(1, {0, 0, 5})}),
+                                frame(2, {object(1, {0, 0, 5}), object(7, {1.8, 0, 5})})};
+  const TrackingError error = evaluate_tracking(truth, tracks, static_sensor());
+  EXPECT_EQ(error.objects, 4) << "the one at 10 m is out of range";
+  EXPECT_EQ(error.recall, 1.0);
+  EXPECT_EQ(error.id_switches, 1);
+}
+
 TEST(TrackingError, IsNanWithoutObjects) {
   const TrackingError error = evaluate_tracking({}, {}, {});
   EXPECT_EQ(error.objects, 0);

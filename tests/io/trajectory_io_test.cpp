@@ -54,6 +54,22 @@ TEST(TrajectoryTum, NormalisesQuaternions) {
   EXPECT_NEAR(read[0].T_world_sensor.rotation()(1, 0), 1.0, 1e-15);
 }
 
+TEST(TrajectoryTum, ReadsQuaternionsOfEuroc) {
+  const TempFolder folder;
+  const std::string header =
+      "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], "
+      "q_RS_y [], q_RS_z []";
+  folder.write("tum_vi.csv", header + "\n1520530308199447626,1,2,3,1,0,0,0\n");
+  folder.write("euroc.csv", header + ", v_RS_R_x [m s^-1]\n1520530308199447626,1,2,3,1,0,0,0,9\n");
+  for (const char* name : {"tum_vi.csv", "euroc.csv"}) {
+    const Trajectory poses = read_trajectory_tum(folder.path() / name);
+    ASSERT_EQ(poses.size(), 1U);
+    EXPECT_EQ(poses[0].stamp, Timestamp(1520530308199447626));
+    EXPECT_EQ(poses[0].T_world_sensor.translation(), Eigen::Vector3d(1, 2, 3));
+    EXPECT_TRUE(poses[0].T_world_sensor.rotation().isIdentity(1e-12));
+  }
+}
+
 TEST(TrajectoryTum, ErrorsNameFileAndLine) {
   const TempFolder folder;
   const std::pair<const char*, const char*> cases[] = {

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <sstream>
+
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/image/coco_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
@@ -43,6 +46,47 @@ TEST(EvalTrajectory, TableNamesNumberOfMatches) {
   const Outcome outcome = run_mms(folder.path(), {"eval", "trajectory", "a.tum", "b.tum"});
   expect_success(outcome);
   expect_in("matched 4 of 5 poses within 0.02 s", outcome.out);
+}
+
+/// Poses of a car that turns left, in the frame of its first pose; `T` maps them to another sensor.
+std::string kitti_poses(int count, const Eigen::Isometry3d& T) {
+  std::ostringstream text;
+  text.precision(12);
+  for (int i = 0; i < count; ++i) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.rotate(Eigen::AngleAxisd(0.02 * i, Eigen::Vector3d::UnitZ()));
+    pose.translation() = Eigen::Vector3d(i, 0.01 * i * i, 0);
+    const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows =
+        (T * pose * T.inverse()).matrix().topRows<3>();
+    for (int k = 0; k < 12; ++k) text << rows.data()[k] << ' ';
+    text << '\n';
+  }
+  return text.str();
+}
+
+TEST(EvalTrajectory, ConvertsPosesOfKittiLidar) {
+  Eigen::Isometry3d T_camera_lidar = Eigen::Isometry3d::Identity();
+  T_camera_lidar.matrix().topRows<3>() << 0, -1, 0, 0, 0, 0, -1, -0.1, 1, 0, 0, -0.3;
+  const TempFolder folder;
+  folder.write("calib.txt",
+               "P2: 700 0 600 0 0 700 180 0 0 0 1 0\nTr: 0 -1 0 0 0 0 -1 -0.1 1 0 0 -0.3\n");
+  folder.write("lidar.txt", kitti_poses(30, Eigen::Isometry3d::Identity()));
+  folder.write("camera.txt", kitti_poses(30, T_camera_lidar));
+  const std::vector<std::string> command = {"eval", "trajectory", "camera.txt", "lidar.txt",
+                                            "--json"};
+  EXPECT_GT(json_of(run_mms(folder.path(), command))["rpe_trans_rmse_m"], 1.0);
+  auto converted = command;
+  converted.insert(converted.end(), {"--kitti-calib", "calib.txt"});
+  EXPECT_LT(json_of(run_mms(folder.path(), converted))["rpe_trans_rmse_m"], 1e-6);
+}
+
+TEST(EvalTrajectory, WarnsOfKittiFilesOfOtherLengths) {
+  const TempFolder folder;
+  folder.write("a.txt", kitti_poses(30, Eigen::Isometry3d::Identity()));
+  folder.write("b.txt", kitti_poses(29, Eigen::Isometry3d::Identity()));
+  const Outcome outcome = run_mms(folder.path(), {"eval", "trajectory", "a.txt", "b.txt"});
+  expect_success(outcome);
+  expect_in("a.txt has 30 poses, b.txt has 29", outcome.err);
 }
 
 TEST(EvalTrajectory, ErrorsAreOneLine) {

@@ -9,8 +9,9 @@
 namespace mms {
 namespace {
 
-constexpr double kMaxGap = 0.05;    ///< share of the depth that separates two modes
-constexpr double kMinShare = 0.10;  ///< smallest share of a pixel's returns in a mode
+constexpr double kMaxGap = 0.05;          ///< share of the depth that separates two modes
+constexpr std::size_t kMaxImages = 1000;  ///< 0.6 GB at 640x480
+constexpr double kMinShare = 0.10;        ///< smallest share of a pixel's returns in a mode
 
 /// Median of the farthest sufficiently long run of sorted depths; 0 if none.
 double far_mode_of(const std::vector<std::uint16_t>& sorted) {
@@ -36,12 +37,20 @@ void RoomDepth::add(const Image<float>& depth) {
                                        std::to_string(millimetres_.front().width()) + "x" +
                                        std::to_string(millimetres_.front().height()));
   }
+  if (added_++ % step_ != 0) return;
   Image<std::uint16_t> raw(depth.width(), depth.height());
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const float mm = 1000.0F * depth[i];
     raw[i] = mm > 0.0F && mm < 65535.0F ? static_cast<std::uint16_t>(mm + 0.5F) : std::uint16_t{0};
   }
   millimetres_.push_back(std::move(raw));
+  if (millimetres_.size() <= kMaxImages) return;
+  std::vector<Image<std::uint16_t>> kept;
+  for (std::size_t i = 0; i < millimetres_.size(); i += 2) {
+    kept.push_back(std::move(millimetres_[i]));
+  }
+  millimetres_ = std::move(kept);
+  step_ *= 2;
 }
 
 Image<float> RoomDepth::far_mode() const {

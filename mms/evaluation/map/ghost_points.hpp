@@ -15,7 +15,8 @@ namespace mms {
 /// repeatedly, its far mode.
 class RoomDepth {
  public:
-  /// Adds a depth image [m]; 0, NaN and infinite pixels mean no return.
+  /// Adds a depth image [m]; 0, NaN and infinite pixels mean no return. Of more than 1000 images
+  /// every second one is used, of more than 2000 every fourth one, and so on.
   /// @throws DataError if its size differs from that of the earlier images.
   void add(const Image<float>& depth);
 
@@ -25,6 +26,8 @@ class RoomDepth {
 
  private:
   std::vector<Image<std::uint16_t>> millimetres_;
+  std::size_t added_ = 0;
+  std::size_t step_ = 1;  ///< every so many images are kept
 };
 
 /// Points of a static map left by moving objects.

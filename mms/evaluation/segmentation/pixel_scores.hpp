@@ -34,7 +34,7 @@ struct PixelScores {
 struct PixelScoreOptions {
   std::string category = "person";
   std::string split{};     ///< only images of this split; empty: all
-  double min_score = 0.3;  ///< of the masks: the decoder's default
+  double min_score = 0.3;  ///< of the masks: the default of `objects.score`
 };
 
 /// Recall and precision of the union of masks. Crowds neither count as objects nor against a mask.

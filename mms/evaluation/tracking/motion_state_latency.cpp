@@ -28,6 +28,10 @@ void MotionStateLatency::lose(int id) {
   objects_.erase(place);
 }
 
+void MotionStateLatency::finish() {
+  while (!objects_.empty()) lose(objects_.begin()->first);
+}
+
 void MotionStateLatency::settle(double delay) {
   ++count_;
   if (!(delay <= longest_)) longest_ = delay;

@@ -19,6 +19,9 @@ class MotionStateLatency {
   /// Adds that an object is out of view.
   void lose(int id);
 
+  /// Ends the recording: all objects leave the view.
+  void finish();
+
   std::int64_t count() const { return count_; }  ///< number of starts and stops visible long enough
   double longest() const { return longest_; }    ///< [s]; NaN if none
 

@@ -51,7 +51,10 @@ std::vector<int> ObjectPairing::pair(const std::vector<ObjectBox>& truth,
   }
   std::vector<int> pairs = assign_least_cost(cost);
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    if (pairs[i] >= 0) track_of_[truth[i].id] = tracks[static_cast<std::size_t>(pairs[i])].id;
+    if (pairs[i] < 0) continue;
+    const int track = tracks[static_cast<std::size_t>(pairs[i])].id;
+    std::erase_if(track_of_, [track](const auto& pair) { return pair.second == track; });
+    track_of_[truth[i].id] = track;
   }
   return pairs;
 }

@@ -59,7 +59,8 @@ class Comparison {
     count_tracks(counted, others, tracks, owners, sensor);
   }
 
-  TrackingError result() const {
+  TrackingError result() {
+    turns_.finish();
     TrackingError error;
     const auto paired = static_cast<std::int64_t>(offsets_.size());
     error.objects = objects_;
@@ -144,6 +145,12 @@ TrackingError evaluate_tracking(const ObjectHistory& truth, const ObjectHistory&
                    pose->second->T_world_sensor.translation());
   }
   return comparison.result();
+}
+
+ObjectHistory frames_with_pose(ObjectHistory history, const Trajectory& poses) {
+  const auto pose_at = by_stamp(poses);
+  std::erase_if(history, [&](const ObjectFrame& frame) { return !pose_at.contains(frame.stamp); });
+  return history;
 }
 
 std::vector<MetricValue> metric_values(const TrackingError& error) {

@@ -35,12 +35,16 @@ struct TrackingError {
 /// of the previous frame are kept while possible (as in CLEAR MOT, Bernardin and Stiefelhagen
 /// 2008). IDF1 as in Ristani et al. 2016. Objects out of range or view need not be tracked, and
 /// tracked boxes on them or out of range are ignored. Starts and stops count if the object stays in
-/// view until they are recognized, or for a second.
+/// view until they are recognized, or for a second; the end of the recording is one of the view.
 /// @param truth    in the world frame of `sensor`
 /// @param tracks   in the same frame
 /// @param sensor   ground-truth poses with the stamps of the frames
 TrackingError evaluate_tracking(const ObjectHistory& truth, const ObjectHistory& tracks,
                                 const Trajectory& sensor, const TrackingOptions& options = {});
+
+/// The frames with the stamp of a pose: those that a run has processed, if it has played a part of
+/// the recording only.
+ObjectHistory frames_with_pose(ObjectHistory history, const Trajectory& poses);
 
 std::vector<MetricValue> metric_values(const TrackingError& error);
 

@@ -1,5 +1,7 @@
 #include "mms/io/results/trajectory_io.hpp"
 
+#include <algorithm>
+
 #include "mms/core/error.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/numbers.hpp"
@@ -31,11 +33,26 @@ Timestamp stamp_of(const TextTable& table, const TextLine& line, const StampRead
                   "stamps are seconds below 9.2e9");
 }
 
+/// Whether the columns are those of EuRoC and TUM-VI: nanoseconds, position, quaternion from w on.
+/// Velocity and biases may follow.
+bool is_euroc(const TextTable& table) {
+  const auto position_of = [&](std::string_view name) {
+    return std::ranges::find_if(table.header(),
+                                [&](std::string_view field) { return field.starts_with(name); });
+  };
+  const auto w = position_of("q_RS_w");
+  return w != table.header().end() && w < position_of("q_RS_x");
+}
+
 StampedPose tum_pose(const TextTable& table, const TextLine& line, const StampReader& read_stamp) {
-  expect_columns(table, line, kTumColumns, "stamp tx ty tz qx qy qz qw");
+  const bool w_first = is_euroc(table);
+  if (!w_first || line.fields.size() < kTumColumns) {
+    expect_columns(table, line, kTumColumns, "stamp tx ty tz qx qy qz qw");
+  }
   const std::string where = table.where(line);
-  const auto n = parse_finite(std::span(line.fields).subspan(1), where);
-  const Eigen::Quaterniond rotation(n[6], n[3], n[4], n[5]);
+  const auto n = parse_finite(std::span(line.fields).subspan(1, kTumColumns - 1), where);
+  const Eigen::Quaterniond rotation = w_first ? Eigen::Quaterniond(n[3], n[4], n[5], n[6])
+                                              : Eigen::Quaterniond(n[6], n[3], n[4], n[5]);
   constexpr double kMinNorm = 1e-6;
   if (rotation.norm() < kMinNorm) throw DataError(where, "the quaternion is zero");
 

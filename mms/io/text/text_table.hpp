@@ -24,6 +24,9 @@ class TextTable {
   /// In the order of the file.
   const std::vector<TextLine>& lines() const { return lines_; }
 
+  /// Names of the columns: the fields of a first line that is a comment, without '#'; else none.
+  const std::vector<std::string_view>& header() const { return header_; }
+
   /// Those of all lines.
   std::vector<std::string_view> fields() const;
 
@@ -33,6 +36,7 @@ class TextTable {
  private:
   std::string file_;
   std::string text_;
+  std::vector<std::string_view> header_;
   std::vector<TextLine> lines_;
 };
 

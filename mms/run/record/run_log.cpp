@@ -203,12 +203,13 @@ SessionMetrics RunLog::session_metrics() const {
 }
 
 void RunLog::compare_objects(const ObjectHistory& truth) {
-  if (truth.empty()) return;
+  const ObjectHistory played = frames_with_pose(truth, trajectory());
+  if (played.empty()) return;
   const auto compare = [&](const ObjectHistory& objects,
                            const Trajectory& poses) -> std::optional<TrackingError> {
     const auto T = align_truth(truth_, poses);
     if (!T) return std::nullopt;
-    return evaluate_tracking(truth, transformed(objects, T->inverse()), truth_);
+    return evaluate_tracking(played, transformed(objects, T->inverse()), truth_);
   };
   metrics_.objects = compare(objects_, corrected_trajectory());
   metrics_.live_objects = compare(live_log_.read(), trajectory());

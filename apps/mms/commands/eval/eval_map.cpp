@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,10 +14,14 @@
 #include "mms/dataset/open_dataset.hpp"
 #include "mms/evaluation/map/ghost_points.hpp"
 #include "mms/evaluation/map/map_error.hpp"
+#include "mms/evaluation/trajectory/truth_frame.hpp"
 #include "mms/io/cloud/ply_io.hpp"
+#include "mms/io/results/trajectory_io.hpp"
 
 namespace mms {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct MapArguments {
   std::string truth;  ///< PLY with labels, or the recording for the ghost points
@@ -34,16 +39,27 @@ PointCloudFile read_finite(const std::string& file) {
   return cloud;
 }
 
+/// Pose of the truth in the map, as in metrics.json, if the poses of both are beside them.
+std::optional<Eigen::Isometry3d> truth_alignment(const MapArguments& arguments) {
+  const fs::path truth = fs::path(arguments.truth).parent_path() / "groundtruth.txt";
+  const fs::path poses = map_trajectory_file(fs::path(arguments.map).parent_path());
+  if (!fs::exists(truth) || !fs::exists(poses)) return std::nullopt;
+  return align_truth(read_trajectory_tum(truth), read_trajectory_tum(poses));
+}
+
 void evaluate_cleanness(const MapArguments& arguments) {
   const PointCloudFile truth = read_finite(arguments.truth);
   if (truth.labels.empty() && !truth.points.empty()) {
     throw DataError(arguments.truth, "has no property 'label'",
                     "expected a label per point: 0 static, else the object's id");
   }
+  const auto T = truth_alignment(arguments);
+  if (T && !arguments.json) fmt::print("ground truth aligned by the poses beside both files\n");
+  const Eigen::Isometry3f T_map_truth = T.value_or(Eigen::Isometry3d::Identity()).cast<float>();
   std::vector<Eigen::Vector3f> fixed;
   std::vector<Eigen::Vector3f> dynamic;
   for (std::size_t i = 0; i < truth.points.size(); ++i) {
-    (truth.labels[i] == 0 ? fixed : dynamic).push_back(truth.points[i]);
+    (truth.labels[i] == 0 ? fixed : dynamic).push_back(T_map_truth * truth.points[i]);
   }
   const MapError error = evaluate_map(fixed, dynamic, read_finite(arguments.map).points);
   if (!arguments.json) {
@@ -85,7 +101,10 @@ void add_eval_map(CLI::App& eval) {
       ->add_option("TRUTH", arguments->truth,
                    "PLY with a label per point: 0 static, else the object's id")
       ->required();
-  command->add_option("MAP", arguments->map, "PLY in the same world frame")->required();
+  command
+      ->add_option("MAP", arguments->map,
+                   "PLY in the same world frame, or aligned by poses beside both")
+      ->required();
   add_json_flag(*command, arguments->json);
   command->callback([arguments] { evaluate_cleanness(*arguments); });
 }

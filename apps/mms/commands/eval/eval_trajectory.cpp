@@ -7,7 +7,9 @@
 #include <string>
 
 #include "apps/mms/commands/eval/eval_parts.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
+#include "mms/dataset/lidar/kitti_calibration.hpp"
 #include "mms/evaluation/trajectory/drift.hpp"
 #include "mms/evaluation/trajectory/trajectory_error.hpp"
 #include "mms/io/results/trajectory_io.hpp"
@@ -21,6 +23,7 @@ struct TrajectoryArguments {
   double max_difference = 0.02;  ///< [s]
   std::optional<double> rpe_delta;
   std::string rpe_unit = "s";
+  std::string kitti_calib;  ///< ESTIMATE is of this calibration's LiDAR, REFERENCE of its camera 0
   bool no_align = false;
   bool json = false;
 };
@@ -59,10 +62,36 @@ TrajectoryErrorOptions options_of(const TrajectoryArguments& arguments) {
   return options;
 }
 
+/// Poses of the LiDAR as poses of camera 0, both in the frame of the first one.
+Trajectory poses_of_camera(Trajectory poses, const Eigen::Isometry3d& T_camera_lidar) {
+  for (StampedPose& pose : poses) {
+    pose.T_world_sensor = Transform<World, Sensor>(T_camera_lidar * pose.T_world_sensor.isometry() *
+                                                   T_camera_lidar.inverse());
+  }
+  return poses;
+}
+
+void warn_of_lengths(const TrajectoryArguments& arguments, std::size_t reference,
+                     std::size_t estimate) {
+  if (reference == estimate) return;
+  print_warnings({fmt::format(
+      "{} has {} poses, {} has {}: matched frame by frame, they only fit if the last ones are "
+      "missing; files of TUM's format are matched by stamps",
+      arguments.reference, reference, arguments.estimate, estimate)});
+}
+
 void evaluate(const TrajectoryArguments& arguments) {
   const TrajectoryErrorOptions options = options_of(arguments);
-  const TrajectoryError error = evaluate_trajectory(read_trajectory(arguments.reference),
-                                                    read_trajectory(arguments.estimate), options);
+  const Trajectory reference = read_trajectory(arguments.reference);
+  Trajectory estimate = read_trajectory(arguments.estimate);
+  if (options.matching == Matching::kByIndex) {
+    warn_of_lengths(arguments, reference.size(), estimate.size());
+  }
+  if (!arguments.kitti_calib.empty()) {
+    estimate = poses_of_camera(estimate,
+                               read_kitti_calibration(arguments.kitti_calib, {}).T_camera0_lidar);
+  }
+  const TrajectoryError error = evaluate_trajectory(reference, estimate, options);
   if (!arguments.json) {
     const RelativeDelta delta = rpe_delta(options);
     const std::string how = options.matching == Matching::kByIndex
@@ -91,6 +120,9 @@ void add_options(CLI::App& command, TrajectoryArguments& arguments) {
   command.add_option("--rpe-unit", arguments.rpe_unit, "unit of --rpe-delta")
       ->check(CLI::IsMember({"s", "m", "frames"}))
       ->needs(delta);
+  command.add_option("--kitti-calib", arguments.kitti_calib,
+                     "calib.txt of a KITTI sequence: ESTIMATE has poses of its LiDAR, REFERENCE of "
+                     "its camera 0");
   command.add_flag("--no-align", arguments.no_align,
                    "compare in the frame of REFERENCE, as of a localization in a known map");
 }
@@ -100,7 +132,7 @@ void add_options(CLI::App& command, TrajectoryArguments& arguments) {
 void add_eval_trajectory(CLI::App& eval) {
   const auto arguments = std::make_shared<TrajectoryArguments>();
   CLI::App* command = eval.add_subcommand("trajectory", "ATE and RPE against a reference");
-  command->add_option("REFERENCE", arguments->reference, "ground truth, a TUM or KITTI file")
+  command->add_option("REFERENCE", arguments->reference, "ground truth, a TUM, EuRoC or KITTI file")
       ->required();
   command->add_option("ESTIMATE", arguments->estimate, "trajectory, a file of the same format")
       ->required();
