@@ -219,6 +219,14 @@ SimulatedFrame SimulatedScene::render(int index) {
     radiance =
         Image<Eigen::Vector3f>(scene.table.width, scene.table.height, Eigen::Vector3f::Zero());
   result.objects = scene.objects(at, result.exact);
+  if (dark) {
+    result.exact.object = Image<std::uint8_t>(scene.table.width, scene.table.height);
+    for (ObjectTruth& object : result.objects) {
+      if (scene.sensor.lidar) break;  // needs no light
+      object.pixels = 0;
+      object.visible = {};
+    }
+  }
   frame.mask = label_image(scene.stage, result.exact);
   frame.color = develop(radiance, scene.color_sensor(), hash_of(key, 1));
   if (scene.sensor.depth) {
@@ -227,7 +235,6 @@ SimulatedFrame SimulatedScene::render(int index) {
                       : ideal_depth(result.exact, *scene.sensor.depth);
     if (dark) frame.depth = Image<float>(frame.depth.width(), frame.depth.height());
   }
-  if (dark) frame.mask = Image<std::uint8_t>(frame.mask.width(), frame.mask.height());
   return result;
 }
 

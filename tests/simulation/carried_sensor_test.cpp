@@ -52,6 +52,14 @@ TEST(CarriedSensor, IsDarkFromTimeToTime) {
   }
 }
 
+TEST(CarriedSensor, NothingIsVisibleInTheDark) {
+  const SceneConfig config = kidnap(1);
+  SimulatedScene scene(config);
+  const SimulatedFrame frame = scene.render(frame_at(config, config.dark_from + 1.0));
+  for (const std::uint8_t object : frame.exact.object.pixels()) ASSERT_EQ(object, 0);
+  for (const ObjectTruth& object : frame.objects) EXPECT_EQ(object.pixels, 0);
+}
+
 TEST(CarriedSensor, IsPutDownAtEarlierPlace) {
   double farthest = 0.0;
   for (int seed = 1; seed <= 4; ++seed) {
