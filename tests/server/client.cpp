@@ -2,6 +2,7 @@
 
 #include <poll.h>
 
+#include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -9,6 +10,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <thread>
 
 namespace mms::testing {
 namespace {
@@ -49,6 +51,25 @@ HttpAnswer http_get(std::uint16_t port, const std::string& path, const std::stri
   const auto& response = parser.get();
   return {static_cast<int>(response.result_int()), text_of(response[http::field::content_type]),
           text_of(response["Content-Security-Policy"]), response.body()};
+}
+
+std::size_t download_slowly(std::uint16_t port, const std::string& path, std::size_t part,
+                            std::chrono::milliseconds pause) {
+  asio::io_context io;
+  tcp::socket socket(io);
+  socket.open(tcp::v4());
+  socket.set_option(asio::socket_base::receive_buffer_size(static_cast<int>(part)));
+  socket.connect(endpoint(port));
+  asio::write(socket, asio::buffer("GET " + path + " HTTP/1.1\r\nHost: " + host(port) +
+                                   "\r\nConnection: close\r\n\r\n"));
+  std::string answer;
+  std::string bytes(part, '\0');
+  beast::error_code error;
+  while (!error) {
+    answer.append(bytes, 0, socket.read_some(asio::buffer(bytes), error));
+    std::this_thread::sleep_for(pause);
+  }
+  return answer.size() - std::min(answer.size(), answer.find("\r\n\r\n") + 4);
 }
 
 std::string send_raw(std::uint16_t port, const std::string& bytes, const std::string& enough) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -23,6 +24,10 @@ HttpAnswer http_get(std::uint16_t port, const std::string& path, const std::stri
 /// Sends bytes unchanged and reads until the server closes, sends nothing for two seconds, or has
 /// sent `enough`.
 std::string send_raw(std::uint16_t port, const std::string& bytes, const std::string& enough = "");
+
+/// Size of a body that is received in parts of at most `part` bytes with pauses between them.
+std::size_t download_slowly(std::uint16_t port, const std::string& path, std::size_t part,
+                            std::chrono::milliseconds pause);
 
 /// A client that sends a part of a request and nothing more.
 class SlowClient {

@@ -108,6 +108,14 @@ TEST(MapChunks, RemovesErasedVoxels) {
   EXPECT_GT(map.version(), before);
 }
 
+TEST(MapChunks, WholeMapStaysWhereItsBlocksAreObservedAgain) {
+  MapChunks map(2);
+  map.apply(*floor_map(8));
+  const std::size_t points = map.cloud().points.size();
+  map.apply(one_voxel({0, 0, 0}, 8, 40));
+  EXPECT_GE(map.cloud().points.size(), points);
+}
+
 TEST(MapChunks, WholeMapReplacesFormer) {
   MapChunks map(1);
   map.apply(*floor_map(20));

@@ -59,6 +59,16 @@ TEST(Server, ServesOnlyFilesOfRun) {
   }
 }
 
+TEST(Server, SendsLargeFilesToSlowClients) {
+  constexpr std::size_t kSize = 16'000'000;
+  const TempFolder folder;
+  folder.write("run/static_map.ply", std::string(kSize, 'x'));
+  ServerOptions options = any_port();
+  options.send_time = 500ms;
+  const ViewerServer server(options, finished_scene(1, folder.path() / "run"));
+  EXPECT_EQ(download_slowly(server.port(), "/files/static_map.ply", 200'000, 20ms), kSize);
+}
+
 TEST(Server, ServesMapOfLiveRun) {
   const TempFolder folder;
   const auto scene = std::make_shared<Scene>(scene_info(true));

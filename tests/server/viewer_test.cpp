@@ -294,12 +294,24 @@ TEST(Viewer, ShowsCorrectedResultsAndLoopsAtEndOfLiveRun) {
   const auto messages = viewer.drain();
   EXPECT_EQ(only(messages, "trajectory").values<float>("pose")[0], 3.0F);
   EXPECT_EQ(only(messages, "frame").values<float>("pose")[0], 4.0F);
+  EXPECT_EQ(only(messages, "series").json["first_frame"], 0);
   EXPECT_EQ(only(messages, "map").values<float>("points").size(), 3 * 100U);
   const auto loops = only(messages, "loops");
   EXPECT_EQ(loops.json["outcomes"], (nlohmann::json{"accepted", "few inliers"}));
   EXPECT_EQ(loops.values<std::uint32_t>("frames"), (std::vector<std::uint32_t>{0, 1, 0, 1}));
   EXPECT_EQ(loops.values<std::uint8_t>("accepted"), (std::vector<std::uint8_t>{1, 0}));
   EXPECT_EQ(loops.values<std::uint8_t>("outcome"), (std::vector<std::uint8_t>{0, 1}));
+}
+
+TEST(Viewer, LateViewerOfAnEndedLiveRunGetsAFinishedRun) {
+  const auto scene = live_scene();
+  for (std::size_t i = 0; i < 3; ++i) scene->add(frame_at(i), nullptr, nullptr);
+  scene->end("/nowhere");
+  TestViewer viewer(scene);
+  viewer.advance(33ms);
+  const auto messages = viewer.drain();
+  EXPECT_EQ(only(messages, "hello").json["live"], false);
+  EXPECT_EQ(only(messages, "hello").json["frames"], 3);
 }
 
 TEST(Viewer, SendsTheHistoryOfALongRunInParts) {

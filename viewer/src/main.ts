@@ -22,7 +22,10 @@ import { ViewModes } from './ui/view_modes';
 /** Largest number of map points on this device: phones have less memory. */
 const kMapPoints = matchMedia('(pointer: coarse)').matches ? 1_500_000 : 5_000_000;
 const kFocusEvery = 600;
+/** The server closes silent connections, and its answer shows that it is there [ms]. */
+const kFocusAtLeastEvery = 5000;
 let focus: Vector3 = [0, 0, 0];
+let focusSent = 0;
 
 const run = new Run();
 const settings = new Settings(localStorageOrNull());
@@ -98,8 +101,12 @@ function sendWanted(): void {
 /** The map is refined first near the user's focus. */
 function sendFocus(): void {
   const point = scene.focus;
-  if (Math.hypot(...point.map((value, i) => value - focus[i])) < 1) return;
-  if (connection.send({ type: 'focus', point })) focus = point;
+  connection.check();
+  const rests = Math.hypot(...point.map((value, i) => value - focus[i])) < 1;
+  if (rests && Date.now() - focusSent < kFocusAtLeastEvery) return;
+  if (!connection.send({ type: 'focus', point })) return;
+  focus = point;
+  focusSent = Date.now();
 }
 
 async function takePicture(): Promise<void> {

@@ -73,6 +73,9 @@ void while_readable(const Change& change) {
   }
 }
 
+/// The distances to the start and to the ground truth, which are the last series.
+constexpr std::size_t kDistanceSeries = 2;
+
 /// [s]: least time between two corrections of what is displayed.
 constexpr std::chrono::seconds kCorrectionInterval{5};
 
@@ -108,7 +111,11 @@ void LiveView::show(Processed processed, double interval_ms, std::shared_ptr<con
       SensorView{sessions_.size(), std::move(processed.frame.color), std::move(result.cloud)});
   sessions_.push_back(result.session);
   scene_->add(std::move(frame), std::move(view), std::move(map));
-  if (result.correction.loops == shown_.loops || Clock::now() < next_correction_) return;
+  // It takes as long as several frames, and is done only for somebody.
+  if (server_->viewers() == 0 || result.correction.loops == shown_.loops ||
+      Clock::now() < next_correction_) {
+    return;
+  }
   while_readable([&] { show_corrected(result, mapping); });
 }
 
@@ -145,8 +152,11 @@ void LiveView::show_aligned_truth(const RunLog& log) {
   auto next = truth.begin();
   scene_->change([&](std::size_t, SceneFrame& frame) {
     frame.truth.reset();
-    if (next == truth.end() || next->stamp != frame.stamp) return;
-    frame.truth = (next++)->T_world_sensor.translation();
+    if (next != truth.end() && next->stamp == frame.stamp) {
+      frame.truth = (next++)->T_world_sensor.translation();
+    }
+    frame.series.resize(frame.series.size() - kDistanceSeries);
+    append_distances(frame.series, frame, true);
   });
 }
 

@@ -24,7 +24,6 @@ namespace http = boost::beast::http;
 constexpr std::uint32_t kMaxHeader = 8 * 1024;  ///< bytes
 constexpr std::uint64_t kMaxBody = 1024;        ///< bytes; bodies are ignored
 constexpr std::chrono::seconds kReadTime{15};
-constexpr std::chrono::seconds kSendTime{120};
 
 using Request11 = http::request<http::string_body>;
 
@@ -166,18 +165,31 @@ class HttpSession : public std::enable_shared_from_this<HttpSession>, public Con
     auto response = std::make_shared<http::response<Body>>(std::move(given));
     fill_header(answer, *response);
     if (answer.status != 304) response->prepare_payload();
-    stream_.expires_after(kSendTime);
     auto serializer = std::make_shared<http::response_serializer<Body>>(*response);
-    const auto sent = [self = shared_from_this(), response, serializer](beast::error_code error,
-                                                                        std::size_t) {
-      if (error || response->need_eof()) return self->close();
-      self->read();
-    };
-    if (head_) {
-      http::async_write_header(stream_, *serializer, sent);
-    } else {
-      http::async_write(stream_, *serializer, sent);
-    }
+    if (!head_) return send_part(response, serializer);
+    stream_.expires_after(service_.options.send_time);
+    http::async_write_header(
+        stream_, *serializer,
+        [self = shared_from_this(), response, serializer](beast::error_code error, std::size_t) {
+          self->finish(error, response->need_eof());
+        });
+  }
+
+  /// The time limit is that of each part, since a large file takes long over a slow network.
+  template <class Response, class Serializer>
+  void send_part(const Response& response, const Serializer& serializer) {
+    stream_.expires_after(service_.options.send_time);
+    http::async_write_some(
+        stream_, *serializer,
+        [self = shared_from_this(), response, serializer](beast::error_code error, std::size_t) {
+          if (!error && !serializer->is_done()) return self->send_part(response, serializer);
+          self->finish(error, response->need_eof());
+        });
+  }
+
+  void finish(beast::error_code error, bool is_last) {
+    if (error || is_last) return close();
+    read();
   }
 
   template <class Body>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,12 +11,13 @@
 namespace mms {
 
 struct ServerOptions {
-  std::string address = "127.0.0.1";  ///< address to listen on
-  std::uint16_t port = 8080;          ///< 0: any free port
-  std::string port_hint;              ///< hint for the error if the port is in use
-  std::string version;                ///< of the program, for the page
-  bool background = false;            ///< its threads have low priority
-  std::size_t max_viewers = 32;       ///< simultaneous; further ones are rejected
+  std::string address = "127.0.0.1";             ///< address to listen on
+  std::uint16_t port = 8080;                     ///< 0: any free port
+  std::string port_hint;                         ///< hint for the error if the port is in use
+  std::string version;                           ///< of the program, for the page
+  bool background = false;                       ///< its threads have low priority
+  std::size_t max_viewers = 32;                  ///< simultaneous; further ones are rejected
+  std::chrono::milliseconds send_time{120'000};  ///< for each part of a download
 };
 
 /// Serves the viewer page, a run's files and, over WebSocket, the run itself

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mms {
 namespace {
@@ -11,6 +12,8 @@ constexpr int kBlockSide = 1 << MapChunks::kBlockBits;
 constexpr int kBlockMask = kBlockSide - 1;
 constexpr int kBlockCells = kBlockSide * kBlockSide * kBlockSide;
 constexpr Rgb kUncoloredVoxel{128, 128, 128};
+/// Observations of a point that a whole map shows: it stays, however often its block is seen later.
+constexpr std::uint16_t kShownHits = std::numeric_limits<std::uint16_t>::max();
 /// Largest distance of a valid point from the origin [voxels]: keys have 32 bits.
 constexpr float kMaxVoxels = 1e9F;
 
@@ -226,7 +229,8 @@ MapChanges changes_of(std::span<const Eigen::Vector3f> points, std::span<const R
       changes.blocks.push_back({key, 1, 0});
       voxels_of_block.emplace_back();
     }
-    VoxelChange change{cell_of(voxel), 1, {}, {}, i < colors.size() ? colors[i] : kUncoloredVoxel};
+    VoxelChange change{
+        cell_of(voxel), kShownHits, {}, {}, i < colors.size() ? colors[i] : kUncoloredVoxel};
     for (int axis = 0; axis < 3; ++axis) {
       const float part = (steps[axis] - std::floor(steps[axis])) * kOffsetSteps;
       change.offset[static_cast<std::size_t>(axis)] =

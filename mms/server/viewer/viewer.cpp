@@ -73,6 +73,7 @@ void Viewer::notice_end() {
   state_due_ = true;
   files_due_ = !hello_due_;
   tracks_sent_ = 0;
+  values_sent_ = 0;  // distances of corrected poses
   loops_due_ = !scene_.loops().empty();
 }
 
@@ -82,6 +83,7 @@ std::optional<Viewer::Encode> Viewer::next(Clock::time_point now) {
   if (edition_sent_ != scene_.edition()) {
     edition_sent_ = scene_.edition();
     poses_sent_ = 0;
+    tracks_sent_ -= std::min(tracks_sent_, kHistoryPart);  // their trails are drawn
     sent_ = {};
     loops_due_ = !scene_.loops().empty();
   }
@@ -97,7 +99,12 @@ std::optional<Viewer::Encode> Viewer::next(Clock::time_point now) {
 std::optional<Viewer::Encode> Viewer::next_short() {
   if (std::exchange(hello_due_, false)) {
     return [&scene = scene_, version = version_] {
-      return hello_message(scene.info(), download_names(scene), version);
+      SceneInfo info = scene.info();
+      if (info.live && scene.ended()) {
+        info.live = false;
+        info.frames = scene.size();
+      }
+      return hello_message(info, download_names(scene), version);
     };
   }
   if (!errors_.empty()) {

@@ -16,12 +16,16 @@ export interface ConnectionEvents {
 
 const kFirstDelay = 500;
 const kLongestDelay = 8000;
+/** A server that has answered and is silent for longer is gone [ms]. */
+const kSilence = 60_000;
 
 /** A WebSocket that reconnects automatically with increasing delays. */
 export class Connection {
   private socket: WebSocket | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private attempt = 0;
+  /** Time of the last message [ms]; 0 before the first one, for which a live run may take long. */
+  private heard = 0;
 
   constructor(
     private readonly url: string,
@@ -31,6 +35,7 @@ export class Connection {
 
   connect(): void {
     clearTimeout(this.timer);
+    this.heard = 0;
     this.events.state({ kind: 'connecting', attempt: this.attempt });
     const socket = this.open(this.url);
     socket.binaryType = 'arraybuffer';
@@ -45,6 +50,14 @@ export class Connection {
     if (this.socket === null) this.connect();
   }
 
+  /** Reconnects if the server is silent, though commands were sent that it answers. */
+  check(): void {
+    const socket = this.socket;
+    if (socket === null || this.heard === 0 || Date.now() - this.heard < kSilence) return;
+    socket.close();
+    this.retry(socket); // closing may take minutes
+  }
+
   /** False if there is no connection. */
   send(command: Command): boolean {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
@@ -54,6 +67,7 @@ export class Connection {
 
   private receive(data: unknown): void {
     if (!(data instanceof ArrayBuffer)) return;
+    this.heard = Date.now();
     try {
       const message = decodeMessage(data);
       this.attempt = 0; // also increases the delay for a server that accepts and closes immediately

@@ -24,7 +24,7 @@ export interface Hello {
   run: string;
   live: boolean;
   image: Intrinsics | null;
-  /** Number of frames of the run; null while it continues. */
+  /** Number of frames of the run, of a live one the expected number; null if unknown. */
   frames: number | null;
   hasTruth: boolean;
   classes: string[];

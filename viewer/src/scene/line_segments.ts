@@ -62,8 +62,10 @@ export class ColoredSegments {
   /** Uploads added segments to the GPU. */
   commit(): void {
     for (const buffer of [this.positions, this.colors]) {
+      // Ranges that are left were not uploaded: nothing was drawn since.
+      const from = Math.min(6 * this.written, ...buffer.updateRanges.map(({ start }) => start));
       buffer.clearUpdateRanges();
-      buffer.addUpdateRange(6 * this.written, 6 * (this.used - this.written));
+      if (6 * this.used > from) buffer.addUpdateRange(from, 6 * this.used - from);
       buffer.needsUpdate = this.used > this.written;
     }
     this.written = this.used;

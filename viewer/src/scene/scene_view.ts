@@ -14,7 +14,7 @@ import { SensorLayer } from './sensor_layer';
 import { Stage } from './stage';
 import { TrailLayer } from './trail_layer';
 import { TrajectoryLayer } from './trajectory_layer';
-import { upright } from './upright';
+import { aheadOf, upright } from './upright';
 
 /** Points higher above the sensor are hidden, to show the inside of rooms [m]. */
 const kCeiling = 1;
@@ -36,6 +36,8 @@ export class SceneView {
   private pending = false;
   private measured = false;
   private lastFrame = -1;
+  /** Of the trajectory's poses. */
+  private drawnEdition = 0;
   /** In the scene frame. */
   private ceiling = kHigh;
   /** Of the floor and of the highest points, in the scene frame. */
@@ -89,7 +91,8 @@ export class SceneView {
     this.run.on('map', (message) => this.addMap(message));
     this.run.on('frame', () => this.refresh());
     this.run.on('history', () => {
-      this.trajectory.clear();
+      if (this.drawnEdition !== this.run.trajectory.edition) this.trajectory.clear();
+      this.drawnEdition = this.run.trajectory.edition;
       this.loops.update(this.run.loops, this.run.trajectory);
       this.measured = false;
       this.refresh();
@@ -112,6 +115,7 @@ export class SceneView {
     this.sensor.setScan(null);
     this.measured = false;
     this.lastFrame = -1;
+    this.drawnEdition = 0;
     if (!again) this.stage.rig.setMode(this.settings.camera);
     this.refresh();
   }
@@ -152,7 +156,7 @@ export class SceneView {
     if (!frame.pose) return;
     this.sensor.setPose(frame.pose);
     const at = new Vector3().fromArray(frame.pose);
-    const forward = new Vector3(0, 0, 1).applyQuaternion(this.sensor.group.quaternion).applyQuaternion(this.world.quaternion);
+    const forward = aheadOf(this.up).applyQuaternion(this.sensor.group.quaternion).applyQuaternion(this.world.quaternion);
     at.applyMatrix4(this.world.matrixWorld);
     this.ceiling = at.y + kCeiling;
     this.stage.rig.setSensor(at, forward, jump);

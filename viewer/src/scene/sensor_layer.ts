@@ -8,6 +8,9 @@ import { pointMaterial } from './point_material';
 /** Length of the drawn view frustum [m]. */
 const kReach = 0.7;
 
+/** Corners of the arrow of a LiDAR: x is ahead, z up. */
+const kArrow = [0.4, -0.25, 0, 0, 0, 0.1, 0.4, 0.25, 0, 0, 0, -0.1];
+
 /** Sensor frustum and current scan, static points cyan and dynamic ones orange. */
 export class SensorLayer {
   readonly group = new Group();
@@ -34,7 +37,7 @@ export class SensorLayer {
   /** Null for a sensor without an image: it gets an arrow. */
   setIntrinsics(image: Intrinsics | null): void {
     const color = new Color(kColors.camera);
-    const points = [0, 0, 0, ...(image ? imageCorners(image) : [0.25, 0, 0.4, 0, -0.1, 0, -0.25, 0, 0.4, 0, 0.1, 0])];
+    const points = [0, 0, 0, ...(image ? imageCorners(image) : kArrow)];
     this.frustum.clear();
     for (let i = 1; i <= 4; ++i) {
       this.frustum.add(points, 0, points, 3 * i, color);

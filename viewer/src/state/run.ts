@@ -36,7 +36,8 @@ export class Run extends Emitter<RunEvents> {
 
   /** Number of available frames. */
   get frames(): number {
-    return Math.max(this.live ? 0 : (this.hello?.frames ?? 0), this.trajectory.frames);
+    // Of a live run the number was only expected; all poses are sent at its end.
+    return Math.max(this.hello?.live ? 0 : (this.hello?.frames ?? 0), this.trajectory.frames);
   }
 
   apply(message: Message): void {

@@ -7,6 +7,8 @@ export class Trajectory {
   readonly poses = new Rows(7);
   readonly truth = new Rows(3);
   private readonly seconds = new Rows(1);
+  /** Counts how often known poses were replaced. */
+  edition = 0;
   private firstStampNs: bigint | null = null;
 
   get frames(): number {
@@ -14,6 +16,7 @@ export class Trajectory {
   }
 
   set({ firstFrame, poses, stamps, truth }: TrajectoryMessage): void {
+    if (firstFrame < this.poses.length) ++this.edition;
     this.poses.write(firstFrame, poses);
     if (stamps) this.seconds.write(firstFrame, Array.from(stamps, (ms) => ms / 1000));
     if (truth) this.truth.write(firstFrame, truth);

@@ -25,6 +25,8 @@ class FakeSocket {
   send(text: string): void {
     this.sent.push(text);
   }
+
+  close(): void {}
 }
 
 describe('Connection', () => {
@@ -52,6 +54,20 @@ describe('Connection', () => {
       },
     );
     connection.connect();
+  });
+
+  it('reconnects when a server that has answered is silent', () => {
+    last().accept();
+    vi.advanceTimersByTime(120_000);
+    connection.check();
+    expect(states).not.toContain('waiting'); // nothing was heard yet
+    last().onmessage?.({ data: message({ type: 'error', message: '' }) });
+    vi.advanceTimersByTime(59_000);
+    connection.check();
+    expect(states).not.toContain('waiting');
+    vi.advanceTimersByTime(2000);
+    connection.check();
+    expect(states[states.length - 1]).toBe('waiting');
   });
 
   afterEach(() => {

@@ -1,7 +1,8 @@
-import { Vector3 } from 'three';
+import { Color, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { floorHeight, heightRange } from '../../src/scene/floor';
 import { drawnCounts } from '../../src/scene/level_of_detail';
+import { ColoredSegments } from '../../src/scene/line_segments';
 import { shuffled } from '../../src/scene/point_buffers';
 import { PointBudget } from '../../src/scene/point_budget';
 import { upright } from '../../src/scene/upright';
@@ -96,5 +97,22 @@ describe('upright', () => {
   it('points a level camera away from the viewer', () => {
     const ahead = new Vector3(0, 0, 1).applyQuaternion(upright(new Vector3(0, -1, 0)));
     expect(ahead.distanceTo(new Vector3(0, 0, -1))).toBeLessThan(1e-6);
+  });
+
+  it('points a level LiDAR away from the viewer', () => {
+    const ahead = new Vector3(1, 0, 0).applyQuaternion(upright(new Vector3(0, 0, 1)));
+    expect(ahead.distanceTo(new Vector3(0, 0, -1))).toBeLessThan(1e-6);
+  });
+});
+
+describe('ColoredSegments', () => {
+  it('keeps what was not drawn yet for the next upload', () => {
+    const lines = new ColoredSegments({ width: 1 });
+    for (let i = 0; i < 3; ++i) {
+      lines.add([0, 0, 0], 0, [1, 1, 1], 0, new Color());
+      lines.commit();
+    }
+    const { positions } = lines as unknown as { positions: { updateRanges: unknown } };
+    expect(positions.updateRanges).toEqual([{ start: 0, count: 18 }]);
   });
 });

@@ -50,6 +50,17 @@ describe('Run', () => {
     expect(run.series.of('ms')[0].values.row(1)[0]).toBeNaN();
   });
 
+  it('counts how often known poses are replaced', () => {
+    const run = new Run();
+    tell(run, { ...kHello, live: true, frames: null });
+    tell(run, { type: 'trajectory', first_frame: 0 }, [['pose', 7, new Float32Array([...pose(0), ...pose(1)])]]);
+    const { edition } = run.trajectory;
+    tell(run, { type: 'trajectory', first_frame: 2 }, [['pose', 7, pose(2)]]);
+    expect(run.trajectory.edition).toBe(edition);
+    tell(run, { type: 'trajectory', first_frame: 0 }, [['pose', 7, pose(3)]]);
+    expect(run.trajectory.edition).toBe(edition + 1);
+  });
+
   it('detects the end of a live run', () => {
     const run = new Run();
     tell(run, { ...kHello, live: true, frames: 100 });
@@ -59,7 +70,7 @@ describe('Run', () => {
     expect(run.frames).toBe(1);
     tell(run, { type: 'state', playing: true, files: ['static_map.ply'] });
     expect(run.live).toBe(false);
-    expect(run.frames).toBe(100);
+    expect(run.frames).toBe(1);
   });
 
   it('splits series into columns and grows', () => {
