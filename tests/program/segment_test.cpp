@@ -62,6 +62,23 @@ TEST(Segment, KeepsIdsOfCocoFile) {
   EXPECT_FALSE(fs::exists(folder.path() / "out/masks"));
 }
 
+TEST(Segment, TakesCategoryIdsOfCocoFileByName) {
+  const TempFolder folder;
+  fs::create_directories(folder.path() / "data");
+  write_png(folder.path() / "data/a.png", Image<Rgb>(160, 120, Rgb{90, 90, 90}));
+  CocoDataset dataset;
+  dataset.categories = {{1, "agv"}, {7, "person"}};
+  dataset.images.push_back({.id = 1, .file_name = "a.png", .width = 160, .height = 120});
+  write_coco(folder.path() / "truth.json", dataset);
+  expect_success(run_mms(folder.path(), {"segment", "data", "--annotations", "truth.json",
+                                         "--json-only", "-o", "out"}));
+  const CocoDataset found = read_coco(folder.path() / "out/images.json");
+  ASSERT_EQ(found.categories.size(), 2U);
+  for (const CocoCategory& category : found.categories) {
+    EXPECT_EQ(category.id, category.name == "person" ? 7 : 1);
+  }
+}
+
 TEST(Segment, KeepsExtensionOfAmbiguousNames) {
   const TempFolder folder;
   fs::create_directories(folder.path() / "data");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <opencv2/imgproc.hpp>
+#include <ranges>
 
 #include "mms/segmentation/segmenters/network_segmenter.hpp"
 
@@ -56,10 +57,10 @@ void write_label(const Detection& detection, const std::string& name, const Rgb&
 Image<Rgb> draw_detections(const Image<Rgb>& image, const std::vector<Detection>& detections,
                            const std::vector<std::string>& classes) {
   Image<Rgb> picture = image;
-  for (const Detection& detection : detections) {
+  for (const Detection& detection : std::views::reverse(detections)) {
     tint(detection, color_of(classes[static_cast<std::size_t>(detection.category)]), picture);
   }
-  for (const Detection& detection : detections) {
+  for (const Detection& detection : std::views::reverse(detections)) {
     const std::string& name = classes[static_cast<std::size_t>(detection.category)];
     write_label(detection, name, color_of(name), picture);
   }
@@ -69,7 +70,7 @@ Image<Rgb> draw_detections(const Image<Rgb>& image, const std::vector<Detection>
 Image<std::uint8_t> label_image(int width, int height, const std::vector<Detection>& detections,
                                 const std::vector<std::string>& classes) {
   Image<std::uint8_t> labels(width, height);
-  for (const Detection& detection : detections) {
+  for (const Detection& detection : std::views::reverse(detections)) {  // the surest one on top
     const auto meant = object_class_of(classes[static_cast<std::size_t>(detection.category)]);
     if (!meant) continue;
     for (int y = 0; y < detection.mask.height(); ++y) {

@@ -39,8 +39,9 @@ void make_stems_unique(std::vector<PictureFile>& files) {
 
 class PictureFiles final : public PictureSource {
  public:
-  PictureFiles(std::vector<PictureFile> files, PictureWarning warning)
-      : files_(std::move(files)), warning_(std::move(warning)) {
+  PictureFiles(std::vector<PictureFile> files, PictureWarning warning,
+               std::vector<CocoCategory> categories = {})
+      : files_(std::move(files)), warning_(std::move(warning)), categories_(std::move(categories)) {
     make_stems_unique(files_);
   }
 
@@ -56,10 +57,12 @@ class PictureFiles final : public PictureSource {
     return std::nullopt;
   }
   std::size_t size() const override { return files_.size(); }
+  std::vector<CocoCategory> categories() const override { return categories_; }
 
  private:
   std::vector<PictureFile> files_;
   PictureWarning warning_;
+  std::vector<CocoCategory> categories_;
   std::size_t position_ = 0;
 };
 
@@ -68,12 +71,18 @@ class RecordedPictures final : public PictureSource {
   RecordedPictures(const std::string& where, const PictureWarning& warning,
                    const CameraOptions& camera)
       : source_(open_dataset(
-            where, {.masks = {}, .load_masks = false, .map_truth = false, .camera = camera})) {
+            where, {.masks = {}, .load_masks = false, .map_truth = false, .camera = camera})),
+        warning_(warning) {
     source_->on_warning(warning);
   }
 
   std::optional<Picture> next() override {
     std::optional<Frame> frame = source_->next();
+    for (; frame && frame->color.empty(); frame = source_->next()) ++without_color_;
+    if (!frame && without_color_ > 0) {
+      warning_(std::to_string(without_color_) + " frames have no color image");
+      without_color_ = 0;
+    }
     if (!frame) return std::nullopt;
     fs::path name = frame->name;  // possibly a stamp: keeps the part after its dot
     if (!is_picture(name)) name += ".png";
@@ -83,6 +92,8 @@ class RecordedPictures final : public PictureSource {
 
  private:
   std::unique_ptr<FrameSource> source_;
+  PictureWarning warning_;
+  std::size_t without_color_ = 0;
 };
 
 std::vector<PictureFile> pictures_of(const fs::path& folder) {
@@ -115,7 +126,8 @@ std::unique_ptr<PictureSource> open_annotated(const fs::path& annotations, const
                                               const std::string& split,
                                               const PictureWarning& warning) {
   std::vector<PictureFile> files;
-  for (const CocoImage& image : read_coco(annotations).images) {
+  CocoDataset dataset = read_coco(annotations);
+  for (const CocoImage& image : dataset.images) {
     if (!split.empty() && image.split != split) continue;
     files.push_back({image.id, picture_path(folder, image.file_name)});
   }
@@ -123,7 +135,7 @@ std::unique_ptr<PictureSource> open_annotated(const fs::path& annotations, const
     throw DataError(annotations.string(),
                     split.empty() ? "has no images" : "has no images in the split '" + split + "'");
   }
-  return std::make_unique<PictureFiles>(std::move(files), warning);
+  return std::make_unique<PictureFiles>(std::move(files), warning, std::move(dataset.categories));
 }
 
 }  // namespace mms

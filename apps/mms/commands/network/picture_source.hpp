@@ -7,9 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mms/core/image.hpp"
 #include "mms/dataset/source/camera_options.hpp"
+#include "mms/io/image/coco_io.hpp"
 
 namespace mms {
 
@@ -28,6 +30,8 @@ class PictureSource {
   virtual ~PictureSource() = default;
   virtual std::optional<Picture> next() = 0;
   virtual std::size_t size() const = 0;
+  /// Those of the COCO file; empty for other sources.
+  virtual std::vector<CocoCategory> categories() const { return {}; }
 };
 
 /// Receives a line about an unreadable image, which is skipped.

@@ -51,11 +51,16 @@ std::vector<PreparedImage> pictures_of(const QuantizeArguments& arguments,
         open_pictures(where, [&](const std::string& message) { progress.warn(message); });
     const std::size_t per_source =
         std::max<std::size_t>(1, arguments.images / arguments.data.size());
-    const std::size_t every = std::max<std::size_t>(1, source->size() / per_source);
-    for (std::size_t i = 0; const std::optional<Picture> picture = source->next(); ++i) {
+    const std::size_t size = std::max<std::size_t>(1, source->size());
+    const std::size_t wanted = std::min(per_source, size);
+    std::size_t taken = 0;
+    for (std::size_t i = 0; taken < wanted; ++i) {
+      const std::optional<Picture> picture = source->next();
+      if (!picture) break;
       stop_if_asked();
-      if (i % every == 0) pictures.push_back(prepare_image(picture->image, config));
-      if (pictures.size() >= arguments.images) break;
+      if (i * wanted / size < taken) continue;  // the k-th image is at or after k size / wanted
+      pictures.push_back(prepare_image(picture->image, config));
+      ++taken;
     }
   }
   progress.finish();
@@ -128,7 +133,8 @@ void quantize(const QuantizeArguments& arguments) {
 void add_quantize_command(CLI::App& app) {
   const auto arguments = std::make_shared<QuantizeArguments>();
   CLI::App* command = app.add_subcommand(
-      "quantize", "Calibrate a network for int8 inference, which is several times faster");
+      "quantize",
+      "Calibrate a network for int8 inference: two to three times as fast with AVX-512 VNNI");
   command->add_option("WEIGHTS", arguments->weights, "weights file of mms train or mms import")
       ->required();
   command

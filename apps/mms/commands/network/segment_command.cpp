@@ -55,18 +55,33 @@ constexpr std::string_view kMarks[] = {"results.json", "images.json"};
 
 SegmentationConfig settings_of(const SegmentArguments& arguments) {
   SystemConfig config;
+  config.segmentation.threads = 0;  // one per core
   if (!arguments.config.empty()) print_warnings(load_config(arguments.config, config));
   print_warnings(assign(config, arguments.set, "--set"));
   if (!arguments.weights.empty()) config.segmentation.weights = arguments.weights.string();
-  config.segmentation.threads = arguments.threads;
+  if (arguments.threads > 0) config.segmentation.threads = arguments.threads;
   return config.segmentation;
+}
+
+/// The network's classes with the ids of equal names in `known`, else unused ones.
+std::vector<CocoCategory> categories_of(const std::vector<std::string>& classes,
+                                        const std::vector<CocoCategory>& known) {
+  int next = 1;
+  for (const CocoCategory& one : known) next = std::max(next, one.id + 1);
+  std::vector<CocoCategory> categories;
+  for (const std::string& name : classes) {
+    const auto found = std::ranges::find(known, name, &CocoCategory::name);
+    categories.push_back({found != known.end() ? found->id : next++, name});
+  }
+  return categories;
 }
 
 /// Writes masks, overlays and results, image by image.
 class SegmentOutputs {
  public:
-  SegmentOutputs(const fs::path& folder, std::vector<std::string> classes, double least_score,
-                 bool json_only, bool overwrite)
+  SegmentOutputs(const fs::path& folder, std::vector<std::string> classes,
+                 const std::vector<CocoCategory>& known, double least_score, bool json_only,
+                 bool overwrite)
       : folder_(folder),
         lock_(folder),
         classes_(std::move(classes)),
@@ -76,9 +91,7 @@ class SegmentOutputs {
     results_.emplace(folder_ / "results.json");
     if (!json_only_) make_folder(folder_ / "masks");
     if (!json_only_) make_folder(folder_ / "overlays");
-    for (std::size_t i = 0; i < classes_.size(); ++i) {
-      found_.categories.push_back({static_cast<int>(i) + 1, classes_[i]});
-    }
+    found_.categories = categories_of(classes_, known);
   }
 
   void add(const Picture& picture, std::vector<Detection> detections) {
@@ -87,8 +100,8 @@ class SegmentOutputs {
     found_.images.push_back(
         {.id = picture.id, .file_name = picture.name, .width = width, .height = height});
     for (const Detection& d : detections) {
-      results_->add(
-          {picture.id, d.category + 1, d.score, encode_rle(d.mask, d.x, d.y, width, height)});
+      results_->add({picture.id, found_.categories[static_cast<std::size_t>(d.category)].id,
+                     d.score, encode_rle(d.mask, d.x, d.y, width, height)});
     }
     std::erase_if(detections, [&](const Detection& d) { return d.score < least_score_; });
     objects_ += detections.size();
@@ -152,8 +165,8 @@ void segment(const SegmentArguments& arguments) {
       open_source(arguments, [&](const std::string& message) { progress.warn(message); });
   const std::unique_ptr<Detector> detector = make_detector(config);
   const InterruptGuard interrupt;
-  SegmentOutputs outputs(arguments.output, detector->classes(), config.objects.score,
-                         arguments.json_only, arguments.overwrite);
+  SegmentOutputs outputs(arguments.output, detector->classes(), source->categories(),
+                         config.objects.score, arguments.json_only, arguments.overwrite);
   const auto total = static_cast<int>(std::min(source->size(), arguments.limit));
   PictureTimes times;
   while (outputs.pictures() < arguments.limit && !InterruptGuard::requested()) {
@@ -198,7 +211,8 @@ void add_segment_command(CLI::App& app) {
   command->add_flag("--overwrite", arguments->overwrite,
                     "replace the results of an earlier call in this folder");
   command->add_option("--weights", arguments->weights,
-                      "network: our safetensors, or an ONNX model with YOLO-seg outputs");
+                      "network: everyday, nano, our safetensors, or an ONNX model with YOLO-seg "
+                      "outputs");
   CLI::Option* annotations =
       command->add_option("--annotations", arguments->annotations,
                           "COCO file: segment its images, which are below DATA, with their ids");
@@ -207,7 +221,8 @@ void add_segment_command(CLI::App& app) {
   command->add_option("--limit", arguments->limit, "segment at most N images")
       ->check(CLI::Range(std::size_t{1}, kMaxImages))
       ->default_str("all");
-  add_threads_option(*command, arguments->threads, "of the network (default: one per core)");
+  add_threads_option(*command, arguments->threads,
+                     "threads of the network (default: one per core)");
   command->add_flag("--json-only", arguments->json_only, "write no masks and overlays");
   add_calibration_options(*command, arguments->camera);
   command->callback([arguments] { segment(*arguments); });
