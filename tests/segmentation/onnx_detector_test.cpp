@@ -155,7 +155,7 @@ TEST(OnnxDetector, ErrorsNameInvalidModel) {
   const std::string unknown = error(tiny_onnx({.last = "Frobnicate"}));
   expect_in("OpenCV ", unknown);
   expect_in("Frobnicate", unknown);
-  expect_in("(export it with opset=12 simplify=True)", unknown);
+  expect_in("(export it with opset=12 simplify=True, YOLO26 also with end2end=False)", unknown);
 }
 
 TEST(OnnxDetector, ErrorsNameUnreadableFile) {

@@ -29,7 +29,7 @@ void guarded(const std::string& where, const std::string& doing, const Action& a
     action();
   } catch (const std::exception& fault) {
     throw DataError(where, "OpenCV " CV_VERSION " cannot " + doing + ": " + reason_of(fault),
-                    "export it with opset=12 simplify=True");
+                    "export it with opset=12 simplify=True, YOLO26 also with end2end=False");
   }
 }
 

@@ -48,6 +48,17 @@ YoloLayout find_layout(const std::vector<Shape>& outputs, int classes, const std
   layout.coefficients = prototypes[1];
   layout.mask_height = prototypes[2];
   layout.mask_width = prototypes[3];
+  // A network proposes about as many objects as there are mask pixels. Models that suppress
+  // duplicates themselves give a few, in rows of box, score, class number and mask: for one class
+  // as many values as YOLOv5's.
+  const bool few = 4LL * predictions[1] < 1LL * layout.mask_width * layout.mask_height;
+  if (predictions[2] == 6 + layout.coefficients && few) {
+    throw DataError(where,
+                    "gives " + text_of(predictions) +
+                        ": objects after its own suppression of "
+                        "duplicates, as YOLO26 does",
+                    "export it again with end2end=False nms=False");
+  }
   layout.objects = predictions[2];
   if (predictions[1] == layout.channels()) return layout;
   layout.format = YoloFormat::kV5;
