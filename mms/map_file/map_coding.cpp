@@ -16,10 +16,19 @@ namespace mms {
 namespace {
 
 /// [B]: largest decompressed value.
-constexpr std::size_t kMaxDecoded = std::size_t{256} << 20U;
+constexpr std::size_t kMaxDecoded = std::size_t{64} << 20U;
+
+/// [B], [-]: plausible size of a decompressed value, for a small one and by its compressed size.
+constexpr std::size_t kMaxSmall = std::size_t{1} << 18U;
+constexpr std::size_t kMaxRatio = 200;
 
 /// [px]: largest side of the view of a keyframe.
-constexpr int kMaxViewSide = 4096;
+constexpr int kMaxViewSide = 1024;
+
+std::string decompressed(std::string_view compressed, const std::string& where) {
+  const std::size_t limit = std::min(kMaxDecoded, kMaxSmall + kMaxRatio * compressed.size());
+  return decompress(compressed, Compression::kZstd, limit, where);
+}
 
 /// Appends the first bytes of all items, then the second ones, and so on: similar numbers differ in
 /// their last bytes alone, so that the others are compressed.
@@ -137,6 +146,9 @@ constexpr float kMaxPosition = 1e6F;
 /// [ns]: unit of the stamps of surfaces; corrections change little in it.
 constexpr Duration kStampUnit = std::chrono::milliseconds(10);
 
+/// [s]: largest first stamp, so that later ones fit into 64 bits of nanoseconds.
+constexpr double kMaxStamp = 9e9;
+
 /// Coordinates in steps from the corner of a submap, interleaved bit by bit, so that neighbors have
 /// similar keys (Morton, 1966).
 struct SurfaceGrid {
@@ -221,7 +233,7 @@ std::string encode_keyframe(const KeyframeRecord& keyframe) {
 
 void decode_keyframe(std::string_view compressed, const std::string& where,
                      KeyframeRecord& keyframe) {
-  const std::string bytes = decompress(compressed, Compression::kZstd, kMaxDecoded, where);
+  const std::string bytes = decompressed(compressed, where);
   ByteReader reader(bytes, where);
   ImageKeypoints& keypoints = keyframe.keypoints;
   keypoints.descriptors = take_planes<BinaryDescriptor>(reader);
@@ -297,7 +309,7 @@ std::string encode_surfaces(const StampedMap& surfaces, double voxel_size,
 }
 
 void decode_surfaces(std::string_view compressed, const std::string& where, StampedMap& surfaces) {
-  const std::string bytes = decompress(compressed, Compression::kZstd, kMaxDecoded, where);
+  const std::string bytes = decompressed(compressed, where);
   ByteReader reader(bytes, where);
   SurfaceGrid grid;
   for (int axis = 0; axis < 3; ++axis) grid.origin[axis] = reader.take<float>();
@@ -316,6 +328,9 @@ void decode_surfaces(std::string_view compressed, const std::string& where, Stam
       !(grid.quantum > 0.0F && grid.quantum < 10.0F)) {
     throw DataError(where, "is damaged: its grid is none");
   }
+  if (!steps.empty() && std::abs(begin.seconds()) > kMaxStamp) {
+    throw DataError(where, "is damaged: its stamps are out of range");
+  }
   std::uint64_t key = 0;
   Rgb color{};
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -328,6 +343,7 @@ void decode_surfaces(std::string_view compressed, const std::string& where, Stam
     surfaces.cloud.colors.push_back(color);
     surfaces.cloud.observations.push_back(views[i]);
     surfaces.stamps.push_back(begin + stamps[i] * kStampUnit);
+    if (views[i] == 0) throw DataError(where, "is damaged: a point has no observation");
   }
 }
 

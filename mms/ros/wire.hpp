@@ -125,10 +125,18 @@ class WireReader {
       // Element by element: a wrong count must not allocate more memory than there are bytes.
       values.clear();
       const std::size_t count = take_count(1);
-      while (values.size() < count) read(values.emplace_back());
+      while (values.size() < count) {
+        if (values.size() == kMaxItems) {
+          throw DataError(bytes_.where(),
+                          "has a list of more than " + std::to_string(kMaxItems) + " items");
+        }
+        read(values.emplace_back());
+      }
     }
   }
 
+  /// Items of a list that are no numbers, as the fields of a cloud or transforms.
+  static constexpr std::size_t kMaxItems = 100'000;
   static constexpr std::int64_t kSecond = 1'000'000'000;
   ByteReader bytes_;
   std::size_t size_ = 0;  ///< of the fields [B]

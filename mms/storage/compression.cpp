@@ -194,9 +194,23 @@ bool is_zstd(std::string_view bytes) {
   return bytes.starts_with("\x28\xB5\x2F\xFD");
 }
 
+namespace {
+
+/// [B]: size up to which a file may be decompressed in any case.
+constexpr std::uint64_t kMaxSurely = std::uint64_t{512} << 20U;
+/// Largest ratio of the sizes of larger files; recordings are compressed by 2 to 20.
+constexpr std::uint64_t kMaxRatio = 200;
+
+}  // namespace
+
 void decompress_zstd_file(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  const fs::file_status status = fs::status(from, error);
+  if (!fs::exists(status)) throw FileError(from.string(), "no such file");
+  if (!fs::is_regular_file(status)) throw FileError(from.string(), "is not a regular file");
+  std::uint64_t left = kMaxSurely + kMaxRatio * fs::file_size(from, error);
   std::ifstream in(from, std::ios::binary);
-  if (!in) throw FileError(from.string(), "cannot be read");
+  if (!in || error) throw FileError(from.string(), "cannot be read");
   AtomicFile file(to);
   ZstdDecoder decoder({});
   std::vector<char> input(ZSTD_DStreamInSize());
@@ -210,6 +224,13 @@ void decompress_zstd_file(const fs::path& from, const fs::path& to) {
     decoder.set_input(part);
     do {
       step = decoder.step(output.data(), output.size());
+      if (step.produced > left) {
+        throw DataError(
+            from.string(),
+            "is larger than " + std::to_string(kMaxRatio) + " times its size when decompressed",
+            "if that is right, decompress it with zstd and open the result");
+      }
+      left -= step.produced;
       file.write({output.data(), step.produced});
     } while (!step.damaged && (!decoder.input_used() || step.produced == output.size()));
     if (step.damaged) break;

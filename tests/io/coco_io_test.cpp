@@ -7,6 +7,7 @@
 #include "mms/core/error.hpp"
 #include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
+#include "tests/support/memory_limit.hpp"
 
 namespace mms {
 namespace {
@@ -123,6 +124,17 @@ TEST(CocoIo, ErrorsNameEntry) {
             error_of(with_annotation(annotation(valid, R"(, "iscrowd": 2)"))));
   expect_in("annotations[1].id: is 5, a duplicate",
             error_of(with_annotation(annotation(valid) + "," + annotation(valid))));
+}
+
+TEST(CocoIo, RefusesMasksThatTakeTooMuchMemory) {
+  const testing::MemoryLimit limit;
+  expect_in(
+      "has an outline of",
+      error_of(with_annotation(annotation("[[-1e6, -1e6, 1e6, 1e6, -1e6, 1e6, 1e6, -1e6]]"))));
+  std::string large = with_annotation(annotation("[[1, 0, 2, 0, 2, 3], [2, 2, 3, 2, 3, 3]]"));
+  const std::string size = R"("width": 4, "height": 3)";
+  large.replace(large.find(size), size.size(), R"("width": 65535, "height": 65535)");
+  expect_in("pixels, allowed: up to", error_of(large));
 }
 
 TEST(CocoIo, ResultsRoundTrip) {

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <limits>
 
 #include "mms/core/error.hpp"
+#include "mms/io/config/yaml_map.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace mms {
@@ -142,6 +144,15 @@ TEST(ConfigYaml, RejectsInvalidYaml) {
   expect_in("expected a key", error_of("[1, 2]: 3\n"));
   error_of(std::string("\x00\x01\xff\xfe garbage", 12));
   error_of(std::string(2000, '['));
+}
+
+TEST(ConfigYaml, ReadsManyDirectivesAndKeysQuickly) {
+  std::string text;
+  for (int i = 0; i < 300'000; ++i) text += "%\n";
+  for (int i = 0; i < 20'000; ++i) text += "key" + std::to_string(i) + ": 1\n";
+  const auto begin = std::chrono::steady_clock::now();
+  YamlMap::parse(text, "test");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
 TEST(ConfigYaml, MissingFilesAreFileErrors) {

@@ -64,6 +64,18 @@ TEST(ImageFormats, ReadsColorOfEachFormat) {
   EXPECT_FALSE(is_picture("a.txt"));
 }
 
+/// libjpeg skips bytes between segments, and would allocate what the size says.
+TEST(ImageFormats, RefusesJpegWhoseSizeIsHidden) {
+  std::string bytes = encoded(".jpg", pattern(CV_8UC3));
+  const std::size_t frame = bytes.find("\xFF\xC0");
+  ASSERT_NE(frame, std::string::npos);
+  bytes.replace(frame + 5, 4, std::string("\x7D\x00\x7D\x00", 4));
+  bytes.insert(frame, 1, '\0');
+  const TempFolder folder;
+  const auto file = folder.write("a.jpg", bytes);
+  expect_in("has no size", message_of<DataError>([&] { read_color(file); }));
+}
+
 TEST(ImageFormats, ReadsWholeNumbersOfDepth) {
   const TempFolder folder;
   for (const std::string ending : {".png", ".tif", ".pgm"}) {

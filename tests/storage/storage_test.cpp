@@ -1,5 +1,6 @@
 // Databases in files, and checksums of compressed blocks.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -82,6 +83,21 @@ TEST(Compression, EveryChangedByteIsNoticed) {
       continue;
     }
   }
+}
+
+TEST(Compression, RefusesFilesThatGrowTooMuch) {
+  const TempFolder folder;
+  const auto from = folder.write("a.mcap.zstd", compress_zstd(std::string(600 << 20, '\0')));
+  try {
+    decompress_zstd_file(from, folder.path() / "a.mcap");
+    ADD_FAILURE();
+  } catch (const DataError& error) {
+    testing::expect_in("is larger than 200 times its size", error.what());
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.mcap"));
+  const auto pipe = folder.path() / "b.mcap.zstd";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(decompress_zstd_file(pipe, folder.path() / "b.mcap"), FileError);
 }
 
 }  // namespace

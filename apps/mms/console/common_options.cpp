@@ -17,7 +17,7 @@ void add_set_option(CLI::App& command, std::vector<std::string>& set) {
 }
 
 void add_sequence_option(CLI::App& command, std::string& sequence) {
-  command.add_option("--sequence", sequence, "sequence of KITTI odometry below DATA, as 00");
+  command.add_option("--sequence", sequence, "sequence of KITTI odometry below DATA, e.g. 00");
 }
 
 std::string with_sequence(const std::string& data, const std::string& sequence) {

@@ -13,6 +13,7 @@
 #include "apps/mms/console/interrupt.hpp"
 #include "apps/mms/console/standard_streams.hpp"
 #include "apps/mms/console/usage.hpp"
+#include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 
 namespace mms {
@@ -23,7 +24,7 @@ constexpr int kUsage = 2;
 constexpr int kInterrupted = 130;
 
 int fail(const std::string& what, int exit_code = kFault) {
-  fmt::print(stderr, "mms: {}\n", what);
+  fmt::print(stderr, "mms: {}\n", one_line(what));
   return exit_code;
 }
 

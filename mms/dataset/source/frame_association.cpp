@@ -24,11 +24,19 @@ std::vector<std::size_t> order_of(std::span<const Timestamp> stamps) {
   return order;
 }
 
+/// The first ones of equal stamps: those of a sensor whose clock stands still would all be pairs.
+std::vector<std::size_t> distinct(std::span<const Timestamp> stamps) {
+  std::vector<std::size_t> order = order_of(stamps);
+  const auto are_equal = [&](std::size_t a, std::size_t b) { return stamps[a] == stamps[b]; };
+  order.erase(std::unique(order.begin(), order.end(), are_equal), order.end());
+  return order;
+}
+
 std::vector<Candidate> candidates_of(std::span<const Timestamp> first,
                                      std::span<const Timestamp> second, Duration max_difference) {
-  const std::vector<std::size_t> order = order_of(second);
+  const std::vector<std::size_t> order = distinct(second);
   std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < first.size(); ++i) {
+  for (const std::size_t i : distinct(first)) {
     const auto begin =
         std::lower_bound(order.begin(), order.end(), first[i] + -max_difference,
                          [&](std::size_t j, Timestamp stamp) { return second[j] < stamp; });

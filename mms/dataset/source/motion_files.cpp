@@ -25,9 +25,10 @@ constexpr const char* kImuFiles[] = {"imu.csv", "imu.txt", "imu0/data.csv"};
 constexpr const char* kOtherContents[] = {"timestamp, frame,", "timestamp, a_x,"};
 
 bool has_other_content(const fs::path& file) {
+  constexpr std::size_t kMaxHeader = 100;  // [B]
   std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
+  std::string line(kMaxHeader, '\0');
+  stream.read(line.data(), static_cast<std::streamsize>(line.size()));
   return std::any_of(std::begin(kOtherContents), std::end(kOtherContents),
                      [&](const char* begin) { return line.starts_with(begin); });
 }

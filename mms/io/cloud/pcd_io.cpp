@@ -104,6 +104,12 @@ std::string decompressed(std::string_view data, std::uint64_t count,
     fail("have " + std::to_string(size) + " bytes for " + std::to_string(count) + " points of " +
          std::to_string(stride));
   }
+  constexpr std::size_t kMaxSmall = std::size_t{64} << 20U;  // [B]
+  constexpr std::size_t kMaxRatio = 32;                      // clouds are compressed by 2 to 4
+  if (size > kMaxSmall + kMaxRatio * compressed) {
+    fail("would have " + std::to_string(size) + " bytes, more than " + std::to_string(kMaxRatio) +
+         " times as many");
+  }
   const auto columns = decompress_lzf(data.substr(kSizes, compressed), size);
   if (!columns) fail("cannot be decompressed");
   std::string points(size, '\0');

@@ -54,13 +54,19 @@ class CameraMap {
   std::vector<double> numbers(const YAML::Node& node, const char* key) {
     const YAML::Node data = node.IsMap() && node["data"] ? node["data"] : node;
     if (!data.IsSequence()) map_.fail(node, key, "is " + shown(data) + ", expected numbers");
+    constexpr std::size_t kMaxNumbers = 100;  // aliases may multiply them
     std::vector<double> values;
     for (const YAML::Node& row : data) {
       if (!row.IsSequence()) {
         values.push_back(map_.number(row, key, kAnyNumber));
+        if (values.size() > kMaxNumbers) map_.fail(node, key, "has more than 100 numbers");
         continue;
       }
-      for (const YAML::Node& element : row) values.push_back(map_.number(element, key, kAnyNumber));
+      for (const YAML::Node& element : row) {
+        values.push_back(map_.number(element, key, kAnyNumber));
+        if (values.size() > kMaxNumbers) break;
+      }
+      if (values.size() > kMaxNumbers) map_.fail(node, key, "has more than 100 numbers");
     }
     return values;
   }

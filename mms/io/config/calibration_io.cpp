@@ -29,14 +29,18 @@ YAML::Node required(YamlMap& map, const std::string& file, std::string_view key)
 std::vector<double> matrix_numbers(const YamlMap& map, const YAML::Node& node,
                                    std::string_view key) {
   if (!node.IsSequence()) map.fail(node, key, "is " + shown(node) + ", expected a matrix");
+  constexpr std::size_t kMaxNumbers = 100;  // aliases may multiply them
   std::vector<double> numbers;
   for (const YAML::Node& element : node) {
     if (element.IsSequence()) {
-      for (const YAML::Node& number : element)
+      for (const YAML::Node& number : element) {
         numbers.push_back(map.number(number, key, kPrincipalPointRange));
+        if (numbers.size() > kMaxNumbers) break;
+      }
     } else {
       numbers.push_back(map.number(element, key, kPrincipalPointRange));
     }
+    if (numbers.size() > kMaxNumbers) map.fail(node, key, "has more than 100 numbers");
   }
   return numbers;
 }

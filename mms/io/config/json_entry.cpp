@@ -9,13 +9,17 @@
 
 namespace mms {
 nlohmann::json parse_json(const std::filesystem::path& path) {
+  constexpr std::uint64_t kMaxBytes = std::uint64_t{512} << 20U;  // [B]: COCO has 450 MB
+  constexpr std::size_t kMaxShown = 300;  // characters of a fault, which may quote the file
   try {
-    return nlohmann::json::parse(read_file(path));
+    return nlohmann::json::parse(read_file(path, kMaxBytes));
   } catch (const nlohmann::json::exception& error) {
     const std::string what = error.what();  // "[json.exception...] parse error at line 1, ..."
     const std::size_t end = what.find("] ");
-    throw DataError(path.string(),
-                    "is not JSON: " + (end == std::string::npos ? what : what.substr(end + 2)));
+    throw DataError(
+        path.string(),
+        "is not JSON: " +
+            (end == std::string::npos ? what : what.substr(end + 2)).substr(0, kMaxShown));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "mms/core/error.hpp"
 #include "mms/io/text/files.hpp"
@@ -25,14 +26,16 @@ std::optional<double> yaml_number(const std::string& text) {
 }
 
 /// Removes directives such as "%YAML:1.0", which OpenCV writes and YAML does not know.
-std::string without_directives(std::string text) {
-  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at)) {
-    if (text[at] == '\n') ++at;
-    if (at < text.size() && text[at] == '%') {
-      text.erase(at, std::min(text.find('\n', at), text.size()) - at);
-    }
+std::string without_directives(const std::string& text) {
+  std::string kept;
+  kept.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    if (text[at] != '%') kept.append(text, at, end - at);
+    if (end < text.size()) kept += '\n';
+    at = end + 1;
   }
-  return text;
+  return kept;
 }
 
 }  // namespace
@@ -57,7 +60,8 @@ std::string to_string(Range range) {
 }
 
 YamlMap YamlMap::load(const std::filesystem::path& path) {
-  return parse(read_file(path), path.string());
+  constexpr std::uint64_t kMaxBytes = std::uint64_t{16} << 20U;  // [B]
+  return parse(read_file(path, kMaxBytes), path.string());
 }
 
 YamlMap YamlMap::parse(const std::string& text, const std::string& where) {
@@ -83,14 +87,13 @@ YamlMap::YamlMap(std::string file, std::string path, std::optional<YAML::Node> n
 }
 
 void YamlMap::check_keys(const YAML::Node& map) const {
-  std::vector<std::string> seen;
+  std::set<std::string> seen;
   for (const auto& entry : map) {
     const YAML::Node& key = entry.first;
     if (!key.IsScalar()) fail(key, shown(key), "is not a scalar, expected a key");
-    if (std::find(seen.begin(), seen.end(), key.Scalar()) != seen.end()) {
+    if (!seen.insert(key.Scalar()).second) {
       fail(key, key.Scalar(), "appears twice", "keep one of them");
     }
-    seen.push_back(key.Scalar());
   }
 }
 

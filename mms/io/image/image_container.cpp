@@ -244,11 +244,13 @@ std::optional<ExrAttribute> exr_attribute(Bytes bytes, std::size_t at) {
 constexpr std::size_t kExrAttributes = 8;  // after signature and version
 
 /// Of the attribute dataWindow, which has xMin, yMin, xMax, yMax as int32.
+/// Of equal attributes, OpenEXR takes the last one, so that the largest one counts.
 std::optional<Size> exr_size(Bytes bytes) {
+  std::optional<Size> largest;
   std::size_t at = kExrAttributes;
   while (at < bytes.size() && bytes[at] != '\0') {
     const auto attribute = exr_attribute(bytes, at);
-    if (!attribute) return std::nullopt;
+    if (!attribute) return largest;
     if (attribute->name == "dataWindow" && attribute->value.size() == 16) {
       const auto side = [&](std::size_t low) {
         const auto number = [&](std::size_t k) {
@@ -258,11 +260,13 @@ std::optional<Size> exr_size(Bytes bytes) {
         return static_cast<std::uint64_t>(
             std::max<std::int64_t>(0, number(low + 8) - number(low) + 1));
       };
-      return Size{side(0), side(4), 4 * sizeof(float)};
+      if (!largest) largest = Size{0, 0, 4 * sizeof(float)};
+      largest->width = std::max(largest->width, side(0));
+      largest->height = std::max(largest->height, side(4));
     }
     at = attribute->end;
   }
-  return std::nullopt;
+  return largest;
 }
 
 /// Whether the headers, several in files of several parts, have what they say: OpenEXR allocates
@@ -360,7 +364,10 @@ void check_whole_image(std::string_view bytes, const std::string& where) {
                                std::to_string(bytes.size()) + " bytes");
   }
   const std::optional<Size> size = container->size(bytes);
-  if (size) check_size(*size, where);
+  if (!size) {  // a decoder may find one, and would allocate what it says
+    throw DataError(where, std::string("is a damaged ") + container->name + ": it has no size");
+  }
+  check_size(*size, where);
 }
 
 }  // namespace mms

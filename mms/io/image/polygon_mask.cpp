@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "mms/core/error.hpp"
+#include "mms/io/image/image_container.hpp"
 
 namespace mms {
 namespace {
@@ -31,6 +32,9 @@ void check(const Polygon& polygon) {
     }
   }
 }
+
+/// Points of an outline on the finer grid: 128 MiB.
+constexpr std::size_t kMaxOutline = std::size_t{1} << 24U;
 
 int round_half_up(double value) {
   return static_cast<int>(value + 0.5);
@@ -61,6 +65,16 @@ std::vector<GridPoint> outline_of(const Polygon& polygon) {
     corners.push_back({round_half_up(kScale * polygon[i]), round_half_up(kScale * polygon[i + 1])});
   }
   corners.push_back(corners.front());
+  std::size_t length = 0;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    length += static_cast<std::size_t>(std::max(std::abs(corners[i + 1].x - corners[i].x),
+                                                std::abs(corners[i + 1].y - corners[i].y))) +
+              1;
+  }
+  if (length > kMaxOutline) {
+    throw DataError("polygon", "has an outline of " + std::to_string(length) +
+                                   " points, allowed: up to " + std::to_string(kMaxOutline));
+  }
   std::vector<GridPoint> outline;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     walk_edge(corners[i], corners[i + 1], outline);
@@ -116,6 +130,12 @@ void fill(const Polygon& polygon, Image<std::uint8_t>& mask) {
 
 Rle rasterise(std::span<const Polygon> polygons, int width, int height) {
   for (const Polygon& polygon : polygons) check(polygon);
+  if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > pixel_limit()) {
+    throw DataError("mask",
+                    "has " + std::to_string(width) + " x " + std::to_string(height) +
+                        " pixels, allowed: up to " + std::to_string(pixel_limit()) + " pixels",
+                    "the environment variable MMS_MAX_IMAGE_PIXELS sets the limit");
+  }
   if (polygons.size() == 1) {  // the frequent case, and much faster
     return runs_between(crossings(outline_of(polygons[0]), width, height), width, height);
   }

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "mms/core/error.hpp"
+#include "mms/io/image/image_container.hpp"
 
 namespace mms {
 namespace {
@@ -93,6 +94,12 @@ Rle encode_rle(const Image<std::uint8_t>& labels, std::uint8_t value) {
 }
 
 void check_rle(const Rle& rle) {
+  if (rle.width > 0 && rle.height > 0 && pixels_of(rle) > pixel_limit()) {
+    throw DataError("mask",
+                    "has " + std::to_string(rle.width) + " x " + std::to_string(rle.height) +
+                        " pixels, allowed: up to " + std::to_string(pixel_limit()) + " pixels",
+                    "the environment variable MMS_MAX_IMAGE_PIXELS sets the limit");
+  }
   const std::uint64_t sum = std::accumulate(rle.counts.begin(), rle.counts.end(), std::uint64_t{0});
   if (rle.width >= 0 && rle.height >= 0 && sum == pixels_of(rle)) return;
   throw DataError("mask", "its runs have " + std::to_string(sum) + " pixels, the image has " +

@@ -10,18 +10,26 @@
 namespace mms {
 namespace fs = std::filesystem;
 
-std::string read_file(const fs::path& path) {
+std::string read_file(const fs::path& path, std::uint64_t limit) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw FileError(path.string(), "no such file");
   if (!fs::is_regular_file(status)) throw FileError(path.string(), "is not a regular file");
 
+  const std::uint64_t size = fs::file_size(path, error);
+  if (!error && size > limit) {
+    throw FileError(
+        path.string(),
+        "has " + std::to_string(size) + " bytes, allowed: up to " + std::to_string(limit),
+        "it may be a file of another kind");
+  }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   std::string bytes(stream ? fs::file_size(path, error) : 0, '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!stream || error) {
-    throw FileError(path.string(), std::string("cannot be read: ") + std::strerror(errno));
+    throw FileError(path.string(), std::string("cannot be read: ") +
+                                       (errno == 0 ? "it became shorter" : std::strerror(errno)));
   }
   return bytes;
 }

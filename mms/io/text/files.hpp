@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,8 +8,9 @@
 namespace mms {
 
 /// All bytes of a regular file.
-/// @throws FileError if it is missing, a folder, or cannot be read.
-std::string read_file(const std::filesystem::path& path);
+/// @param limit  largest size [B]
+/// @throws FileError if it is missing, a folder, larger than that, or cannot be read.
+std::string read_file(const std::filesystem::path& path, std::uint64_t limit = UINT64_MAX);
 
 /// Sorted names of the entries of a folder, equal on every machine.
 /// @throws FileError if it is missing, not a folder, or cannot be read.

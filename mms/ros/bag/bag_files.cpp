@@ -117,7 +117,7 @@ class UnpackedStorage final : public BagStorage {
 std::vector<std::string> listed_files(const fs::path& metadata) {
   std::vector<std::string> files;
   try {
-    const YAML::Node information = YAML::LoadFile(metadata.string())["rosbag2_bagfile_information"];
+    const YAML::Node information = YAML::Load(read_file(metadata))["rosbag2_bagfile_information"];
     for (const YAML::Node& file : information["relative_file_paths"]) {
       files.push_back(fs::path(file.as<std::string>()).filename().string());
     }

@@ -1,6 +1,7 @@
 #include "mms/ros/bag/bag_reader.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "mms/core/error.hpp"
 #include "mms/ros/bag/bag_files.hpp"
@@ -32,13 +33,13 @@ void BagReader::add_file(std::size_t file) {
   const BagContents& contents = files_[file]->contents();
   if (!contents.damage.empty()) damage_.push_back(contents.damage);
   // Several publishers of a topic are one topic, if they agree in the type.
+  std::map<std::string, std::string> type_of;
+  for (const BagTopic& topic : topics_) type_of.emplace(topic.name, topic.type);
   std::vector<std::vector<Message>*> lists;
   for (const StoredTopic& stored : contents.topics) {
-    const auto known = std::find_if(topics_.begin(), topics_.end(),
-                                    [&](const BagTopic& t) { return t.name == stored.name; });
-    const bool same = known == topics_.end() || known->type == stored.type;
-    lists.push_back(same ? &messages_[stored.name] : nullptr);
-    if (known == topics_.end()) topics_.push_back({stored.name, stored.type, 0});
+    const auto [known, is_new] = type_of.emplace(stored.name, stored.type);
+    lists.push_back(known->second == stored.type ? &messages_[stored.name] : nullptr);
+    if (is_new) topics_.push_back({stored.name, stored.type, 0});
   }
   for (const StoredMessage& stored : contents.messages) {
     if (lists[stored.topic] != nullptr) lists[stored.topic]->push_back({file, stored});

@@ -7,6 +7,14 @@
 #include "mms/io/journal/crc32.hpp"
 
 namespace mms {
+namespace {
+
+/// [B]: sum of the decompressed chunks up to which a file is read in any case.
+constexpr std::uint64_t kMaxSurely = std::uint64_t{256} << 20U;
+/// Largest ratio of that sum and the size of the file; recordings are compressed by 2 to 20.
+constexpr std::uint64_t kMaxRatio = 200;
+
+}  // namespace
 
 void ChunkedFile::walk(std::uint64_t offset) {
   try {
@@ -20,6 +28,7 @@ void ChunkedFile::walk(std::uint64_t offset) {
     note_damage("was not closed; what was written is read");
     forget_last_index();
   }
+  leave_out_implausible_chunks();
   for (std::uint32_t i = 0; i < chunks_.size(); ++i) {
     if (!chunks_[i].indexed) scan_chunk(i, true);
   }
@@ -31,6 +40,23 @@ void ChunkedFile::walk(std::uint64_t offset) {
     scan_chunk(i, false);
   }
   resolve_topics();
+}
+
+void ChunkedFile::leave_out_implausible_chunks() {
+  std::uint64_t left = kMaxSurely + kMaxRatio * file_.size();
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    const std::uint64_t size = std::min(chunks_[i].raw_size, kMaxBlock);
+    if (size <= left) {
+      left -= size;
+      continue;
+    }
+    note_damage("its chunks from byte " + std::to_string(chunks_[i].offset) +
+                " on are larger than " + std::to_string(kMaxRatio) +
+                " times its size when decompressed; what is before is read");
+    chunks_.resize(i);
+    std::erase_if(contents_.messages,
+                  [i](const StoredMessage& m) { return m.chunk != kNoChunk && m.chunk >= i; });
+  }
 }
 
 void ChunkedFile::forget_last_index() {
@@ -55,6 +81,10 @@ void ChunkedFile::scan_chunk(std::uint32_t chunk, bool messages) {
     ByteReader records(bytes, "chunk");
     while (records.left() > 0) {
       scan_record(records, {.chunk = chunk, .offset = bytes.size() - records.left()}, messages);
+      // Each message has a time of its own, and takes a byte at least.
+      if (contents_.messages.size() > file_.size()) {
+        throw DataError(file_.name(), "has more messages than bytes");
+      }
     }
   } catch (const DataError& error) {
     note_damage("its chunk at byte " + std::to_string(chunks_[chunk].offset) + " is damaged (" +
@@ -87,13 +117,19 @@ std::string_view ChunkedFile::content(std::uint32_t chunk) {
     throw DataError(where, "has " + std::to_string(at.raw_size) + " bytes, allowed: up to " +
                                std::to_string(kMaxBlock));
   }
-  if (recent_.size() == kKept) recent_.erase(recent_.begin());
+  std::uint64_t kept = at.raw_size;
+  for (const Content& content : recent_) kept += content.bytes.capacity();
+  while (!recent_.empty() && (recent_.size() == kKept || kept > kMaxBlock)) {
+    kept -= recent_.front().bytes.capacity();
+    recent_.erase(recent_.begin());
+  }
   const std::string_view compressed = file_.view(at.offset, at.size);
   std::string bytes = at.incomplete ? decompress_start(compressed, at.compression, at.raw_size)
                                     : decompress(compressed, at.compression, at.raw_size, where);
   if (!at.incomplete && (bytes.size() != at.raw_size || (at.crc != 0 && crc32(bytes) != at.crc))) {
     throw DataError(where, "is damaged: its size or checksum is wrong");
   }
+  bytes.shrink_to_fit();
   recent_.push_back({chunk, std::move(bytes)});
   return recent_.back().bytes;
 }

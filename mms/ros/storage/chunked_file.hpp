@@ -84,6 +84,8 @@ class ChunkedFile : public BagStorage {
   /// The index of the last chunk of an incomplete file may be incomplete, too.
   void forget_last_index();
   void resolve_topics();
+  /// A small file may say that its chunks are thousands of times larger when decompressed.
+  void leave_out_implausible_chunks();
 
   std::map<std::uint32_t, std::uint32_t> topic_of_id_;
   std::vector<Content> recent_;  ///< chunks decompressed last, the latest at the end

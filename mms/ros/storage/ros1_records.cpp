@@ -8,6 +8,7 @@ namespace mms {
 namespace {
 
 constexpr std::int64_t kNanoseconds = 1'000'000'000;  // per second
+constexpr std::size_t kMaxFields = 100;  // of a header; that of a connection has about six
 constexpr std::uint64_t kLowBits = 0xFFFF'FFFF;
 
 }  // namespace
@@ -18,6 +19,9 @@ Ros1Fields::Ros1Fields(std::string_view bytes) {
     const std::string_view field = reader.take(reader.take_count(1));
     const std::size_t equals = field.find('=');
     if (equals == std::string_view::npos) throw DataError(reader.where(), "has an unnamed value");
+    if (values_.size() == kMaxFields) {
+      throw DataError(reader.where(), "has more than " + std::to_string(kMaxFields) + " values");
+    }
     values_.emplace_back(field.substr(0, equals), field.substr(equals + 1));
   }
 }
