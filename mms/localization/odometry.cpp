@@ -18,6 +18,9 @@ constexpr double kMapRadius = 200.0;
 /// [-]: passes of the photometric residuals at a pose. Source: the first gives the exposure.
 constexpr int kExposurePasses = 2;
 
+/// [-]: factor by which the automatic voxels of scans grow at least. Source: initial choice.
+constexpr double kVoxelGrowth = 1.5;
+
 /// [-]: share of the map radius that the sensor moves before the maps are trimmed to it.
 /// Source: computing time; the maps exceed their radius by a tenth at most.
 constexpr double kTrimInterval = 0.1;
@@ -258,6 +261,15 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
   return estimate;
 }
 
+/// A LiDAR that leaves a small room measures points farther apart than its voxels.
+void Odometry::coarsen_maps(const FeatureCloud& features) {
+  if (config_.voxel_size > 0.0 || !is_scan(features)) return;
+  const double voxel = automatic_voxel_size(median_range(features));
+  if (voxel < kVoxelGrowth * static_cast<double>(maps_->voxel_size())) return;
+  *maps_ = maps_->resized(voxel, static_cast<std::size_t>(config_.max_voxels));
+  if (config_.map_radius == 0.0) map_radius_ = kMapRadius * voxel;
+}
+
 /// Without content; the features decide on the voxels.
 void Odometry::make_maps(const FeatureCloud& features) {
   const double voxel =
@@ -324,6 +336,7 @@ std::optional<Transform<World, Sensor>> Odometry::expected(Timestamp stamp) cons
 
 void Odometry::update_maps(const FeatureCloud& features) {
   const Isometry& pose = motion_.pose();
+  coarsen_maps(features);
   maps_->insert(features, pose, config_.registration.geometric.association);
   keyframes_.update(features.intensity, pose);
   if ((pose.translation() - trimmed_at_.translation()).norm() > kTrimInterval * map_radius_) {

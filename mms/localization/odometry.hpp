@@ -118,6 +118,7 @@ class Odometry {
   OdometryEstimate track(const Alignment& alignment);
   OdometryEstimate begin_in_motion(FeatureCloud first, FeatureCloud second);
   void make_maps(const FeatureCloud& features);
+  void coarsen_maps(const FeatureCloud& features);
   void update_maps(const FeatureCloud& features);
 
   OdometryConfig config_;

@@ -102,7 +102,24 @@ bool RegistrationChoice::is_valid(const RegistrationResult& result) const {
 RegistrationResult RegistrationChoice::best() const {
   const PosePrediction prediction = motion_.predict(features_.stamp);
   if (prediction.is_sensed) return register_sensed(prediction);
-  return register_turned(register_predicted(prediction));
+  return register_stopped(register_turned(register_predicted(prediction)), prediction);
+}
+
+/// After a gap, or a loss, a sensor that has stopped is where it was. Images find that by their
+/// turns.
+/// @param best  from the predicted pose
+RegistrationResult RegistrationChoice::register_stopped(RegistrationResult best,
+                                                        const PosePrediction& prediction) const {
+  if (!features_.intensity.empty()) return best;
+  const Eigen::Isometry3d& last = motion_.measured();
+  const double way = (prediction.T_world_sensor.translation() - last.translation()).norm();
+  const auto voxel = static_cast<double>(maps_.voxel_size());
+  const bool is_near =
+      way < config_.registration.geometric.gate * voxel || prediction.translation_sigma < voxel;
+  if (is_near) return best;
+  RegistrationResult stopped = register_near({last}, config_.registration);
+  const bool is_better = !is_valid(best) || stopped.geometric.inliers() > best.geometric.inliers();
+  return is_better && is_valid(stopped) ? stopped : best;
 }
 
 /// Whether the pixels agree as well as usual.

@@ -47,6 +47,8 @@ class RegistrationChoice {
   RegistrationResult register_sensed(const PosePrediction& prediction) const;
   RegistrationResult register_predicted(const PosePrediction& prediction) const;
   RegistrationResult register_turned(RegistrationResult best) const;
+  RegistrationResult register_stopped(RegistrationResult best,
+                                      const PosePrediction& prediction) const;
   std::vector<Eigen::Isometry3d> turn_guesses(bool at_predicted_place) const;
   RegistrationResult register_near(const PosePrediction& prediction,
                                    const RegistrationConfig& config) const;

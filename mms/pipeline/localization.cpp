@@ -88,7 +88,8 @@ Localization::Localization(const SystemConfig& config)
 
 FrameResult Localization::localize(PerceivedFrame frame) {
   assert(thread_.is_owner());
-  const Duration interval = frame.cloud.stamp - last_stamp_;
+  const bool is_first = last_stamp_ == Timestamp();
+  const Duration interval = is_first ? Duration::zero() : frame.cloud.stamp - last_stamp_;
   const Duration last_interval = std::exchange(last_interval_, interval);
   last_stamp_ = frame.cloud.stamp;
   const bool is_gap = interval > std::max(kMaxGap, kMaxGapOfInterval * last_interval);

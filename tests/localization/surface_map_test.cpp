@@ -54,6 +54,26 @@ TEST(SurfaceMap, DoesNotAverageCornerIntoOneSurface) {
   EXPECT_FLOAT_EQ(surface->mean.x(), 0.5F);
 }
 
+TEST(LocalMaps, KeepSurfacesWhenResized) {
+  LocalMaps maps(0.1, 1000);
+  FeatureCloud features;
+  for (int i = 0; i < 100; ++i) {
+    const auto x = 0.1F * static_cast<float>(i % 10);
+    const auto y = 0.1F * static_cast<float>(i / 10);
+    features.planes.push_back({{x, y, 2.0F}, kFront, 0.01F});
+  }
+  features.edges.push_back({{0.5F, 0.5F, 1.0F}, 0.01F});
+  maps.insert(features, kOrigin, Association::kSurface);
+  const LocalMaps coarse = maps.resized(0.5, 1000);
+  EXPECT_EQ(coarse.voxel_size(), 0.5F);
+  EXPECT_EQ(coarse.edges.size(), 1U);
+  EXPECT_LT(coarse.surfaces.size(), 10U);
+  const auto surface = coarse.surfaces.match({0.9F, 0.1F, 2.3F}, kFront);
+  ASSERT_TRUE(surface);
+  EXPECT_NEAR(surface->mean.z(), 2.0F, 1e-5F);
+  EXPECT_TRUE(surface->normal.isApprox(kFront, 1e-5F));
+}
+
 TEST(LocalMaps, RemoveDistantFeaturesFromAllMaps) {
   for (const Association association : {Association::kPaper, Association::kSurface}) {
     LocalMaps maps(0.2, 100000);

@@ -20,6 +20,13 @@ constexpr double kMeasurementSigma = 0.003;
 /// Source: three sigma of kMeasurementSigma, rounded up.
 constexpr double kMaxMeasurementError = 0.01;
 
+/// [s]: bound on the error of the time between two frames.
+/// Source: initial choice; stamps that a driver takes on arrival, each off by 10 ms.
+constexpr double kMaxStampError = 0.02;
+
+/// [-]: ratio up to which two intervals count as equal. Source: initial choice; stamps are rounded.
+constexpr double kMaxJitter = 1.2;
+
 /// [s]: shortest interval for the bounds on speed.
 /// Source: below the interval of any depth camera or LiDAR.
 constexpr double kMinInterval = 1e-3;
@@ -90,7 +97,7 @@ void MotionModel::coast(Timestamp stamp) {
   pose_ = prediction.T_world_sensor;
   if (prediction.is_sensed) sensors_.compare(stamp, pose_, false);
   const double seconds = std::max(0.0, to_seconds(stamp - stamp_));  // stamps may go back
-  velocity_ *= std::exp2(-seconds / kVelocityHalfLife);
+  velocity_ *= std::max(std::exp2(-seconds / kVelocityHalfLife), braked_share(seconds));
   if (seconds > kMinInterval && has_more_since_gap(stamp)) {
     velocity_ = velocity(stamp_, stamp);
     pose_ = last * se3::exp(velocity_ * seconds);
@@ -105,6 +112,18 @@ bool MotionModel::has_more_since_gap(Timestamp stamp) const {
   const auto last = sensors_.between(stamp_, stamp);
   const auto all = sensors_.between(measured_at_, stamp);
   return last && (!all || (last->has_translation && !all->has_translation));
+}
+
+/// Share of the speed that is left after braking at the limit: a vehicle does not stop at once.
+double MotionModel::braked_share(double seconds) const {
+  const double speed = velocity_.head<3>().norm();
+  return speed > 0.0 ? 1.0 - config_.max_acceleration * seconds / speed : 0.0;
+}
+
+/// The velocity between two frames has the error of their poses, divided by their interval. That of
+/// the measurements is for equal intervals.
+double MotionModel::error_growth(double seconds) const {
+  return std::max(1.0, seconds / (kMaxJitter * *interval_));
 }
 
 /// The velocity is that at the center of its interval: after a time t with acceleration a, the
@@ -178,8 +197,9 @@ PosePrediction MotionModel::extrapolate(Timestamp stamp) const {
   const double seconds = since_measured(stamp);
   if (!interval_ || seconds < 0.0) return prediction;
   const auto sigma = [&](double acceleration) {
-    return acceleration > 0.0 ? kMeasurementSigma + deviation(acceleration, seconds)
-                              : PosePrediction::kUnknown;
+    return acceleration > 0.0
+               ? kMeasurementSigma * error_growth(seconds) + deviation(acceleration, seconds)
+               : PosePrediction::kUnknown;
   };
   prediction.translation_sigma = sigma(config_.acceleration);
   prediction.rotation_sigma = sigma(config_.turn_acceleration);
@@ -191,8 +211,11 @@ bool MotionModel::is_feasible(Timestamp stamp, const Eigen::Isometry3d& pose) co
   if (interval_) {
     // A motion that no vehicle or person can make comes from people taken for static.
     const Eigen::Vector3d expected = extrapolate(stamp).T_world_sensor.translation();
-    const double limit = kMaxMeasurementError + deviation(config_.max_acceleration, seconds);
-    if ((pose.translation() - expected).norm() > limit) return false;
+    const double by_motion =
+        kMaxMeasurementError * error_growth(seconds) + deviation(config_.max_acceleration, seconds);
+    const double by_stamps =
+        kMaxStampError * velocity_.head<3>().norm() * (1.0 + seconds / *interval_);
+    if ((pose.translation() - expected).norm() > std::max(by_motion, by_stamps)) return false;
   }
   const Eigen::Isometry3d motion = measured_.inverse() * pose;
   return motion.translation().norm() <= config_.max_speed * seconds &&

@@ -80,11 +80,14 @@ class MotionModel {
   std::vector<std::string> take_warnings() { return sensors_.take_warnings(); }
 
   const Eigen::Isometry3d& pose() const { return pose_; }
-  Timestamp stamp() const { return stamp_; }  ///< of `pose`
+  const Eigen::Isometry3d& measured() const { return measured_; }  ///< the last measured pose
+  Timestamp stamp() const { return stamp_; }                       ///< of `pose`
 
  private:
   double since_measured(Timestamp stamp) const { return to_seconds(stamp - measured_at_); }
   double deviation(double acceleration, double seconds) const;
+  double braked_share(double seconds) const;
+  double error_growth(double seconds) const;
   bool has_more_since_gap(Timestamp stamp) const;
 
   MotionConfig config_;

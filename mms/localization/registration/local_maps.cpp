@@ -44,6 +44,14 @@ void LocalMaps::insert(const FeatureCloud& features, const Eigen::Isometry3d& T_
   }
 }
 
+LocalMaps LocalMaps::resized(double voxel_size, std::size_t max_voxels) const {
+  LocalMaps maps(voxel_size, max_voxels);
+  maps.edges.insert(edges.points());
+  maps.plane_points.insert(plane_points.points());
+  maps.surfaces.insert(surfaces);
+  return maps;
+}
+
 void LocalMaps::remove_farther_than(const Eigen::Vector3f& centre, float distance) {
   edges.remove_farther_than(centre, distance);
   plane_points.remove_farther_than(centre, distance);

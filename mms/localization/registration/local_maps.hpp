@@ -24,6 +24,9 @@ struct LocalMaps {
 
   void insert(const FeatureCloud& features, const Eigen::Isometry3d& T_world_sensor,
               Association association);
+  /// The same points and surfaces with other voxels.
+  LocalMaps resized(double voxel_size, std::size_t max_voxels) const;
+
   void remove_farther_than(const Eigen::Vector3f& centre, float distance);
 
   float voxel_size() const { return surfaces.voxel_size(); }

@@ -30,6 +30,20 @@ void SurfaceMap::insert(const std::vector<PlaneFeature>& planes,
   voxels_.enforce_bound();
 }
 
+void SurfaceMap::insert(const SurfaceMap& other) {
+  for (const auto& entry : other.voxels_.entries()) {
+    const Cell& surface = entry.cell;
+    Cell& cell = voxels_.touch(voxels_.key(surface.mean));
+    const bool other_surface = cell.normal.dot(surface.normal) <
+                               kMinNormalCosine * cell.normal.norm() * surface.normal.norm();
+    if (cell.weight > 0.0F && other_surface) continue;
+    cell.weight += surface.weight;
+    cell.mean += (surface.mean - cell.mean) * (surface.weight / cell.weight);
+    cell.normal += surface.normal;
+  }
+  voxels_.enforce_bound();
+}
+
 std::optional<SurfaceMap::Surface> SurfaceMap::match(const Eigen::Vector3f& point,
                                                      const Eigen::Vector3f& normal) const {
   const VoxelKey centre = voxels_.key(point);

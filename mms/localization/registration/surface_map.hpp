@@ -23,6 +23,9 @@ class SurfaceMap {
 
   void insert(const std::vector<PlaneFeature>& planes, const Eigen::Isometry3d& T_world_sensor);
 
+  /// Adds the surfaces of a map in the same frame.
+  void insert(const SurfaceMap& other);
+
   /// The surface whose mean is nearest to `point` among those of its voxel and the 26 around it
   /// with a normal within 45 degrees of `normal`; nothing where there is none.
   std::optional<Surface> match(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
