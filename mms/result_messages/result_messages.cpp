@@ -100,8 +100,9 @@ msg::Transforms transforms_message(const msg::Header& header, const FrameNames& 
                                    const FrameResult& result, bool is_camera) {
   msg::Header world = header;
   world.frame_id = frames.world;
-  msg::Transforms message{
-      {{world, frames.sensor, pose_message(result.odometry.T_world_sensor.isometry())}}};
+  const Eigen::Isometry3d T_world_robot =
+      result.odometry.T_world_sensor.isometry() * frames.robot.T_sensor_frame;
+  msg::Transforms message{{{world, frames.robot.frame, pose_message(T_world_robot)}}};
   if (!result.correction.T_global_world) return message;
   msg::Header map = header;
   map.frame_id = frames.map;

@@ -7,14 +7,15 @@
 #include "mms/mapping/static_map/map_cloud.hpp"
 #include "mms/pipeline/frame_result.hpp"
 #include "mms/ros/display_messages.hpp"
+#include "mms/ros/robot_frame.hpp"
 
 namespace mms {
 
-/// Names of the frames in messages: map -> world -> sensor.
+/// Frames in messages: map -> world -> robot.
 struct FrameNames {
   std::string map;
   std::string world;
-  std::string sensor;
+  RobotFrame::Pose robot;
 };
 
 /// Pose of the frame of the global map in the map frame of messages: x forward, y left, z up, level
@@ -22,8 +23,8 @@ struct FrameNames {
 /// @param is_camera  whether the global map has the axes of a camera
 Eigen::Isometry3d level_map_pose(bool is_camera);
 
-/// Poses of the sensor in the world frame and, once the place in the map is known, of the world
-/// frame in the map frame.
+/// Poses of the robot, or the sensor alone, in the world frame and, once the place in the map is
+/// known, of the world frame in the map frame.
 /// @param header  its frame is replaced
 msg::Transforms transforms_message(const msg::Header& header, const FrameNames& frames,
                                    const FrameResult& result, bool is_camera);

@@ -42,6 +42,7 @@ void TransformTree::add(const msg::Transforms& message) {
     Edge& edge = edges_[plain(transform.child_frame_id)];
     edge.parent = plain(transform.header.frame_id);
     edge.T_parent_child[transform.header.stamp] = pose;
+    if (edge.T_parent_child.size() > kept_) edge.T_parent_child.erase(edge.T_parent_child.begin());
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,6 +17,9 @@ msg::Pose pose_message(const Eigen::Isometry3d& pose);
 /// Content of /tf and /tf_static: every frame's pose in its parent frame over time.
 class TransformTree {
  public:
+  /// @param kept  transforms of each frame, the latest ones
+  explicit TransformTree(std::size_t kept = SIZE_MAX) : kept_(kept) {}
+
   /// Ignores transforms that are not finite.
   void add(const msg::Transforms& message);
 
@@ -41,6 +45,7 @@ class TransformTree {
   Eigen::Isometry3d to_ancestor(const std::vector<std::string>& chain, const std::string& ancestor,
                                 Timestamp stamp) const;
 
+  std::size_t kept_;
   std::map<std::string, Edge, std::less<>> edges_;  ///< by child
 };
 

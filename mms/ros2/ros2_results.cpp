@@ -29,7 +29,9 @@ bool is_due(std::chrono::steady_clock::time_point& last, double period) {
 }  // namespace
 
 Ros2Results::Ros2Results(Ros2Node& node, const Ros2ResultOptions& options)
-    : options_(options), node_name_(node.full_name()) {
+    : options_(options),
+      node_name_(node.full_name()),
+      robot_(options.map_frame, options.world_frame) {
   using Reliability = TopicQos::Reliability;
   const TopicQos small{Reliability::kReliable, false, 100};
   // With a history of a few messages Fast DDS readers lost most large ones; so all are kept until
@@ -37,7 +39,12 @@ Ros2Results::Ros2Results(Ros2Node& node, const Ros2ResultOptions& options)
   const TopicQos large{Reliability::kReliable, false, 0};
   const TopicQos latest{Reliability::kReliable, true, 1};
   odometry_ = node.advertise<msg::Odometry>("~/odometry", small);
-  if (options.transforms) transforms_ = node.advertise<msg::Transforms>("/tf", small);
+  if (options.transforms) {
+    transforms_ = node.advertise<msg::Transforms>("/tf", small);
+    const auto add = [this](const msg::Transforms& message) { robot_.add(message); };
+    node.subscribe<msg::Transforms>("/tf_static", {Reliability::kReliable, true, 100}, add);
+    node.subscribe<msg::Transforms>("/tf", {Reliability::kAsPublishers, false, 100}, add);
+  }
   path_topic_ = node.advertise<msg::Path>("~/path", latest);
   static_cloud_ = node.advertise<msg::PointCloud2>("~/static_cloud", large);
   dynamic_cloud_ = node.advertise<msg::PointCloud2>("~/dynamic_cloud", large);
@@ -56,7 +63,8 @@ void Ros2Results::publish(const Processed& processed, const SlamSystem& system,
   const msg::Header sensor{index, processed.frame.stamp, sensor_frame};
   odometry_.publish(odometry_message(world, sensor_frame, result.odometry));
   if (options_.transforms) {
-    const FrameNames frames{options_.map_frame, options_.world_frame, sensor_frame};
+    const FrameNames frames{options_.map_frame, options_.world_frame,
+                            robot_.above(sensor_frame, processed.frame.stamp)};
     transforms_.publish(transforms_message(world, frames, result, is_camera));
   }
   publish_path(world, result.odometry);

@@ -8,6 +8,7 @@
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/ros/display_messages.hpp"
 #include "mms/ros/growing_path.hpp"
+#include "mms/ros/robot_frame.hpp"
 #include "mms/ros2/ros2_node.hpp"
 #include "mms/ros2/ros2_source.hpp"
 
@@ -45,6 +46,7 @@ class Ros2Results {
 
   Ros2ResultOptions options_;
   std::string node_name_;
+  RobotFrame robot_;
   Ros2Writer odometry_, transforms_, path_topic_, static_cloud_, dynamic_cloud_, map_, markers_,
       objects_, mask_, diagnostics_;
   GrowingPath path_;

@@ -53,5 +53,11 @@ TEST(TransformTree, PosesRoundTrip) {
   EXPECT_TRUE(isometry_of(pose_message(pose)).isApprox(pose, 1e-12));
 }
 
+TEST(TransformTree, KeepsTheLatestTransforms) {
+  TransformTree tree(2);
+  for (int i = 0; i < 5; ++i) tree.add({{transform("odom", "base", Timestamp(i), i)}});
+  EXPECT_EQ(tree.stamps_above("base"), (std::vector<Timestamp>{Timestamp(3), Timestamp(4)}));
+}
+
 }  // namespace
 }  // namespace mms

@@ -23,12 +23,19 @@ bool has_passed(ros::WallTime& last, double period) {
 }  // namespace
 
 ResultPublisher::ResultPublisher(ros::NodeHandle& node, const NodeSettings& settings)
-    : settings_(settings) {
+    : settings_(settings), robot_(settings.map_frame, settings.world_frame) {
   constexpr std::uint32_t kQueue = 100;
   constexpr std::uint32_t kLarge = 3;  // queue size of clouds and images
   ros::NodeHandle everywhere;
   odometry_ = node.advertise<msg::Odometry>("odometry", kQueue);
-  if (settings.publish_tf) transforms_ = everywhere.advertise<msg::Transforms>("/tf", kQueue);
+  if (settings.publish_tf) {
+    transforms_ = everywhere.advertise<msg::Transforms>("/tf", kQueue);
+    for (const char* topic : {"/tf_static", "/tf"}) {
+      const boost::function<void(const boost::shared_ptr<const msg::Transforms>&)> add =
+          [this](const boost::shared_ptr<const msg::Transforms>& message) { robot_.add(*message); };
+      robot_topics_.push_back(everywhere.subscribe<msg::Transforms>(topic, kQueue, add));
+    }
+  }
   path_topic_ = node.advertise<msg::Path>("path", 1, true);
   static_cloud_ = node.advertise<msg::PointCloud2>("static_cloud", kLarge);
   dynamic_cloud_ = node.advertise<msg::PointCloud2>("dynamic_cloud", kLarge);
@@ -55,7 +62,8 @@ void ResultPublisher::publish(const Processed& processed, const SlamSystem& syst
 
 void ResultPublisher::publish_transforms(const msg::Header& world, const std::string& sensor_frame,
                                          const FrameResult& result) {
-  const FrameNames frames{settings_.map_frame, settings_.world_frame, sensor_frame};
+  const FrameNames frames{settings_.map_frame, settings_.world_frame,
+                          robot_.above(sensor_frame, world.stamp)};
   const bool is_camera = settings_.sensor == FrameAssembler::Sensor::kDepth;
   transforms_.publish(transforms_message(world, frames, result, is_camera));
 }

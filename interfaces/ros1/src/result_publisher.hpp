@@ -3,11 +3,13 @@
 #include <ros/ros.h>
 
 #include <string>
+#include <vector>
 
 #include "interfaces/ros1/src/node_settings.hpp"
 #include "mms/pipeline/async_pipeline.hpp"
 #include "mms/ros/display_messages.hpp"
 #include "mms/ros/growing_path.hpp"
+#include "mms/ros/robot_frame.hpp"
 
 namespace mms {
 
@@ -33,6 +35,8 @@ class ResultPublisher {
   NodeSettings settings_;
   ros::Publisher odometry_, transforms_, path_topic_, static_cloud_, dynamic_cloud_, map_, markers_,
       objects_, mask_;
+  RobotFrame robot_;
+  std::vector<ros::Subscriber> robot_topics_;
   GrowingPath path_;
   ros::WallTime last_map_;
   ros::WallTime last_path_;

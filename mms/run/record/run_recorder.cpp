@@ -105,11 +105,12 @@ void RunRecorder::write_end(const Entry& entry) {
 
 void RunRecorder::write_frame(const Entry& entry, const FrameResult& result) {
   is_camera_ = result.cloud.organised();
-  frames_.sensor = is_camera_ ? "camera" : "lidar";
+  frames_.robot.frame = is_camera_ ? "camera" : "lidar";
   const msg::Header world = header_of(entry, frames_.world);
-  const msg::Header sensor = header_of(entry, frames_.sensor);
+  const msg::Header sensor = header_of(entry, frames_.robot.frame);
   file_->write("/tf", entry.stamp, transforms_message(world, frames_, result, is_camera_));
-  file_->write("/odometry", entry.stamp, odometry_message(world, frames_.sensor, result.odometry));
+  file_->write("/odometry", entry.stamp,
+               odometry_message(world, frames_.robot.frame, result.odometry));
   path_.push_back({entry.stamp, result.odometry.T_world_sensor});
   if (has_grown(path_.size(), recorded_poses_)) {
     write_path("/path", world, path_);

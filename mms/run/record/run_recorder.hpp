@@ -68,7 +68,7 @@ class RunRecorder {
   Timestamp last_;                   ///< stamp of the last frame
   std::size_t recorded_points_ = 0;  ///< of the last map in the file
   // Of the thread:
-  FrameNames frames_{"map", "world", ""};
+  FrameNames frames_{"map", "world", {}};
   bool is_camera_ = false;
   Trajectory path_;
   std::size_t recorded_poses_ = 0;  ///< of the last path in the file
