@@ -9,7 +9,7 @@ void OdometryConfig::visit(ConfigVisitor& v) {
            {0.0, 1000.0});
   v.integer({"max_voxels", "", "bound on the voxels of a local map"}, max_voxels,
             {1000, 10'000'000});
-  v.integer({"min_inliers", "", "a frame with fewer inlying residuals is lost"}, min_inliers,
+  v.integer({"min_inliers", "", "a frame with fewer inlier residuals is lost"}, min_inliers,
             {6, 100000});
   v.number({"min_inlier_share", "", "a frame with a smaller share of inliers is lost"},
            min_inlier_share, {0.0, 1.0});

@@ -18,7 +18,7 @@ void SystemConfig::visit(ConfigVisitor& v) {
           motion_segmentation);
   v.group({"mask_check", "", "masks that recent views contradict"}, mask_check);
   v.group({"keyframes", "", "which frames update the static map (III-C.4)"}, keyframes);
-  v.group({"static_map", "", "dense coloured map of static surfaces (III-D)"}, static_map);
+  v.group({"static_map", "", "dense colored map of static surfaces (III-D)"}, static_map);
   v.group({"occupancy", "", "free and occupied space, for robots"}, occupancy);
   v.group({"dynamic_map", "", "tracked objects (III-D)"}, dynamic_map);
   v.group({"global_map", "", "loop closure"}, global_map);

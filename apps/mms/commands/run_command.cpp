@@ -76,9 +76,10 @@ void add_run_command(CLI::App& app) {
                    "(or --masks), or none")
       ->check(CLI::IsMember({"network", "masks", "none"}))
       ->default_str("network, or masks with --masks");
-  command->add_option("--weights", options->weights,
-                      "network instead of that of the settings: our safetensors, or an ONNX model "
-                      "with YOLO-seg outputs");
+  command->add_option(
+      "--weights", options->weights,
+      "network instead of that of the settings: everyday, nano, our safetensors, or "
+      "an ONNX model with YOLO-seg outputs");
   command->add_option("--masks", options->masks, "folder of label images, named as the frames");
   add_mapping_options(*command, *options);
   add_frames_option(*command, options->frames, "process at most N frames");
@@ -91,9 +92,7 @@ void add_run_command(CLI::App& app) {
       "simulation");
   command->add_flag("--realtime", options->realtime, "play in real time and drop late frames");
   const auto record = std::make_shared<std::filesystem::path>();
-  command
-      ->add_option("--record", *record,
-                   "keep what a camera gives in this folder, as a recording that mms run reads")
+  command->add_option("--record", *record, "record the camera to this folder, which mms run reads")
       ->type_name("DIR");
   add_recording_options(*command, *options);
   add_calibration_options(*command, options->camera);

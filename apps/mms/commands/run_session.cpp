@@ -84,7 +84,7 @@ void add_recording_options(CLI::App& command, RunOptions& options) {
       command, options.threads,
       "threads to use (default: one per core); the results are the same for any number");
   command.add_flag("--keep-journal", options.keep_journal,
-                   "keep journal.bin, from which mms convert recovers a killed run, after the run");
+                   "keep journal.bin after the run (mms convert recovers killed runs from it)");
   command.add_flag("--mcap", options.mcap,
                    "record poses, maps, objects and images in run.mcap, for Foxglove and ROS 2");
 }

@@ -27,7 +27,7 @@ void check_size(const Frame& frame, const std::string& what, int width, int heig
                   what + " is " + std::to_string(width) + " x " + std::to_string(height) +
                       " px, depth is " + std::to_string(frame.depth.width()) + " x " +
                       std::to_string(frame.depth.height()) + " px",
-                  "depth must be registered to the colour image");
+                  "depth must be registered to the color image");
 }
 
 void check(const Frame& frame) {
@@ -38,7 +38,7 @@ void check(const Frame& frame) {
   const CameraIntrinsics& camera = *frame.calibration->camera;
   check_size(frame, "the calibrated image", camera.width, camera.height);
   if (!frame.color.empty()) {
-    check_size(frame, "colour", frame.color.width(), frame.color.height());
+    check_size(frame, "color", frame.color.width(), frame.color.height());
   }
 }
 

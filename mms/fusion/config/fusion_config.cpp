@@ -23,7 +23,7 @@ int FusionConfig::stride_of(const CameraIntrinsics& camera) const {
 
 void PlaneRemoval::visit(ConfigVisitor& v) {
   v.number({"min_area", "m^2", "smallest plane removed before clustering"}, min_area, {0.0, 1e4});
-  v.number({"min_extent", "m", "its smallest shorter side"}, min_extent, {0.0, 100.0});
+  v.number({"min_extent", "m", "least length of its shorter side"}, min_extent, {0.0, 100.0});
   v.number({"min_share", "", "its smallest share of the valid points"}, min_share, {0.0, 1.0});
   v.number({"tolerance", "m", "distance to the plane, before noise"}, tolerance, {0.0, 1.0});
   v.number({"noise_factor", "sigma", "depth noise added to it"}, noise_factor, {0.0, 10.0});
@@ -37,7 +37,8 @@ void PlaneRemoval::visit(ConfigVisitor& v) {
 void ObjectSize::visit(ConfigVisitor& v) {
   v.number({"length", "m", "largest longest side of one object"}, length, {0.0, 50.0});
   v.number({"width", "m", "largest side of the other two"}, width, {0.0, 50.0});
-  v.number({"depth", "", "largest depth of parts behind each other, in sides that they show"},
+  v.number({"depth", "",
+            "largest extent along the view of parts under one mask, over their visible side"},
            depth, {0.0, 50.0});
 }
 
@@ -62,8 +63,8 @@ void FusionConfig::visit(ConfigVisitor& v) {
            {0.0, 10.0});
   v.integer({"min_points", "", "nodes of the smallest cluster"}, min_points, {1, 100000});
   v.integer({"max_points", "", "nodes of the largest cluster"}, max_points, {1, 10000000});
-  v.number({"dynamic_share", "", "of labelled nodes that makes a cluster dynamic"}, dynamic_share,
-           {0.0, 1.0});
+  v.number({"dynamic_share", "", "least share of masked nodes that makes a cluster dynamic"},
+           dynamic_share, {0.0, 1.0});
   v.number({"partial_share", "", "the same for clusters of the size of one object"}, partial_share,
            {0.0, 1.0});
   v.number({"instance_share", "", "of an instance's nodes that make a piece of a cluster dynamic"},
@@ -79,7 +80,8 @@ void FusionConfig::visit(ConfigVisitor& v) {
            relabel_radius, {0.0, 2.0});
   v.boolean({"plausibility", "", "drop masks that cannot be objects in 3D"}, plausibility);
   v.number(
-      {"memory", "s", "how long an object stays dynamic without a mask at most; 0: not at all"},
+      {"memory", "s",
+       "how long an object of depth images stays dynamic without a mask at most; 0: not at all"},
       memory, {0.0, 60.0});
   v.number({"lidar_max_range", "m", "farthest LiDAR return used"}, lidar_max_range, {1.0, 500.0});
   v.number({"lidar_voxel", "m", "voxel that thins a LiDAR scan before clustering"}, lidar_voxel,

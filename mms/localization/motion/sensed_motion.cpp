@@ -108,16 +108,18 @@ std::string milliseconds_text(Duration duration) {
 void MotionSensorsConfig::visit(ConfigVisitor& v) {
   v.boolean({"wheels", "", "use the wheels where a recording has them"}, wheels);
   v.boolean({"imu", "", "use the gyroscope where a recording has one"}, imu);
-  v.number({"wheel_floor", "m", "standard deviation of a short way by the wheels"}, wheel_floor,
-           {1e-5, 1.0});
-  v.number({"wheel_share", "", "the same as a share of the way"}, wheel_share, {0.0, 1.0});
-  v.number({"wheel_turn_floor", "deg", "standard deviation of a short turn by the wheels"},
-           wheel_turn_floor, {1e-4, 45.0});
-  v.number({"wheel_turn_share", "", "the same as a share of the turn"}, wheel_turn_share,
+  v.number({"wheel_floor", "m", "least standard deviation of a distance by the wheels"},
+           wheel_floor, {1e-5, 1.0});
+  v.number({"wheel_share", "", "standard deviation of a distance, as a share of it"}, wheel_share,
            {0.0, 1.0});
-  v.number({"gyro_floor", "deg", "standard deviation of a short turn by the gyroscope"}, gyro_floor,
+  v.number({"wheel_turn_floor", "deg", "least standard deviation of a turn by the wheels"},
+           wheel_turn_floor, {1e-4, 45.0});
+  v.number({"wheel_turn_share", "", "standard deviation of a turn, as a share of it"},
+           wheel_turn_share, {0.0, 1.0});
+  v.number({"gyro_floor", "deg", "least standard deviation of a turn by the gyroscope"}, gyro_floor,
            {1e-4, 45.0});
-  v.number({"gyro_share", "", "the same as a share of the turn"}, gyro_share, {0.0, 1.0});
+  v.number({"gyro_share", "", "standard deviation of a turn, as a share of it"}, gyro_share,
+           {0.0, 1.0});
 }
 
 bool SensedMotion::contradicts(const Eigen::Isometry3d& other) const {

@@ -23,7 +23,7 @@ struct SurfaceConfig {
     v.number({"max_range", "m", "farthest point of a LiDAR scan that is mapped"}, max_range,
              {0.1, 1e5});
     v.number(
-        {"max_jump", "m", "jump of depth between neighbouring pixels of one surface, above noise"},
+        {"max_jump", "m", "jump of depth between neighboring pixels of one surface, above noise"},
         max_jump, {0.0, 10.0});
     v.number({"boundary", "",
               "width left out around dynamic pixels, as a share of the image's width", "rim"},

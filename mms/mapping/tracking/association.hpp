@@ -21,7 +21,7 @@ struct AssociationConfig {
     v.number({"max_gate", "m", "the same after a long time unseen"}, max_gate, {0.01, 100.0});
     v.number({"class_penalty", "", "cost of another class, in gate radii"}, class_penalty,
              {0.0, 10.0});
-    v.number({"color_penalty", "", "cost of no colour in common, in gate radii"}, color_penalty,
+    v.number({"color_penalty", "", "cost of no color in common, in gate radii"}, color_penalty,
              {0.0, 10.0});
     v.number({"max_color_difference", "",
               "largest one of an object, from equal (0) to none in common (1)"},

@@ -26,7 +26,7 @@ struct ClassPrior {
     v.number({"height", "m", "from the floor up"}, height, kSize);
     v.number({"max_extent", "m", "over the floor, beyond which it is several objects"}, max_extent,
              kSize);
-    v.integer({"views", "", "views of an object that this knowledge counts for"}, views,
+    v.integer({"views", "", "weight of this prior size, in views of the object"}, views,
               {0.0, 1000.0});
     v.number({"min_score", "", "mean confidence of its masks that makes it an object"}, min_score,
              {0.0, 1.0});

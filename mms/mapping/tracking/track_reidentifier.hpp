@@ -15,8 +15,8 @@ struct ReidentificationConfig {
   double min_probability = 0.67;
 
   void visit(ConfigVisitor& v) {
-    v.number({"max_away", "s", "longest time after which an object is reidentified"}, max_away,
-             {0.0, 3600.0});
+    v.number({"max_away", "s", "longest absence after which an object gets its former id"},
+             max_away, {0.0, 3600.0});
     v.number({"spread", "m/s", "growth of its position's standard deviation while unseen"}, spread,
              {0.0, 100.0});
     v.number({"new_object_density", "1/m^2", "density of objects never seen before", "strangers"},

@@ -185,7 +185,7 @@ void SceneConfig::visit(ConfigVisitor& v) {
   v.integer({"companions", "", "persons who walk close ahead of the sensor, once it was carried"},
             companions, {0.0, 8.0});
   v.number({"start", "m", "place of the sensor along the lane at the start"}, start, {0.0, 1e4});
-  v.group({"wheels", "", "dead reckoning of the wheels"}, wheels);
+  v.group({"wheels", "", "wheel odometry"}, wheels);
   v.group({"imu", "", "gyroscope and accelerometer"}, imu);
 }
 

@@ -135,10 +135,10 @@ void add_input_options(CLI::App& command, Ros2Inputs& inputs, bool& depth_regist
       ->excludes("--depth-info");
   add("--points", inputs.points, "LiDAR scans in place of depth images, PointCloud2");
   add("--imu", inputs.imu, "gyroscope, Imu");
-  add("--odometry", inputs.wheels, "dead reckoning of the wheels, Odometry");
+  add("--odometry", inputs.wheels, "wheel odometry, Odometry");
   add("--mask", inputs.mask, "label images: 0 static, 1 person, 2 vehicle");
   add("--initial-pose", inputs.initial_pose,
-      "where you say that the sensor is in the map, PoseWithCovarianceStamped")
+      "initial pose of the sensor in the map, as of RViz, PoseWithCovarianceStamped")
       ->capture_default_str();
 }
 
@@ -158,7 +158,7 @@ void add_node_options(CLI::App& command, Ros2CommandOptions& options) {
   group(command.add_option("--world-frame", options.results.world_frame,
                            "frame of the results: the first sensor frame"))
       ->capture_default_str();
-  group(command.add_option("--map-period", options.results.map_period, "between two maps [s]"))
+  group(command.add_option("--map-period", options.results.map_period, "period of ~/map [s]"))
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   group(command.add_flag("!--no-tf", options.results.transforms, "publish no transforms"));
@@ -198,8 +198,7 @@ void add_ros2_command(CLI::App& app) {
   const auto options = std::make_shared<Ros2CommandOptions>();
   RunOptions& run = options->run;
   run.data = "ros2";
-  CLI::App* command = app.add_subcommand(
-      "ros2", "Localize the sensors of a robot, as a node of ROS 2 that needs no ROS");
+  CLI::App* command = app.add_subcommand("ros2", "Run as a ROS 2 node (needs no ROS installation)");
   add_input_options(*command, options->inputs, options->depth_registered);
   add_node_options(*command, *options);
   add_result_options(*command, run);
@@ -209,9 +208,10 @@ void add_ros2_command(CLI::App& app) {
                    "none")
       ->check(CLI::IsMember({"network", "masks", "none"}))
       ->default_str("network, or masks with --mask");
-  command->add_option("--weights", run.weights,
-                      "network instead of that of the settings: our safetensors, or an ONNX model "
-                      "with YOLO-seg outputs");
+  command->add_option(
+      "--weights", run.weights,
+      "network instead of that of the settings: everyday, nano, our safetensors, or "
+      "an ONNX model with YOLO-seg outputs");
   add_mapping_options(*command, run);
   add_frames_option(*command, run.frames, "end after N frames");
   add_recording_options(*command, run);
