@@ -188,6 +188,14 @@ TEST(StaticMap, CarvesGhostNotWall) {
   EXPECT_EQ(map.size(), map.cloud().size());
 }
 
+TEST(StaticMap, CarvesSoonWhatStoodForLong) {
+  StaticMap map({.min_observations = 1});
+  for (int i = 0; i < 100; ++i) map.integrate(wall_with_ghost(1.5F), pose({0, 0, 0}));
+  ASSERT_GT(points_before_wall(map), 1000U);
+  for (int i = 0; i < 26; ++i) map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0}));
+  EXPECT_LT(points_before_wall(map), 100U);
+}
+
 TEST(StaticMap, KeepsHiddenAndHitVoxels) {
   StaticMap map({.min_observations = 1});
   map.integrate(wall_with_ghost(3.0F), pose({0, 0, 0}));

@@ -50,7 +50,7 @@ TEST(VoxelGrid, FindsRemainingVoxelsAfterErasing) {
 }
 
 TEST(VoxelGrid, CoarseVoxelsAreMeansOfFineVoxels) {
-  const VoxelGrid coarse = cube(8).coarsened();
+  const VoxelGrid coarse = cube(8).coarsened(true);
   EXPECT_EQ(coarse.voxel_size(), 2.0);
   EXPECT_EQ(coarse.size(), 512U);
   const Voxel* voxel = coarse.find({-1, 0, 3});
@@ -58,6 +58,16 @@ TEST(VoxelGrid, CoarseVoxelsAreMeansOfFineVoxels) {
   EXPECT_TRUE(voxel->position.isApprox(Eigen::Vector3f(-1.0F, 1.0F, 7.0F)));
   EXPECT_EQ(voxel->weight, 8.0F);
   EXPECT_EQ(voxel->hits, 1);
+}
+
+TEST(VoxelGrid, CoarseBlocksKeepTheirViews) {
+  VoxelGrid fine(1.0);
+  const VoxelGrid::Place place = fine.place(VoxelKey{0, 0, 0});
+  place.voxel().hits = 1;
+  place.voxel().weight = 1.0F;
+  place.block->views = 200;
+  EXPECT_EQ(fine.coarsened(true).blocks().front().views, 200);
+  EXPECT_EQ(fine.coarsened(false).blocks().front().views, 0);
 }
 
 TEST(VoxelGrid, MemoryGrowsWithVoxels) {

@@ -21,6 +21,13 @@ constexpr std::size_t kBatchSize = 32;
 /// more noise a surface falls into different blocks from view to view.
 constexpr double kMaxNoiseShare = 0.5;
 
+/// [-]: hits of a voxel from which on more do not make it harder to remove. Source: ten seconds of
+/// keyframes of a camera at rest; as the occupancy map, which is clamped so that it learns changes.
+constexpr std::uint16_t kMaxHits = 50;
+
+/// [-]: the same of scans. Source: with 50, grazing rays removed 4.5 points of SA of `lidar16`.
+constexpr std::uint16_t kUnbounded = std::numeric_limits<std::uint16_t>::max();
+
 /// [-]: share of the memory budget used before voxels are coarsened. Source: the coarser copy is
 /// built beside the finer map and has about a third of its memory.
 constexpr double kMaxMemoryShare = 0.75;
@@ -48,10 +55,11 @@ std::size_t StaticMap::add(const LabeledCloud& cloud,
                            const Transform<World, Sensor>& T_world_sensor) {
   if (!T_world_sensor.is_finite()) return 0;
   const Eigen::Isometry3f T = T_world_sensor.isometry().cast<float>();
-  if (last_frame() == 0 && !cloud.organised()) choose_voxel_size(cloud);
+  is_scan_ = !cloud.organised();
+  if (last_frame() == 0 && is_scan_) choose_voxel_size(cloud);
   viewpoints_.add(T.translation(), cloud.stamp);
   const std::vector<SurfacePoint> points = surface_points(cloud, config_.surface);
-  insert(points, T);
+  insert(points, T, is_scan_ ? kUnbounded : kMaxHits);
   return points.size();
 }
 
@@ -110,7 +118,7 @@ void StaticMap::choose_voxel_size(const LabeledCloud& first_scan) {
 }
 
 void StaticMap::insert(const std::vector<SurfacePoint>& points,
-                       const Eigen::Isometry3f& T_world_sensor) {
+                       const Eigen::Isometry3f& T_world_sensor, std::uint16_t max_hits) {
   const float sharp =
       std::min(1.0F, noise_weight(static_cast<float>(kMaxNoiseShare * grid_.block_size()),
                                   config_.surface.noise.depth));
@@ -133,7 +141,10 @@ void StaticMap::insert(const std::vector<SurfacePoint>& points,
         measured_.push_back(static_cast<std::uint32_t>(places[i].block_index));
       }
       if (is_first_view(block.last_frame) && point.weight >= sharp) increment(block.views);
-      if (is_first_view(voxel.last_frame)) increment(voxel.hits);
+      if (is_first_view(voxel.last_frame)) {
+        increment(voxel.hits);
+        if (voxel.hits > max_hits && voxel.seen_through > 0) --voxel.seen_through;
+      }
       average_in(point, T_world_sensor, voxel);
     }
   }
@@ -143,13 +154,14 @@ std::size_t StaticMap::carve(const LabeledCloud& cloud, const Eigen::Isometry3f&
   const CarvingConfig& carving = config_.carving;
   if (cloud.organised()) {
     const FreeSpace free_space(cloud, carving.margin, config_.surface.noise.depth);
-    return carve(free_space, carving.ratio, T_sensor_world);
+    return carve(free_space, carving.ratio, kMaxHits, T_sensor_world);
   }
-  return carve(ScanSight(cloud, carving.scan_margin), carving.scan_ratio, T_sensor_world);
+  return carve(ScanSight(cloud, carving.scan_margin), carving.scan_ratio, kUnbounded,
+               T_sensor_world);
 }
 
 template <class Space>
-std::size_t StaticMap::carve(const Space& free_space, double views_per_hit,
+std::size_t StaticMap::carve(const Space& free_space, double views_per_hit, std::uint16_t max_hits,
                              const Eigen::Isometry3f& T_sensor_world) {
   const auto ratio = static_cast<float>(views_per_hit);
   const auto side = static_cast<float>(grid_.block_size());
@@ -157,7 +169,8 @@ std::size_t StaticMap::carve(const Space& free_space, double views_per_hit,
     if (voxel.last_frame == last_frame()) return false;
     if (!free_space.sees_through(T_sensor_world * voxel.position)) return false;
     increment(voxel.seen_through);
-    return voxel.seen_through > ratio * voxel.hits;
+    return static_cast<float>(voxel.seen_through) >
+           ratio * static_cast<float>(std::min(voxel.hits, max_hits));
   };
   const auto may_see_into = [&](const Eigen::Vector3f& center, float radius) {
     return free_space.may_see_into(T_sensor_world * center, radius);
@@ -180,7 +193,7 @@ bool StaticMap::keep_to_budget() {
   const double limit = kMaxMemoryShare * config_.memory * 1e6;
   bool coarsened = false;
   while (static_cast<double>(grid_.memory_bytes()) > limit && grid_.blocks().size() > 1) {
-    grid_ = grid_.coarsened();
+    grid_ = grid_.coarsened(!is_scan_);
     coarsened = true;
   }
   return coarsened;

@@ -100,10 +100,12 @@ class StaticMap {
 
  private:
   void choose_voxel_size(const LabeledCloud& first_scan);
-  void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor);
+  /// @param max_hits  of a voxel that count when it is carved
+  void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor,
+              std::uint16_t max_hits);
   std::size_t carve(const LabeledCloud& cloud, const Eigen::Isometry3f& T_sensor_world);
   template <class Space>
-  std::size_t carve(const Space& free_space, double views_per_hit,
+  std::size_t carve(const Space& free_space, double views_per_hit, std::uint16_t max_hits,
                     const Eigen::Isometry3f& T_sensor_world);
   void count_view();
   bool keep_to_budget();
@@ -122,6 +124,7 @@ class StaticMap {
   std::vector<std::uint32_t> measured_;     // blocks, since the last view
   std::vector<std::uint32_t> view_blocks_;  // blocks that the last view measured, ascending
   std::vector<VoxelKey> carved_;            // by the last view
+  bool is_scan_ = false;                    // the last cloud
   bool is_resized_ = false;                 // since the last view
   bool coarsened_ = false;                  // by the last view
 };

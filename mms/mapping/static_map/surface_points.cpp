@@ -126,9 +126,10 @@ Image<std::uint8_t> near_dynamic(const Image<std::uint8_t>& dynamic, int radius)
   return dilated;
 }
 
-/// The intensity of a LiDAR without a camera is a grey.
+/// The intensity of a LiDAR is a grey where no camera sees the point: its color is black there.
 Rgb color_of(const LabeledCloud& cloud, std::size_t i) {
-  if (!cloud.colors.empty()) return cloud.colors[i];
+  const bool is_seen = !cloud.colors.empty() && (cloud.organised() || cloud.colors[i] != Rgb{});
+  if (is_seen) return cloud.colors[i];
   return cloud.intensity.empty() ? kNoColor : grey_of(cloud.intensity[i]);
 }
 

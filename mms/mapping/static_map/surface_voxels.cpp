@@ -101,12 +101,16 @@ void VoxelGrid::erase(VoxelBlock& block, std::size_t index) {
   --size_;
 }
 
-VoxelGrid VoxelGrid::coarsened() const {
+VoxelGrid VoxelGrid::coarsened(bool keeps_views) const {
   VoxelGrid coarse(2.0 * voxel_size_);
   for (const VoxelBlock& block : blocks_) {
     for (const Voxel& voxel : block.voxels) {
       const VoxelKey key = block.voxel_key(voxel);
-      merge(voxel, coarse.place(VoxelKey{key.x >> 1, key.y >> 1, key.z >> 1}).voxel());
+      const Place place = coarse.place(VoxelKey{key.x >> 1, key.y >> 1, key.z >> 1});
+      merge(voxel, place.voxel());
+      if (!keeps_views) continue;
+      place.block->views = std::max(place.block->views, block.views);
+      place.block->last_frame = std::max(place.block->last_frame, block.last_frame);
     }
   }
   return coarse;

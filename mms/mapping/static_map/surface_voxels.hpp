@@ -126,7 +126,9 @@ class VoxelGrid {
   }
 
   /// The same content in voxels of twice the side: means of means, the larger count of hits.
-  VoxelGrid coarsened() const;
+  /// @param keeps_views  of the blocks. Those of scans begin anew: their rays hit other voxels of a
+  ///                     block in each view, so that many are seen once.
+  VoxelGrid coarsened(bool keeps_views) const;
 
   std::deque<VoxelBlock>& blocks() { return blocks_; }
   const std::deque<VoxelBlock>& blocks() const { return blocks_; }
