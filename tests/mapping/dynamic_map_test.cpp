@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace mms {
 namespace {
@@ -292,6 +294,47 @@ TEST(DynamicMap, PrefersTrackedClusterOverLargerOne) {
   EXPECT_EQ(map.objects()[0].state, TrackState::kActive);
   EXPECT_LT(map.objects()[0].box.center().z(), 3.5);
   EXPECT_EQ(map.confirmed(), 1);
+}
+
+TEST(DynamicMap, OneMaskOverTwoKnownPeopleKeepsBoth) {
+  DynamicMap map;
+  DynamicCluster near = cluster_at({0.0F, 0.0F, 2.5F});
+  DynamicCluster far = cluster_at({0.3F, 0.0F, 3.9F});
+  near.instance = 0;
+  far.instance = 1;
+  for (int i = 0; i < 15; ++i) update(map, i, {near, far});
+  far.instance = 0;
+  for (int i = 15; i < 45; ++i) update(map, i, {near, far});
+  ASSERT_EQ(map.objects().size(), 2U);
+  for (const TrackedObject& object : map.objects()) EXPECT_EQ(object.state, TrackState::kActive);
+}
+
+/// Where the first leaves and another comes, everybody could continue the track of the one before.
+TEST(DynamicMap, KeepsIdsInALineOfPeople) {
+  constexpr double kGap = 0.7;    // [m]
+  constexpr double kSpeed = 1.2;  // [m/s]
+  DynamicMap map;
+  std::map<int, std::set<int>> ids_of;  // by number of the person
+  for (int i = 0; i < 105; ++i) {
+    std::map<int, double> seen;
+    std::vector<DynamicCluster> clusters;
+    for (int person = 0; person < 12; ++person) {
+      const double x = -1.5 + kSpeed * kPeriod * i - kGap * person;
+      if (std::abs(x) > 1.5) continue;
+      seen[person] = x;
+      clusters.push_back(cluster_at({static_cast<float>(x), 0.0F, 4.0F}));
+      clusters.back().instance = person;
+    }
+    update(map, i, clusters);
+    for (const TrackedObject& object : map.objects()) {
+      if (object.state != TrackState::kActive) continue;
+      for (const auto& [person, x] : seen) {
+        if (std::abs(object.box.center().x() - x) < 0.3) ids_of[person].insert(object.box.id);
+      }
+    }
+  }
+  EXPECT_GE(ids_of.size(), 8U);
+  for (const auto& [person, ids] : ids_of) EXPECT_EQ(ids.size(), 1U) << person;
 }
 
 TEST(DynamicMap, OneMaskKeepsOneObject) {

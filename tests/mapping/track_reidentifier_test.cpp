@@ -67,6 +67,27 @@ std::vector<int> ids(const DynamicMap& map) {
   return ids;
 }
 
+/// The camera does not see points with y > 0: their color is black, and they have no mask.
+TEST(TrackReidentifier, KeepsIdOfAPersonWhoLeavesTheView) {
+  DynamicMap map;
+  for (int i = 0; i < 60; ++i) {
+    LabeledCloud cloud = scan_of({{4.0, -2.0 + 1.2 * kPeriod * i, kRed}}, kPeriod * i);
+    for (std::size_t k = 0; k < cloud.points.size(); ++k) {
+      if (cloud.points[k].y() > 0.0F) cloud.colors[k] = Rgb{};
+    }
+    if (cloud.points.front().y() > 0.0F) {
+      cloud.clusters[0].instance = -1;
+      cloud.clusters[0].object_class = ObjectClass::kUnknown;
+      cloud.clusters[0].score = 0.0;
+    }
+    OdometryEstimate odometry;
+    odometry.stamp = cloud.stamp;
+    map.update(cloud, odometry);
+  }
+  EXPECT_EQ(ids(map), std::vector<int>{1});
+  EXPECT_EQ(map.confirmed(), 1);
+}
+
 TEST(TrackReidentifier, ReidentifiesByAppearanceElsewhere) {
   DynamicMap map;
   update(map, 0.0, {{3.0, -2.0, kRed}, {3.0, 2.0, kBlue}});

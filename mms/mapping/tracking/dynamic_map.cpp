@@ -167,6 +167,7 @@ std::vector<TrackedObject> DynamicMap::objects() const {
     objects.push_back({track.box(), seen ? TrackState::kActive : TrackState::kCoasting,
                        track.motion(), track.first_seen(), track.last_seen()});
   }
+  std::ranges::sort(objects, {}, [](const TrackedObject& object) { return object.box.id; });
   return objects;
 }
 

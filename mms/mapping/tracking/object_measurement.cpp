@@ -56,6 +56,11 @@ void measure_points(const LabeledCloud& cloud, const std::vector<std::size_t>& i
   object.centroid = T_world_sensor * (sum / static_cast<double>(indices.size()));
 }
 
+/// Points of a scan that the camera does not see are black.
+bool has_color(const LabeledCloud& cloud, std::size_t i) {
+  return cloud.organised() || cloud.colors[i] != Rgb{};
+}
+
 void measure_colors(const LabeledCloud& cloud, const std::vector<std::size_t>& indices,
                     const GroundFrame& ground, ObjectMeasurement& object) {
   if (cloud.colors.empty()) return;
@@ -65,6 +70,7 @@ void measure_colors(const LabeledCloud& cloud, const std::vector<std::size_t>& i
   const std::size_t stride = stride_of(indices.size());
   for (std::size_t k = 0; k < heights.size(); ++k) {
     const Rgb& color = cloud.colors[indices[k * stride]];
+    if (!has_color(cloud, indices[k * stride])) continue;
     object.appearance.add(heights[k] - floor, Eigen::Vector3f(color.r, color.g, color.b));
   }
 }
