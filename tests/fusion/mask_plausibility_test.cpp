@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "mms/fusion/clouds/depth_cloud.hpp"
 #include "mms/fusion/semantic_fusion.hpp"
@@ -89,6 +90,50 @@ TEST(MaskPlausibility, KeepsPeopleSideBySideUnderOneMask) {
   }
   const View view = render(scene);
   EXPECT_EQ(implausible(view, mask_of(view, Surface::kPerson)), 0);
+}
+
+/// Depth images of a wall with people before it: torsos of 38 x 24 cm with heads, arms and legs.
+View people_abreast(int people, float distance) {
+  View view = render(room(5.0F));
+  const CameraIntrinsics camera = *view.frame.calibration->camera;
+  struct Limb {
+    float x, top, bottom, half_width, half_depth;
+  };
+  constexpr Limb kLimbs[] = {
+      {0.0F, -0.5F, -0.25F, 0.08F, 0.1F},  {0.0F, -0.25F, 0.35F, 0.19F, 0.12F},
+      {-0.24F, -0.2F, 0.4F, 0.05F, 0.05F}, {0.24F, -0.2F, 0.4F, 0.05F, 0.05F},
+      {-0.1F, 0.35F, 1.2F, 0.08F, 0.08F},  {0.1F, 0.35F, 1.2F, 0.08F, 0.08F}};
+  for (int v = 0; v < view.truth.height(); ++v) {
+    for (int u = 0; u < view.truth.width(); ++u) {
+      const float rx =
+          (static_cast<float>(u) - static_cast<float>(camera.cx)) / static_cast<float>(camera.fx);
+      const float ry =
+          (static_cast<float>(v) - static_cast<float>(camera.cy)) / static_cast<float>(camera.fy);
+      for (int i = 0; i < people; ++i) {
+        const float center =
+            0.58F * (static_cast<float>(i) - 0.5F * static_cast<float>(people - 1));
+        for (const Limb& limb : kLimbs) {
+          const float y = distance * ry;
+          const float across = (distance * rx - center - limb.x) / limb.half_width;
+          if (y < limb.top || y > limb.bottom || std::abs(across) > 1.0F) continue;
+          const float z = distance - limb.half_depth * std::sqrt(1.0F - across * across);
+          if (z >= view.frame.depth(u, v)) continue;
+          view.frame.depth(u, v) = z;
+          view.truth(u, v) = Surface::kPerson;
+        }
+      }
+    }
+  }
+  return view;
+}
+
+TEST(MaskPlausibility, KeepsPeopleAbreastUnderOneMask) {
+  for (const float distance : {2.5F, 2.8F, 2.9F, 3.1F}) {
+    for (const int people : {2, 3}) {
+      const View view = people_abreast(people, distance);
+      EXPECT_EQ(implausible(view, mask_of(view, Surface::kPerson)), 0) << people << " " << distance;
+    }
+  }
 }
 
 TEST(MaskPlausibility, KeepsTheFlatSideOfAVehicle) {

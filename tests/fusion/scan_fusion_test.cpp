@@ -123,6 +123,8 @@ TEST(ScanFusion, RingsTooFarApartForAClusterAreLabeledByMask) {
   const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
   EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.9);
   EXPECT_LT(dynamic_share_of(cloud, view, Surface::kWall), 0.001);
+  ASSERT_EQ(cloud.clusters.size(), 1U) << "so that the person is tracked";
+  EXPECT_NEAR(cloud.clusters[0].centroid.x(), 10.0F, 0.3F);
 }
 
 TEST(ScanFusion, RestoresWallUnderDilatedMask) {

@@ -14,6 +14,10 @@ namespace {
 /// Source: initial choice, not tuned since.
 constexpr double kBoxTrim = 0.02;
 
+/// [-]: nodes of an object of a scan that are too far apart for a cluster. Source: two rings on a
+/// person.
+constexpr std::size_t kMinSparseNodes = 6;
+
 enum class Verdict { kStatic, kDynamic, kMixed };
 
 /// Every cluster with a masked node as a part, without its box; empty for the others.
@@ -47,6 +51,7 @@ class PartFinder {
   DynamicParts run() {
     const Clusters coarse = cluster_nodes(nodes_, open_, Gap::kCoarse, config_);
     find_loose(coarse);
+    if (nodes_.width == 0) take_sparse_objects();
     step(coarse, [&](std::size_t, const ClusterVote& vote, const DynamicPart&) {
       return is_labelled(vote) ? Verdict::kDynamic : Verdict::kMixed;
     });
@@ -70,6 +75,24 @@ class PartFinder {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const bool is_apart = clusters.label[i] == Clusters::kNone;
       if (open_[i] != 0 && nodes_.raw[i] != 0 && is_apart) result_.loose.push_back(i);
+    }
+  }
+
+  /// Far away the rings of a scan are farther apart than a cluster's gap: the loose nodes under one
+  /// mask are an object if they fit its size.
+  void take_sparse_objects() {
+    std::vector<DynamicPart> sparse(instances_.size());
+    for (const std::size_t i : result_.loose) {
+      sparse[nodes_.raw[i] - std::size_t{1}].nodes.push_back(i);
+    }
+    for (std::size_t k = 0; k < sparse.size(); ++k) {
+      if (sparse[k].nodes.size() < kMinSparseNodes) continue;
+      sparse[k].instance = static_cast<int>(k);
+      sparse[k].box = box_of(nodes_, sparse[k]);
+      const auto object_class = static_cast<std::size_t>(instances_[k].object_class);
+      if (fits(sparse[k].box, config_.sizes[object_class])) {
+        result_.parts.push_back(std::move(sparse[k]));
+      }
     }
   }
 

@@ -45,8 +45,8 @@ constexpr double kFlatShare = 0.85;
 constexpr double kDoubtfulFlatShare = 0.7;
 
 /// [m]: tolerance of the plane, noise included, up to which a flat surface differs from a body.
-/// Source: a third of a torso's radius of 0.17 m; a Kinect's noise reaches it at 3 m.
-constexpr float kMaxTolerance = 0.06F;
+/// Source: a fifth of a torso's radius of 0.17 m; a Kinect's noise reaches it at 3 m.
+constexpr float kMaxTolerance = 0.036F;
 
 /// [-]: rounds in which the plane is fitted again to the samples near it. Source: initial choice.
 constexpr int kRounds = 3;
@@ -165,9 +165,11 @@ std::vector<Plausibility> judge_masks(const LabeledCloud& cloud,
                                       const FusionConfig& config) {
   const std::vector<Samples> samples = sample(cloud, instances.size(), covering);
   const auto range_noise = static_cast<float>(config.noise.range);
+  // One standard deviation of noise: within more, the fronts of people side by side are flat at 3
+  // m.
   const auto tolerance = [&](const Eigen::Vector3f& point) {
-    return config.planes.distance_limit(cloud.organised() ? config.noise.depth.sigma(point.z())
-                                                          : range_noise);
+    const float sigma = cloud.organised() ? config.noise.depth.sigma(point.z()) : range_noise;
+    return static_cast<float>(config.planes.tolerance) + sigma;
   };
   std::vector<Plausibility> judged;
   for (std::size_t k = 0; k < samples.size(); ++k) {
