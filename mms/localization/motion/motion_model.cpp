@@ -114,7 +114,7 @@ bool MotionModel::has_more_since_gap(Timestamp stamp) const {
   return last && (!all || (last->has_translation && !all->has_translation));
 }
 
-/// Share of the speed that is left after braking at the limit: a vehicle does not stop at once.
+/// Share of the speed that is left after braking at the limit: a vehicle does not stop immediately.
 double MotionModel::braked_share(double seconds) const {
   const double speed = velocity_.head<3>().norm();
   return speed > 0.0 ? 1.0 - config_.max_acceleration * seconds / speed : 0.0;
