@@ -22,10 +22,7 @@ std::string first_part(const std::string& text) {
 
 std::string masks_of(const RunOptions& options, const SystemConfig& config) {
   if (options.segmenter == "network") {
-    const std::filesystem::path weights = config.segmentation.weights.empty()
-                                              ? default_weights()
-                                              : std::filesystem::path(config.segmentation.weights);
-    return "network " + weights.filename().string();
+    return "network " + weights_path(config.segmentation.weights).filename().string();
   }
   if (options.segmenter == "none") return "none";
   return options.masks.empty() ? "of the recording" : options.masks.string();

@@ -16,6 +16,7 @@
 #include "mms/run/results/result_files.hpp"
 #include "mms/run/results/run_outputs.hpp"
 #include "mms/run/run_heading.hpp"
+#include "mms/run/segmenter/network_detector.hpp"
 #include "mms/run/segmenter/segmenter_choice.hpp"
 #include "mms/run/sensor_settings.hpp"
 
@@ -42,7 +43,7 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
   std::string& weights = config.segmentation.weights;
   if (!options.weights.empty()) weights = options.weights;
   // The settings are kept with the results, which are viewed from other folders.
-  if (!weights.empty()) weights = absolute_path(weights);
+  if (!weights.empty()) weights = absolute_path(weights_path(weights));
   if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
   if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;

@@ -426,7 +426,11 @@ TEST(Run, AcceptsOtherNetwork) {
     return run_mms(folder.path(), arguments);
   };
   expect_success(with({"--weights", MMS_SOURCE_DIR "/weights/nano.safetensors"}));
+  expect_success(with({"--weights", "nano"}));
+  expect_in("weights: " MMS_SOURCE_DIR "/weights/nano.safetensors",
+            read_file(folder.path() / "out/config.yaml"));
   expect_error(with({"--weights", "no.safetensors"}), "no.safetensors: ");
+  expect_error(with({"--weights", "small"}), "weights/small.safetensors: is neither in");
   expect_usage_error(with({"--weights", "no.safetensors", "--segmenter", "none"}),
                      "--weights: is for masks of the network, but they come from none");
 }

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFileName = "weights/nano.safetensors";
+constexpr const char* kDefaultNetwork = "everyday";
 
 /// Folders of the program, and of the shared library that this is part of, as the Python module.
 std::vector<fs::path> code_folders() {
   std::error_code fault;
   std::vector<fs::path> folders = {fs::read_symlink("/proc/self/exe", fault).parent_path()};
   Dl_info library;
-  if (dladdr(reinterpret_cast<const void*>(&default_weights), &library) != 0) {
+  if (dladdr(reinterpret_cast<const void*>(&weights_path), &library) != 0) {
     folders.push_back(fs::path(library.dli_fname).parent_path());
   }
   return folders;
@@ -56,22 +56,29 @@ std::unique_ptr<Detector> make_solo(const fs::path& path, const SegmentationConf
                                                   config.decoder, config.threads);
 }
 
-}  // namespace
-
-fs::path default_weights() {
+fs::path shipped_weights(const std::string& name) {
+  const std::string file_name = "weights/" + name + ".safetensors";
   for (const fs::path& folder : code_folders()) {
     for (const char* base :
          {"../share/mms", "../..", "..", "../../../../share/mms", "../../../.."}) {
-      const fs::path file = folder / base / kFileName;
+      const fs::path file = folder / base / file_name;
       if (fs::exists(file)) return fs::weakly_canonical(file);
     }
   }
-  throw FileError(kFileName, "is neither in share/mms/ of the installation nor in the source tree",
-                  "set segmentation.weights in the settings, or use --segmenter masks or none");
+  throw FileError(file_name, "is neither in share/mms/ of the installation nor in the source tree",
+                  "give --weights FILE, or use --segmenter masks or none");
+}
+
+}  // namespace
+
+fs::path weights_path(const std::string& weights) {
+  if (weights.empty()) return shipped_weights(kDefaultNetwork);
+  const bool is_name = weights.find_first_of("./") == std::string::npos && !fs::exists(weights);
+  return is_name ? shipped_weights(weights) : fs::path(weights);
 }
 
 std::unique_ptr<Detector> make_detector(const SegmentationConfig& config) {
-  const fs::path path = config.weights.empty() ? default_weights() : fs::path(config.weights);
+  const fs::path path = weights_path(config.weights);
   if (path.extension() == ".onnx") {
     return std::make_unique<OnnxDetector>(path, config.onnx, config.threads);
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "mms/segmentation/detection/detector.hpp"
 #include "mms/segmentation/segmenters/segmentation_config.hpp"
@@ -10,9 +11,11 @@
 
 namespace mms {
 
-/// Path of the default network: in the installation, or in the source tree of a build.
-/// @throws FileError if it is in neither.
-std::filesystem::path default_weights();
+/// Path of a network.
+/// @param weights  a file; the name of one that is part of the program, as "nano"; empty: the
+///                 default one. Those are in the installation, or in the source tree of a build.
+/// @throws FileError if a name is in neither.
+std::filesystem::path weights_path(const std::string& weights);
 
 /// The network of the settings: our safetensors, or an ONNX model with YOLO outputs.
 /// @throws FileError, DataError if the file cannot be read or has no such network; Error if the

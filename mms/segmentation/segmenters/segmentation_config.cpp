@@ -6,7 +6,7 @@
 namespace mms {
 
 void SegmentationConfig::visit(ConfigVisitor& v) {
-  v.text({"weights", "", "weights file; none: the default network"}, weights);
+  v.text({"weights", "", "weights file, everyday or nano; none: everyday"}, weights);
   constexpr std::array<std::string_view, 3> kBackends = {"auto", "engine", "libtorch"};
   v.enumeration(
       {"backend", "",
