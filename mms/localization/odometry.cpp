@@ -21,6 +21,10 @@ constexpr int kExposurePasses = 2;
 /// [-]: factor by which the automatic voxels of scans grow at least. Source: initial choice.
 constexpr double kVoxelGrowth = 1.5;
 
+/// [-]: scans in a row that call for it. Source: a second of a LiDAR, longer than a look through a
+/// door.
+constexpr int kMinFarScans = 10;
+
 /// [-]: share of the map radius that the sensor moves before the maps are trimmed to it.
 /// Source: computing time; the maps exceed their radius by a tenth at most.
 constexpr double kTrimInterval = 0.1;
@@ -265,7 +269,10 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
 void Odometry::coarsen_maps(const FeatureCloud& features) {
   if (config_.voxel_size > 0.0 || !is_scan(features)) return;
   const double voxel = automatic_voxel_size(median_range(features));
-  if (voxel < kVoxelGrowth * static_cast<double>(maps_->voxel_size())) return;
+  const bool is_far = voxel >= kVoxelGrowth * static_cast<double>(maps_->voxel_size());
+  far_scans_ = is_far ? far_scans_ + 1 : 0;
+  if (far_scans_ < kMinFarScans) return;
+  far_scans_ = 0;
   *maps_ = maps_->resized(voxel, static_cast<std::size_t>(config_.max_voxels));
   if (config_.map_radius == 0.0) map_radius_ = kMapRadius * voxel;
 }

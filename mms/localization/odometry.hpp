@@ -129,6 +129,7 @@ class Odometry {
   StillCamera still_camera_;
   DepthNoise noise_;
   double map_radius_ = 0.0;
+  int far_scans_ = 0;  ///< in a row whose automatic voxels are much larger than the maps'
   MotionModel motion_;
   Isometry origin_ = Isometry::Identity();  ///< pose of the frame that the local maps began with
   Isometry trimmed_at_ = Isometry::Identity();

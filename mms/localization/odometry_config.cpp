@@ -3,7 +3,8 @@
 namespace mms {
 
 void OdometryConfig::visit(ConfigVisitor& v) {
-  v.number({"voxel_size", "m", "edge of the local maps' voxels; 0 chooses it from the first frame"},
+  v.number({"voxel_size", "m",
+            "edge of the local maps' voxels; 0: by the first frame, of scans by later ones, too"},
            voxel_size, {0.0, 10.0});
   v.number({"map_radius", "m", "local maps reach this far; 0 is 200 voxels"}, map_radius,
            {0.0, 1000.0});

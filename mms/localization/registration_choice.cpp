@@ -118,8 +118,9 @@ RegistrationResult RegistrationChoice::register_stopped(RegistrationResult best,
       way < config_.registration.geometric.gate * voxel || prediction.translation_sigma < voxel;
   if (is_near) return best;
   RegistrationResult stopped = register_near({last}, config_.registration);
-  const bool is_better = !is_valid(best) || stopped.geometric.inliers() > best.geometric.inliers();
-  return is_better && is_valid(stopped) ? stopped : best;
+  const bool is_better =
+      !is_valid(best) || stopped.geometric.inliers() > kMinInlierGain * best.geometric.inliers();
+  return is_better && stopped.degenerate_directions == 0 && is_valid(stopped) ? stopped : best;
 }
 
 /// Whether the pixels agree as well as usual.

@@ -92,7 +92,8 @@ FrameResult Localization::localize(PerceivedFrame frame) {
   const Duration interval = is_first ? Duration::zero() : frame.cloud.stamp - last_stamp_;
   const Duration last_interval = std::exchange(last_interval_, interval);
   last_stamp_ = frame.cloud.stamp;
-  const bool is_gap = interval > std::max(kMaxGap, kMaxGapOfInterval * last_interval);
+  const bool is_gap = last_interval > Duration::zero() &&
+                      interval > std::max(kMaxGap, kMaxGapOfInterval * last_interval);
   if (is_lost_for_long(interval, frame.features)) begin_session();
   const auto given = closes_loops_ ? frame.expected_place : std::nullopt;
   if (given) search_again(frame.cloud.stamp);

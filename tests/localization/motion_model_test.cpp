@@ -108,6 +108,15 @@ TEST(MotionModel, AcceptsPosesOfAFastVehicleWithInexactStamps) {
   }
 }
 
+TEST(MotionModel, RefusesThatPeoplePullAPose) {
+  MotionModel model{MotionConfig{}};
+  const auto walk = [](double t) { return motion(1.5 * t, 0, 0, 0, 0, 0); };
+  model.place(at(1.0), walk(0.0));
+  model.measure(at(1.0 + 1.0 / 30.0), walk(1.0 / 30.0));
+  const Eigen::Isometry3d pulled = walk(2.0 / 30.0) * motion(0.047, 0, 0, 0, 0, 0);
+  EXPECT_FALSE(model.is_feasible(at(1.0 + 2.0 / 30.0), pulled));
+}
+
 TEST(MotionModel, ComesToRestWhileCoasting) {
   MotionModel model{MotionConfig{}};
   model.place(at(0.0), motion(0, 0, 0, 0, 0, 0));
