@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "mms/fusion/clusters/dynamic_parts.hpp"
 
@@ -36,7 +37,7 @@ DynamicObjects find_dynamic_objects(const Nodes& nodes, const std::vector<Instan
                                     const FusionConfig& config) {
   auto [parts, loose] = find_dynamic_parts(nodes, instances, config);
   std::stable_sort(parts.begin(), parts.end(), [](const DynamicPart& a, const DynamicPart& b) {
-    return a.nodes.size() > b.nodes.size();
+    return std::pair(!a.is_sparse, a.nodes.size()) > std::pair(!b.is_sparse, b.nodes.size());
   });
   DynamicObjects result;
   result.label.assign(nodes.size(), DynamicObjects::kNone);
@@ -49,7 +50,12 @@ DynamicObjects find_dynamic_objects(const Nodes& nodes, const std::vector<Instan
         result.objects.begin(), result.objects.end(), [&](const DynamicObjects::Object& other) {
           return other.instance == part.instance && are_one(other.box, part.box, size);
         });
-    if (object == result.objects.end()) {
+    const bool has_other = std::any_of(
+        result.objects.begin(), result.objects.end(),
+        [&](const DynamicObjects::Object& other) { return other.instance == part.instance; });
+    const bool is_new = object == result.objects.end();
+    if (is_new && part.is_sparse && has_other) continue;  // background under the mask
+    if (is_new) {
       object = result.objects.insert(object, {part.instance, part.box});
     }
     object->box.extend(part.box);

@@ -88,6 +88,7 @@ class PartFinder {
     for (std::size_t k = 0; k < sparse.size(); ++k) {
       if (sparse[k].nodes.size() < kMinSparseNodes) continue;
       sparse[k].instance = static_cast<int>(k);
+      sparse[k].is_sparse = true;
       sparse[k].box = box_of(nodes_, sparse[k]);
       const auto object_class = static_cast<std::size_t>(instances_[k].object_class);
       if (fits(sparse[k].box, config_.sizes[object_class])) {

@@ -15,6 +15,7 @@ struct DynamicPart {
   std::vector<std::size_t> nodes;
   int instance = 0;         ///< index of the mask that gives its class
   Eigen::AlignedBox3f box;  ///< of its nodes without stray ones [m]
+  bool is_sparse = false;   ///< loose nodes of a scan under one mask
 };
 
 /// True for boxes that one object of the size can fill.
@@ -22,7 +23,9 @@ bool fits(const Eigen::AlignedBox3f& box, const ObjectSize& size);
 
 struct DynamicParts {
   std::vector<DynamicPart> parts;
-  std::vector<std::size_t> loose;  ///< masked nodes in no cluster: too few, apart from others
+  /// Masked nodes in no cluster: too few, apart from others. Of a scan, those under one mask that
+  /// fit its size are a part, too.
+  std::vector<std::size_t> loose;
 };
 
 /// Finds the dynamic parts among the nodes off the removed planes (III-B.2), in three steps:

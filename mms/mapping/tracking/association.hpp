@@ -34,7 +34,9 @@ struct AssociationConfig {
 /// Index of the track each object continues, -1 for none: the one-to-one assignment of least cost
 /// (distance to the predicted position, class, colour). A pair has to be within the gate, which
 /// grows with the track's uncertainty, or the object's center inside the track's box. Of several
-/// clusters under one mask the largest continues a track, the others only if it does not.
+/// clusters under one mask the largest continues a track, the others only if it does not, or if
+/// they are where a known person is expected. Objects near the prediction of a confirmed track are
+/// assigned first.
 std::vector<int> associate(const std::vector<Track>& tracks,
                            const std::vector<ObjectMeasurement>& objects,
                            const AssociationConfig& config);
