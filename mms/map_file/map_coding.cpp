@@ -16,7 +16,7 @@ namespace mms {
 namespace {
 
 /// [B]: largest decompressed value.
-constexpr std::size_t kMaxDecoded = std::size_t{64} << 20U;
+constexpr std::size_t kMaxDecoded = std::size_t{256} << 20U;
 
 /// [B], [-]: plausible size of a decompressed value, for a small one and by its compressed size.
 constexpr std::size_t kMaxSmall = std::size_t{1} << 18U;

@@ -45,9 +45,9 @@ TEST(Association, EmptyListsGiveNoPairs) {
   EXPECT_TRUE(associate_20ms(milliseconds({1}), {}).empty());
 }
 
-TEST(Association, FirstOfEqualStampsCounts) {
+TEST(Association, EqualStampsArePairsInTheirOrder) {
   EXPECT_EQ(associate_20ms(milliseconds({5, 5, 90}), milliseconds({5, 5, 91})),
-            (Pairs{{0, 0}, {2, 2}}));
+            (Pairs{{0, 0}, {1, 1}, {2, 2}}));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ constexpr int kUsage = 2;
 constexpr int kInterrupted = 130;
 
 int fail(const std::string& what, int exit_code = kFault) {
-  fmt::print(stderr, "mms: {}\n", one_line(what));
+  fmt::print(stderr, "mms: {}\n", printable(what));
   return exit_code;
 }
 

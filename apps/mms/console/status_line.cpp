@@ -5,6 +5,8 @@
 
 #include <cstdio>
 
+#include "apps/mms/console/warnings.hpp"
+
 namespace mms {
 namespace {
 
@@ -37,7 +39,7 @@ void StatusLine::show(const std::string& text) {
 
 void StatusLine::say(const std::string& message) {
   const std::scoped_lock lock(mutex_);
-  fmt::print(stderr, "{}{}\n", open_line_ ? "\r\033[K" : "", message);
+  fmt::print(stderr, "{}{}\n", open_line_ ? "\r\033[K" : "", printable(message));
   open_line_ = false;
 }
 

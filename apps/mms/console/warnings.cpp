@@ -4,7 +4,7 @@
 
 namespace mms {
 
-std::string one_line(std::string text) {
+std::string printable(std::string text) {
   constexpr std::size_t kMaxLength = 2000;
   constexpr std::size_t kEnd = 500;  // kept: it has the hint
   if (text.size() > kMaxLength) {
@@ -19,7 +19,7 @@ std::string one_line(std::string text) {
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
-    fmt::print(stderr, "warning: {}\n", one_line(warning));
+    fmt::print(stderr, "warning: {}\n", printable(warning));
   }
 }
 

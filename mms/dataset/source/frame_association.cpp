@@ -24,25 +24,37 @@ std::vector<std::size_t> order_of(std::span<const Timestamp> stamps) {
   return order;
 }
 
-/// The first ones of equal stamps: those of a sensor whose clock stands still would all be pairs.
-std::vector<std::size_t> distinct(std::span<const Timestamp> stamps) {
-  std::vector<std::size_t> order = order_of(stamps);
-  const auto are_equal = [&](std::size_t a, std::size_t b) { return stamps[a] == stamps[b]; };
-  order.erase(std::unique(order.begin(), order.end(), are_equal), order.end());
-  return order;
+/// Indices of equal stamps, in their order.
+struct EqualStamps {
+  Timestamp stamp;
+  std::vector<std::size_t> indices;
+};
+
+std::vector<EqualStamps> by_stamp(std::span<const Timestamp> stamps) {
+  std::vector<EqualStamps> groups;
+  for (const std::size_t i : order_of(stamps)) {
+    if (groups.empty() || groups.back().stamp != stamps[i]) groups.push_back({stamps[i], {}});
+    groups.back().indices.push_back(i);
+  }
+  return groups;
 }
 
+/// Of equal stamps, those of a sensor whose clock stands still, the k-th ones are pairs: all pairs
+/// would be too many.
 std::vector<Candidate> candidates_of(std::span<const Timestamp> first,
                                      std::span<const Timestamp> second, Duration max_difference) {
-  const std::vector<std::size_t> order = distinct(second);
+  const std::vector<EqualStamps> others = by_stamp(second);
   std::vector<Candidate> candidates;
-  for (const std::size_t i : distinct(first)) {
+  for (const EqualStamps& group : by_stamp(first)) {
     const auto begin =
-        std::lower_bound(order.begin(), order.end(), first[i] + -max_difference,
-                         [&](std::size_t j, Timestamp stamp) { return second[j] < stamp; });
-    for (auto j = begin; j != order.end() && second[*j] - first[i] <= max_difference; ++j) {
-      const Duration difference = std::chrono::abs(second[*j] - first[i]);
-      candidates.push_back({difference, first[i], i, *j});
+        std::lower_bound(others.begin(), others.end(), group.stamp + -max_difference,
+                         [](const EqualStamps& o, Timestamp stamp) { return o.stamp < stamp; });
+    for (auto o = begin; o != others.end() && o->stamp - group.stamp <= max_difference; ++o) {
+      const Duration difference = std::chrono::abs(o->stamp - group.stamp);
+      const std::size_t count = std::min(group.indices.size(), o->indices.size());
+      for (std::size_t k = 0; k < count; ++k) {
+        candidates.push_back({difference, group.stamp, group.indices[k], o->indices[k]});
+      }
     }
   }
   return candidates;

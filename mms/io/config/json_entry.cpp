@@ -9,7 +9,7 @@
 
 namespace mms {
 nlohmann::json parse_json(const std::filesystem::path& path) {
-  constexpr std::uint64_t kMaxBytes = std::uint64_t{512} << 20U;  // [B]: COCO has 450 MB
+  constexpr std::uint64_t kMaxBytes = std::uint64_t{4} << 30U;  // [B]: LVIS has 1.1 GB
   constexpr std::size_t kMaxShown = 300;  // characters of a fault, which may quote the file
   try {
     return nlohmann::json::parse(read_file(path, kMaxBytes));

@@ -73,13 +73,22 @@ bool jpeg_is_whole(Bytes bytes) {
 /// C8 and CC, which are tables.
 std::optional<Size> jpeg_size(Bytes bytes) {
   std::size_t at = 2;
-  while (at + 9 <= bytes.size() && bytes[at] == '\xFF') {
+  while (at + 9 <= bytes.size()) {
     const auto marker = static_cast<std::uint8_t>(bytes[at + 1]);
+    if (bytes[at] != '\xFF' || marker == 0xFF) {  // libjpeg skips bytes between segments
+      ++at;
+      continue;
+    }
+    if (marker <= 0x01 || (marker >= 0xD0 && marker <= 0xD8)) {  // without a length
+      at += 2;
+      continue;
+    }
+    if (marker == 0xD9 || marker == 0xDA) return std::nullopt;
     const bool table = marker == 0xC4 || marker == 0xC8 || marker == 0xCC;
     if (marker >= 0xC0 && marker <= 0xCF && !table) {
       return Size{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
     }
-    at += marker == 0xFF ? 1 : 2 + big_endian(bytes, at + 2, 2);  // FF may fill
+    at += 2 + big_endian(bytes, at + 2, 2);
   }
   return std::nullopt;
 }

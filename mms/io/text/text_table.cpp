@@ -7,9 +7,9 @@ namespace mms {
 namespace {
 
 constexpr std::string_view kSeparators = " \t,\r";
-constexpr std::uint64_t kMaxTextSize = std::uint64_t{256} << 20U;  // [B]: days of a motion sensor
-constexpr std::size_t kMaxColumns = 1000;                          // of a line
-constexpr std::size_t kMaxLines = 4'000'000;
+constexpr std::uint64_t kMaxTextSize = std::uint64_t{2} << 30U;  // [B]: 20 h of EuRoC's IMU
+constexpr std::size_t kMaxColumns = 1000;                        // of a line
+constexpr std::size_t kMaxFields = 100'000'000;                  // of all lines
 
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> fields;
@@ -30,13 +30,15 @@ TextTable::TextTable(const std::filesystem::path& path)
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   std::string_view rest = text_;
   if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
+  std::size_t count = 0;
   for (int number = 1; !rest.empty(); ++number) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     std::vector<std::string_view> fields = split(rest.substr(0, end));
-    if (fields.size() > kMaxColumns || lines_.size() == kMaxLines) {
+    count += fields.size();
+    if (fields.size() > kMaxColumns || count > kMaxFields) {
       throw DataError(file_ + ":" + std::to_string(number),
                       "a text file has up to " + std::to_string(kMaxColumns) + " columns and " +
-                          std::to_string(kMaxLines) + " lines",
+                          std::to_string(kMaxFields) + " fields",
                       "it may be a file of another kind");
     }
     const bool is_comment = !fields.empty() && fields.front().starts_with('#');

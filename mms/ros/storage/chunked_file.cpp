@@ -50,9 +50,11 @@ void ChunkedFile::leave_out_implausible_chunks() {
       left -= size;
       continue;
     }
-    note_damage("its chunks from byte " + std::to_string(chunks_[i].offset) +
-                " on are larger than " + std::to_string(kMaxRatio) +
-                " times its size when decompressed; what is before is read");
+    note_damage(
+        "its chunks from byte " + std::to_string(chunks_[i].offset) + " on are larger than " +
+        std::to_string(kMaxRatio) +
+        " times its size when decompressed; what is before is read (if that is right, write it "
+        "without compression)");
     chunks_.resize(i);
     std::erase_if(contents_.messages,
                   [i](const StoredMessage& m) { return m.chunk != kNoChunk && m.chunk >= i; });

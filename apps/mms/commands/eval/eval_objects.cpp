@@ -22,8 +22,8 @@ struct ObjectArguments {
 void evaluate_objects(const ObjectArguments& arguments) {
   const std::filesystem::path truth = arguments.truth;
   const std::filesystem::path result = arguments.result;
-  const ObjectHistory objects = frames_with_pose(read_objects_truth(truth / "objects_truth.json"),
-                                                 read_trajectory_tum(result / "trajectory.tum"));
+  const ObjectHistory objects = frames_during(read_objects_truth(truth / "objects_truth.json"),
+                                              read_trajectory_tum(result / "trajectory.tum"));
   const ObjectHistory tracks = read_objects(result / "objects.json");
   const Trajectory poses = read_trajectory_tum(truth / "groundtruth.txt");
   const auto T = align_truth(poses, read_trajectory_tum(map_trajectory_file(result)));

@@ -52,7 +52,7 @@ std::vector<PreparedImage> pictures_of(const QuantizeArguments& arguments,
     const std::size_t per_source =
         std::max<std::size_t>(1, arguments.images / arguments.data.size());
     const std::size_t size = std::max<std::size_t>(1, source->size());
-    const std::size_t wanted = std::min(per_source, size);
+    const std::size_t wanted = std::min({per_source, size, arguments.images - pictures.size()});
     std::size_t taken = 0;
     for (std::size_t i = 0; taken < wanted; ++i) {
       const std::optional<Picture> picture = source->next();
