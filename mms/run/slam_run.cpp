@@ -43,7 +43,8 @@ SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
   std::string& weights = config.segmentation.weights;
   if (!options.weights.empty()) weights = options.weights;
   // The settings are kept with the results, which are viewed from other folders.
-  if (!weights.empty()) weights = absolute_path(weights_path(weights));
+  const bool is_used = options.segmenter == "network" && !weights.empty();
+  if (is_used) weights = absolute_path(weights_path(weights));
   if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
   if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
   if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;

@@ -164,7 +164,7 @@ TEST(TrackingError, FramesThatWereNotPlayedDoNotCount) {
   ObjectHistory tracks = two_walkers();
   tracks.resize(30);
   const TrackingError error =
-      evaluate_tracking(frames_with_pose(two_walkers(), played), tracks, static_sensor());
+      evaluate_tracking(frames_during(two_walkers(), played), tracks, static_sensor());
   EXPECT_EQ(error.objects, 60);
   EXPECT_EQ(error.recall, 1.0);
   EXPECT_EQ(error.idf1, 1.0);

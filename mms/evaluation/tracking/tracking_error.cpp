@@ -147,9 +147,10 @@ TrackingError evaluate_tracking(const ObjectHistory& truth, const ObjectHistory&
   return comparison.result();
 }
 
-ObjectHistory frames_with_pose(ObjectHistory history, const Trajectory& poses) {
-  const auto pose_at = by_stamp(poses);
-  std::erase_if(history, [&](const ObjectFrame& frame) { return !pose_at.contains(frame.stamp); });
+ObjectHistory frames_during(ObjectHistory history, const Trajectory& poses) {
+  std::erase_if(history, [&](const ObjectFrame& frame) {
+    return poses.empty() || frame.stamp < poses.front().stamp || poses.back().stamp < frame.stamp;
+  });
   return history;
 }
 

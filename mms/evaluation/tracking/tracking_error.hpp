@@ -42,9 +42,9 @@ struct TrackingError {
 TrackingError evaluate_tracking(const ObjectHistory& truth, const ObjectHistory& tracks,
                                 const Trajectory& sensor, const TrackingOptions& options = {});
 
-/// The frames with the stamp of a pose: those that a run has processed, if it has played a part of
-/// the recording only.
-ObjectHistory frames_with_pose(ObjectHistory history, const Trajectory& poses);
+/// The frames from the first to the last pose of a run, which may have played a part of the
+/// recording only. Frames between them that it has dropped remain.
+ObjectHistory frames_during(ObjectHistory history, const Trajectory& poses);
 
 std::vector<MetricValue> metric_values(const TrackingError& error);
 

@@ -203,7 +203,7 @@ SessionMetrics RunLog::session_metrics() const {
 }
 
 void RunLog::compare_objects(const ObjectHistory& truth) {
-  const ObjectHistory played = frames_with_pose(truth, trajectory());
+  const ObjectHistory played = frames_during(truth, trajectory());
   if (played.empty()) return;
   const auto compare = [&](const ObjectHistory& objects,
                            const Trajectory& poses) -> std::optional<TrackingError> {

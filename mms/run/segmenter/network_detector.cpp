@@ -73,7 +73,8 @@ fs::path shipped_weights(const std::string& name) {
 
 fs::path weights_path(const std::string& weights) {
   if (weights.empty()) return shipped_weights(kDefaultNetwork);
-  const bool is_name = weights.find_first_of("./") == std::string::npos && !fs::exists(weights);
+  const bool is_name =
+      weights.find_first_of("./") == std::string::npos && !fs::is_regular_file(weights);
   return is_name ? shipped_weights(weights) : fs::path(weights);
 }
 

@@ -9,8 +9,17 @@
 
 namespace mms {
 
-// Functions that need libtorch. Two libraries define them: `mms_run_torch` with libtorch, and
-// `mms_run_no_torch`, which throws, for fast start and small size.
+/// Functions of libtorch. Programs that are linked with the library `mms_run_torch` have them,
+/// others start fast and are small.
+struct TorchBackend {
+  bool (*has_gpu)() = nullptr;
+  std::unique_ptr<Detector> (*make_detector)(const SegmentationModel& model,
+                                             const std::string& where,
+                                             const SegmentationConfig& config) = nullptr;
+};
+
+/// That of this program; set before main.
+TorchBackend& torch_backend();
 
 /// Whether libtorch finds a GPU; false without libtorch.
 bool torch_has_gpu();
