@@ -41,8 +41,12 @@ void TransformTree::add(const msg::Transforms& message) {
     if (!pose.matrix().allFinite()) continue;
     Edge& edge = edges_[plain(transform.child_frame_id)];
     edge.parent = plain(transform.header.frame_id);
-    edge.T_parent_child[transform.header.stamp] = pose;
-    if (edge.T_parent_child.size() > kept_) edge.T_parent_child.erase(edge.T_parent_child.begin());
+    auto& poses = edge.T_parent_child;
+    const Timestamp stamp = transform.header.stamp;
+    // The clock went back, as where a recording is played again.
+    if (poses.size() == kept_ && stamp < poses.begin()->first) poses.clear();
+    poses[stamp] = pose;
+    if (poses.size() > kept_) poses.erase(poses.begin());
   }
 }
 

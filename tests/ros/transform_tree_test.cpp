@@ -57,6 +57,8 @@ TEST(TransformTree, KeepsTheLatestTransforms) {
   TransformTree tree(2);
   for (int i = 0; i < 5; ++i) tree.add({{transform("odom", "base", Timestamp(i), i)}});
   EXPECT_EQ(tree.stamps_above("base"), (std::vector<Timestamp>{Timestamp(3), Timestamp(4)}));
+  for (int i = 0; i < 2; ++i) tree.add({{transform("odom", "base", Timestamp(i), i)}});
+  EXPECT_EQ(tree.stamps_above("base"), (std::vector<Timestamp>{Timestamp(0), Timestamp(1)}));
 }
 
 }  // namespace
