@@ -16,7 +16,7 @@ export interface ConnectionEvents {
 
 const kFirstDelay = 500;
 const kLongestDelay = 8000;
-/** A server that has answered and is silent for longer is gone [ms]. */
+/** A server that does not answer a command for longer is gone [ms]. */
 const kSilence = 60_000;
 
 /** A WebSocket that reconnects automatically with increasing delays. */
@@ -24,8 +24,10 @@ export class Connection {
   private socket: WebSocket | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private attempt = 0;
-  /** Time of the last message [ms]; 0 before the first one, for which a live run may take long. */
-  private heard = 0;
+  /** Time of the first command without an answer [ms]; 0: none. */
+  private asked = 0;
+  /** Before its first frame a live run answers nothing. */
+  private heard = false;
 
   constructor(
     private readonly url: string,
@@ -35,7 +37,8 @@ export class Connection {
 
   connect(): void {
     clearTimeout(this.timer);
-    this.heard = 0;
+    this.asked = 0;
+    this.heard = false;
     this.events.state({ kind: 'connecting', attempt: this.attempt });
     const socket = this.open(this.url);
     socket.binaryType = 'arraybuffer';
@@ -50,10 +53,10 @@ export class Connection {
     if (this.socket === null) this.connect();
   }
 
-  /** Reconnects if the server is silent, though commands were sent that it answers. */
+  /** Reconnects if the server has not answered for long. */
   check(): void {
     const socket = this.socket;
-    if (socket === null || this.heard === 0 || Date.now() - this.heard < kSilence) return;
+    if (socket === null || this.asked === 0 || Date.now() - this.asked < kSilence) return;
     socket.close();
     this.retry(socket); // closing may take minutes
   }
@@ -62,12 +65,14 @@ export class Connection {
   send(command: Command): boolean {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
     this.socket.send(JSON.stringify(command));
+    if (this.heard && this.asked === 0) this.asked = Date.now();
     return true;
   }
 
   private receive(data: unknown): void {
     if (!(data instanceof ArrayBuffer)) return;
-    this.heard = Date.now();
+    this.asked = 0;
+    this.heard = true;
     try {
       const message = decodeMessage(data);
       this.attempt = 0; // also increases the delay for a server that accepts and closes immediately

@@ -58,10 +58,15 @@ describe('Connection', () => {
 
   it('reconnects when a server that has answered is silent', () => {
     last().accept();
+    connection.send({ type: 'pause' });
     vi.advanceTimersByTime(120_000);
     connection.check();
     expect(states).not.toContain('waiting'); // nothing was heard yet
     last().onmessage?.({ data: message({ type: 'error', message: '' }) });
+    vi.advanceTimersByTime(120_000);
+    connection.check();
+    expect(states).not.toContain('waiting'); // nothing was asked
+    connection.send({ type: 'pause' });
     vi.advanceTimersByTime(59_000);
     connection.check();
     expect(states).not.toContain('waiting');
