@@ -21,8 +21,8 @@ constexpr int kExposurePasses = 2;
 /// [-]: factor by which the automatic voxels of scans grow at least. Source: initial choice.
 constexpr double kVoxelGrowth = 1.5;
 
-/// [-]: scans in a row that call for it. Source: a second of a LiDAR, longer than the view through a
-/// door.
+/// [-]: scans in a row that call for it. Source: a second of a LiDAR, longer than the view through
+/// a door.
 constexpr int kMinFarScans = 10;
 
 /// [-]: share of the map radius that the sensor moves before the maps are trimmed to it.
