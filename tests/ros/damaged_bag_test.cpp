@@ -7,6 +7,7 @@
 #include "mms/io/text/files.hpp"
 #include "mms/ros/bag/bag_files.hpp"
 #include "mms/ros/bag/bag_reader.hpp"
+#include "mms/ros/storage/ros1_records.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/ros/sample_bags.hpp"
 #include "tests/support/memory_limit.hpp"
@@ -112,6 +113,14 @@ INSTANTIATE_TEST_SUITE_P(Formats, DamagedBags,
                            name[name.find('.')] = '_';
                            return name;
                          });
+
+TEST(Ros1Fields, AreBounded) {
+  std::string header;
+  for (int i = 0; i < 100; ++i) header += std::string("\x02\0\0\0a=", 6);
+  EXPECT_EQ(Ros1Fields(header).text("a"), "");
+  header += std::string("\x02\0\0\0b=", 6);
+  expect_in("has more than 100 values", message_of<DataError>([&] { Ros1Fields fields(header); }));
+}
 
 }  // namespace
 }  // namespace mms
