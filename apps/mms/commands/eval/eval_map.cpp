@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 struct MapArguments {
   std::string truth;  ///< PLY with labels, or the recording for the ghost points
   std::string map;
+  bool no_align = false;
   bool json = false;
   CameraOptions camera;  ///< in place of the recording's
 };
@@ -43,8 +44,13 @@ PointCloudFile read_finite(const std::string& file) {
 std::optional<Eigen::Isometry3d> truth_alignment(const MapArguments& arguments) {
   const fs::path truth = fs::path(arguments.truth).parent_path() / "groundtruth.txt";
   const fs::path poses = map_trajectory_file(fs::path(arguments.map).parent_path());
-  if (!fs::exists(truth) || !fs::exists(poses)) return std::nullopt;
-  return align_truth(read_trajectory_tum(truth), read_trajectory_tum(poses));
+  if (arguments.no_align || !fs::exists(truth) || !fs::exists(poses)) return std::nullopt;
+  auto T = align_truth(read_trajectory_tum(truth), read_trajectory_tum(poses));
+  if (!T) {
+    print_warnings({fmt::format("{} and {} have no pose in common: the ground truth is not aligned",
+                                truth.string(), poses.string())});
+  }
+  return T;
 }
 
 void evaluate_cleanness(const MapArguments& arguments) {
@@ -105,6 +111,8 @@ void add_eval_map(CLI::App& eval) {
       ->add_option("MAP", arguments->map,
                    "PLY in the same world frame, or aligned by poses beside both")
       ->required();
+  command->add_flag("--no-align", arguments->no_align,
+                    "compare as they are, without groundtruth.txt and trajectory of a run");
   add_json_flag(*command, arguments->json);
   command->callback([arguments] { evaluate_cleanness(*arguments); });
 }
