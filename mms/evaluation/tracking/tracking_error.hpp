@@ -35,7 +35,7 @@ struct TrackingError {
 /// of the previous frame are kept while possible (as in CLEAR MOT, Bernardin and Stiefelhagen
 /// 2008). IDF1 as in Ristani et al. 2016. Objects out of range or view need not be tracked, and
 /// tracked boxes on them or out of range are ignored. Starts and stops count if the object stays in
-/// view until they are recognized, or for a second; the end of the recording is one of the view.
+/// view until they are recognized, or for a second. The end of the recording ends the view.
 /// @param truth    in the world frame of `sensor`
 /// @param tracks   in the same frame
 /// @param sensor   ground-truth poses with the stamps of the frames

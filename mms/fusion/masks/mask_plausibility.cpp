@@ -165,8 +165,7 @@ std::vector<Plausibility> judge_masks(const LabeledCloud& cloud,
                                       const FusionConfig& config) {
   const std::vector<Samples> samples = sample(cloud, instances.size(), covering);
   const auto range_noise = static_cast<float>(config.noise.range);
-  // One standard deviation of noise: within more, the fronts of people side by side are flat at 3
-  // m.
+  // One standard deviation: with more, the fronts of people side by side are flat at 3 m.
   const auto tolerance = [&](const Eigen::Vector3f& point) {
     const float sigma = cloud.organised() ? config.noise.depth.sigma(point.z()) : range_noise;
     return static_cast<float>(config.planes.tolerance) + sigma;

@@ -25,7 +25,7 @@ constexpr double kMaxNoiseShare = 0.5;
 /// keyframes of a camera at rest; as the occupancy map, which is clamped so that it learns changes.
 constexpr std::uint16_t kMaxHits = 50;
 
-/// [-]: the same of scans. Source: with 50, grazing rays removed 4.5 points of SA of `lidar16`.
+/// [-]: the same of scans, all hits. Source: the ratio of their carving was chosen with all hits.
 constexpr std::uint16_t kUnbounded = std::numeric_limits<std::uint16_t>::max();
 
 /// [-]: share of the memory budget used before voxels are coarsened. Source: the coarser copy is
@@ -193,6 +193,7 @@ bool StaticMap::keep_to_budget() {
   const double limit = kMaxMemoryShare * config_.memory * 1e6;
   bool coarsened = false;
   while (static_cast<double>(grid_.memory_bytes()) > limit && grid_.blocks().size() > 1) {
+    // With the views of scans, `lidar16` lost 4.5 points of SA.
     grid_ = grid_.coarsened(!is_scan_);
     coarsened = true;
   }
