@@ -192,8 +192,12 @@ Image<float> depth_of(const msg::CompressedImage& message, const std::string& wh
   return message.format.starts_with("32FC1") ? dequantised(raw, header) : metres_of(raw, scale);
 }
 
+bool is_mask_encoding(const std::string& encoding) {
+  return encoding == "mono8" || encoding == "8UC1";
+}
+
 Image<std::uint8_t> mask_of(const msg::Image& message, const std::string& where) {
-  if (message.encoding != "mono8" && message.encoding != "8UC1") {
+  if (!is_mask_encoding(message.encoding)) {
     fail_encoding(message.encoding, "mono8 or 8UC1 of a label image", where);
   }
   return plain_image<std::uint8_t>(message, where);

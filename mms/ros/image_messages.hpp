@@ -35,6 +35,8 @@ Image<std::uint8_t> mask_of(const msg::Image& message, const std::string& where)
 /// Whether depth_of, or color_of, supports this encoding.
 bool is_depth_encoding(const std::string& encoding);
 bool is_color_encoding(const std::string& encoding);
+/// Whether mask_of supports this encoding.
+bool is_mask_encoding(const std::string& encoding);
 
 /// Messages with the given header, in the encodings rgb8, 32FC1, 16UC1 and mono8.
 msg::Image image_message(const msg::Header& header, const Image<Rgb>& image);

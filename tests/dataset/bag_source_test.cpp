@@ -240,6 +240,16 @@ TEST_P(BagSources, RegistersDepthWithFrameOfItsOwn) {
   }
 }
 
+TEST_P(BagSources, WarnsOfDepthWithAFrameOfItsOwnAndNoTransform) {
+  camera_info();
+  color(0);
+  write("/depth/image", image_message(header(0, "depth"), Image<float>(kWidth, kHeight, 1.5F)));
+  finish();
+  const Playback played = play();
+  EXPECT_EQ(played.frames.size(), 1U);
+  EXPECT_TRUE(any_has(played.warnings, "the depth of /depth/image is taken as registered"));
+}
+
 TEST_P(BagSources, RefusesDepthOfAnotherSizeWithoutTransform) {
   camera_info();
   color(0);
@@ -387,6 +397,41 @@ TEST_P(BagSources, ConvertsToBagAndBackWithoutLoss) {
     record(bag, *record_folder(back));
     expect_same_frames(scene, back);
   }
+}
+
+TEST_P(BagSources, RecordsWheelsAndGyroscope) {
+  bag_.reset();
+  const std::string scene =
+      "sim:crowd?frames=3&width=64&wheels.enabled=true&imu.enabled=true&sensor=d435";
+  const std::filesystem::path bag = folder_.path() / ("motion" + GetParam());
+  record(scene, *record_bag(bag, false));
+  const Playback a(open_dataset(scene));
+  const Playback b(open_dataset(bag));
+  ASSERT_EQ(a.frames.size(), b.frames.size());
+  const MotionSamples& before = a.frames[1].motion;
+  const MotionSamples& after = b.frames[1].motion;
+  ASSERT_FALSE(before.wheels.empty());
+  ASSERT_EQ(before.wheels.size(), after.wheels.size());
+  ASSERT_EQ(before.imu.size(), after.imu.size());
+  EXPECT_EQ(before.imu.front().stamp, after.imu.front().stamp);
+  EXPECT_TRUE(before.imu.front().rate.isApprox(after.imu.front().rate, 1e-12));
+  EXPECT_TRUE(a.frames[1].calibration->motion.T_sensor_base->isometry().isApprox(
+      b.frames[1].calibration->motion.T_sensor_base->isometry(), 1e-9));
+}
+
+TEST(FolderRecorder, KeepsDepthBeyond13Meters) {
+  const TempFolder folder;
+  Frame frame;
+  auto calibration = std::make_shared<Calibration>();
+  calibration->camera = kCamera;
+  frame.calibration = calibration;
+  frame.color = Image<Rgb>(kWidth, kHeight);
+  frame.depth = Image<float>(kWidth, kHeight, 20.12345F);
+  const auto recorder = record_folder(folder.path() / "a");
+  recorder->add(frame);
+  recorder->finish({});
+  const Playback played(open_dataset(folder.path() / "a"));
+  EXPECT_NEAR(played.frames.at(0).depth(0, 0), 20.123F, 1e-3F);
 }
 
 /// What a recorder that is killed leaves.

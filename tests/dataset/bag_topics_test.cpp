@@ -222,5 +222,16 @@ TEST(BagTopics, ErrorsListTopics) {
             Topics().add("/depth", "sensor_msgs/Image", "16UC1", 0).error({.depth = "/depth"}));
 }
 
+TEST(BagTopics, TakesNoPicturesOfMasks) {
+  Topics topics;  // of a simulator
+  topics.image("/depth/image", "32FC1")
+      .image("/rgb/image", "bgra8")
+      .image("/segmentation/colored_map", "rgb8");
+  EXPECT_EQ(topics.choose().color, "/rgb/image");
+  EXPECT_EQ(topics.choose().mask, "");
+  topics.image("/segmentation/labels_map", "mono8");
+  EXPECT_EQ(topics.choose().mask, "/segmentation/labels_map");
+}
+
 }  // namespace
 }  // namespace mms

@@ -163,6 +163,13 @@ TEST(LidarScans, ReadsMulRan) {
   EXPECT_EQ(played.source->ground_truth()[1].stamp, played.frames[1].stamp);
 }
 
+TEST(LidarScans, ReadsMulRanAsArrangedForItsPlayer) {
+  const TempFolder folder;
+  folder.write("sensor_data/Ouster/1564718964000000000.bin", ring_of_points({30}));
+  folder.write("global_pose.csv", "1564718964000000000,1,0,0,5,0,1,0,6,0,0,1,7\n");
+  EXPECT_EQ(open_dataset(folder.path())->ground_truth().size(), 1U);
+}
+
 TEST(LidarScans, ReadsNclt) {
   const TempFolder folder;
   const std::string day = "2012-01-08/";
@@ -367,8 +374,9 @@ TEST(LidarScans, ReadsOdometryBenchmark) {
       played.source->ground_truth()[1].T_world_sensor.isometry();
   EXPECT_TRUE(step.translation().isApprox(Eigen::Vector3d(2, 0, 0), 1e-9));
   folder.write(sequence + "calib.txt", "P2: 10 0 4 0 0 10 3 0 0 0 1 0\n");
-  expect_in("calib.txt: has no line 'Tr:'",
-            message_of<DataError>([&] { open_dataset(folder.path() / sequence); }));
+  const std::string error = message_of<DataError>([&] { open_dataset(folder.path() / sequence); });
+  expect_in("calib.txt: has no line 'Tr:'", error);
+  expect_in("data_odometry_calib.zip", error);
 }
 
 TEST(LidarScans, SkipsEmptyAndTruncatedScans) {
@@ -409,6 +417,7 @@ TEST(LidarScans, ReadsImagesMasksAndPointTimes) {
   EXPECT_TRUE(any_has(facts, "images: 1 of 2 scans"));
   EXPECT_TRUE(any_has(facts, "masks: 1 of 2 scans"));
   EXPECT_TRUE(any_has(facts, "point times: 1 of 2 scans"));
+  EXPECT_TRUE(any_has(played.warnings, "has no T_camera_lidar"));
 }
 
 TEST(LidarScans, ReadsMasksOnlyWhenEnabled) {
@@ -452,6 +461,19 @@ TEST(LidarScans, ReadsSharedScans) {
   const Playback played(open_dataset(shared));
   EXPECT_EQ(played.frames.size(), 6U);
   EXPECT_EQ(played.source->ground_truth().size(), 6U);
+}
+
+TEST(LidarScans, ReadsSecondsWithDecimalsInNames) {
+  const TempFolder folder;
+  for (const char* name :
+       {"1710252326.122305000", "1710252326.922305000", "1710252327.022305000"}) {
+    folder.write(std::string(name) + ".bin", kPoint);
+  }
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.frames.size(), 3U);
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(1'710'252'326'122'305'000));
+  EXPECT_EQ(played.frames[2].stamp, Timestamp(1'710'252'327'022'305'000));
+  EXPECT_TRUE(any_has(played.source->describe(), "stamps: names of the scans"));
 }
 
 }  // namespace

@@ -289,5 +289,13 @@ TEST(TartanAir, SkipsFramesWithDamagedDepth) {
   EXPECT_TRUE(any_has(played.warnings, "000000_left_depth.npy: has 5 bytes of data"));
 }
 
+TEST(NumberedImages, DepthScaleHoldsForFloatsToo) {
+  const TempFolder folder;
+  write_color(folder.path() / "rgb/0.png");
+  folder.write("depth/0.npy", npy("<f4", kWidth, kHeight, floats(kWidth * kHeight, 1500.0F)));
+  const SourceOptions options{.camera = {.intrinsics = {{10, 10, 4, 3}}, .depth_scale = 1000.0}};
+  EXPECT_EQ(Playback(open_dataset(folder.path(), options)).frames.at(0).depth(0, 0), 1.5F);
+}
+
 }  // namespace
 }  // namespace mms

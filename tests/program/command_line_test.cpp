@@ -168,6 +168,14 @@ TEST(Info, ReportsDamagedFrame) {
   expect_in("frame 1: readable", outcome.out);
 }
 
+TEST(Info, ReportsDamagedLastFrame) {
+  const TempFolder folder;
+  write_scene(folder.path() / "data", small_scene(3));
+  folder.write("data/rgb/0002.png", "");
+  const Outcome outcome = run_mms(folder.path(), {"info", "data"});
+  expect_in("frame 2: frame 0002 skipped", outcome.out);
+}
+
 TEST(Info, PrintsJson) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(3));

@@ -59,15 +59,17 @@ void check_frames(FrameSource& source, RecordingInfo& info) {
   std::vector<std::string> warnings;
   source.on_warning([&](const std::string& message) { warnings.push_back(message); });
   std::size_t position = 0;
+  std::size_t first = 0;  // of the last reading; each frame that is skipped gives a warning
   for (const std::size_t index : std::set<std::size_t>{0, info.frames / 2, info.frames - 1}) {
     if (index >= position) {
       warnings.clear();  // those of opening are in info_of
+      first = index;
       source.skip(index - position);
       const auto frame = source.next();  // or the next one that can be read
-      position = frame ? static_cast<std::size_t>(frame->index) + 1 : info.frames;
+      position = (frame ? static_cast<std::size_t>(frame->index) : info.frames) + 1;
     }
     const bool read = position == index + 1 || warnings.empty();
-    info.frame_faults[index] = read ? "" : warnings.front();
+    info.frame_faults[index] = read ? "" : warnings[std::min(index - first, warnings.size() - 1)];
   }
 }
 

@@ -115,7 +115,16 @@ void read_depth_camera(BagRecording& recording, const TransformTree& transforms,
   const std::string info = camera_info_beside(depth.topic);
   const auto T =
       transforms.lookup(recording.color.frame_id, depth.frame_id, recording.frames.front().stamp);
-  if (!T || recording.bag->count(info) == 0) return;
+  if (!T || recording.bag->count(info) == 0) {
+    recording.warnings.push_back(
+        "the depth of " + depth.topic +
+        " is taken as registered to the color images, but its "
+        "frame is '" +
+        depth.frame_id + "', theirs is '" + recording.color.frame_id + "', and the bag has no " +
+        (T ? info : "transform between them (/tf_static)") +
+        "; if it is not registered, add depth_camera to a calibration file");
+    return;
+  }
   const bool rectified = depth.topic.find("rect") != std::string::npos;
   const CameraIntrinsics camera = intrinsics_of(recording.bag->read<msg::CameraInfo>(info, 0),
                                                 rectified, recording.bag->where(info, 0));

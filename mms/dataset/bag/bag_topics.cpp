@@ -308,7 +308,9 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
                               [&] { return find_camera_info(choice, chosen.color); });
     chosen.mask = pick(given.mask, "--topic-mask", {kImage}, [&] {
       return choice.best([&](const BagTopic& topic) {
-        return topic.type == kImage && is_mask_name(topic.name) ? 1 : 0;
+        if (topic.type != kImage || !is_mask_name(topic.name)) return 0;
+        // Others are pictures of masks, or numbers of objects.
+        return is_mask_encoding(encoding_of(topic)) ? 1 : 0;
       });
     });
   }

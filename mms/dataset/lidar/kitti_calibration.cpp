@@ -26,7 +26,9 @@ std::vector<double> matrix_of(const TextTable& table, const std::string& file,
                     "expected the 12 of a 3x4 matrix");
   }
   throw DataError(file, "has no line '" + name + ":'",
-                  "it is not KITTI's; give another with --calibration");
+                  name == "Tr" ? "KITTI's archives of images have such a file; take that of "
+                                 "data_odometry_calib.zip, or give another with --calibration"
+                               : "it is not KITTI's; give another with --calibration");
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ struct LidarRecording {
   std::shared_ptr<const Calibration> calibration;
   Trajectory ground_truth;
   std::vector<std::string> facts;
+  std::vector<std::string> warnings;
 };
 
 class LidarSource final : public RecordedSource {
@@ -36,6 +37,7 @@ class LidarSource final : public RecordedSource {
     set_assumed_rate(recording_.assumed_rate);
     set_map_truth(folder / "map_truth.ply");
     set_objects_truth(folder / "objects_truth.json");
+    for (const std::string& warning : recording_.warnings) warn(warning);
   }
 
   std::size_t size() const override { return recording_.scans.size(); }
@@ -96,6 +98,18 @@ ScanFormat format_of(const ScanLayout& layout, std::vector<std::string>& facts) 
   return format;
 }
 
+/// Warns of images whose place relative to the LiDAR is not known.
+void check_extrinsics(LidarRecording& recording) {
+  const bool has_images = std::any_of(
+      recording.scans.begin(), recording.scans.end(),
+      [](const ScanFiles& files) { return !files.color.empty() || !files.mask.empty(); });
+  const Eigen::Isometry3d& T = recording.calibration->T_camera_lidar.isometry();
+  if (!has_images || !T.matrix().isIdentity(0.0)) return;
+  recording.warnings.emplace_back(
+      "the calibration has no T_camera_lidar: camera and LiDAR are taken to have the same axes, "
+      "so masks label other points; add it to calibration.yaml");
+}
+
 }  // namespace
 
 bool is_lidar_scans_layout(const std::vector<std::string>& names) {
@@ -119,6 +133,7 @@ std::unique_ptr<FrameSource> open_lidar_scans(const fs::path& folder,
   recording.ground_truth = read_scan_truth(folder, layout, recording.stamps,
                                            calibration.T_camera0_lidar, recording.facts);
   find_companions(recording.scans, folder, *recording.calibration, options, recording.facts);
+  check_extrinsics(recording);
   return std::make_unique<LidarSource>(std::move(recording), folder);
 }
 

@@ -31,6 +31,7 @@ constexpr ScanFormat kNewerCollege{.kind = Kind::kCloudFile, .has_columns = true
 constexpr KnownLayout kLayouts[] = {
     {"KITTI raw", ScanDataset::kKittiRaw, "velodyne_points/data", ".bin", kFloats},
     {"MulRan", ScanDataset::kMulRan, "Ouster", ".bin", kMulRan},
+    {"MulRan", ScanDataset::kMulRan, "sensor_data/Ouster", ".bin", kMulRan},
     {"NCLT", ScanDataset::kNclt, "velodyne_sync", ".bin", kNclt},
     {"Newer College", ScanDataset::kNewerCollege, "raw_format/ouster_scan", ".pcd", kNewerCollege},
     {"Newer College", ScanDataset::kNewerCollege, "ouster_scan", ".pcd", kNewerCollege},

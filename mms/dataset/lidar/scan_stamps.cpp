@@ -48,6 +48,15 @@ std::vector<Timestamp> start_stamps_in_names(const std::vector<fs::path>& scans)
   return stamps;
 }
 
+/// Seconds with decimals at the end of a name, as in 1710252326.122305000.
+std::optional<Timestamp> decimal_stamp(std::string_view text, std::string_view decimals) {
+  const std::size_t dot = text.size() - decimals.size() - 1;
+  const std::string_view whole = last_digits(text.substr(0, dot));
+  const auto seconds = parse_integer(whole);
+  if (!seconds || *seconds < kFirstSecond || *seconds >= kEndSecond) return std::nullopt;
+  return parse_stamp(text.substr(dot - whole.size()));
+}
+
 /// Stamp in a name, as in N008__LIDAR_TOP__1532402927647951.pcd.bin.
 std::optional<Timestamp> stamp_in_name(const fs::path& scan) {
   const std::string name = name_of(scan);
@@ -55,6 +64,9 @@ std::optional<Timestamp> stamp_in_name(const fs::path& scan) {
   const std::string_view digits = last_digits(text);
   const auto number = parse_integer(digits);
   if (!number) return std::nullopt;
+  if (text.substr(0, text.size() - digits.size()).ends_with(".")) {
+    return decimal_stamp(text, digits);
+  }
   if (const auto stamp = stamp_of_number(*number)) return stamp;
   if (!text.substr(0, text.size() - digits.size()).ends_with("_")) return std::nullopt;
   const auto before = last_digits(text.substr(0, text.size() - digits.size() - 1));

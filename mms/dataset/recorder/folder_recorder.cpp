@@ -35,13 +35,19 @@ bool keeps(const Image<float>& depth, double scale) {
 }
 
 /// Bags have depth in meters without the original scale. If no common scale is exact, 16 bits cover
-/// 13 m in steps of 0.2 mm.
+/// 13 m in steps of 0.2 mm, or 65 m in millimeters where the first image needs that.
 double depth_scale_of(const Frame& frame) {
   const double said = frame.calibration->depth_scale;
   if (keeps(frame.depth, said)) return said;
   const auto* exact = std::find_if(std::begin(kDepthScales), std::end(kDepthScales),
                                    [&](double scale) { return keeps(frame.depth, scale); });
-  return exact == std::end(kDepthScales) ? 5000.0 : *exact;
+  if (exact != std::end(kDepthScales)) return *exact;
+  constexpr double kFine = 5000.0;
+  constexpr double kCoarse = 1000.0;
+  constexpr float kReach = 65535.0F / 5000.0F;  // [m]
+  const auto& pixels = frame.depth.pixels();
+  const bool is_far = std::any_of(pixels.begin(), pixels.end(), [](float d) { return d > kReach; });
+  return is_far ? kCoarse : kFine;
 }
 
 template <class Sample>

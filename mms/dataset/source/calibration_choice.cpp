@@ -53,6 +53,7 @@ void choose_calibration(RgbdRecording& recording, const CameraOptions& options,
   check_camera(*calibration->camera, recording.folder.string() + ": camera");
   if (options.depth_scale) {
     calibration->depth_scale = *options.depth_scale;
+    recording.float_depth_scale = *options.depth_scale;
     recording.facts.push_back("depth scale: given, " + format_number(*options.depth_scale));
   }
   recording.calibration = std::make_shared<const Calibration>(*calibration);
