@@ -85,9 +85,8 @@ std::optional<Input> read(const AsyncPipeline::Source& source, const AsyncOption
   const Clock::time_point start = Clock::now();
   std::optional<Frame> frame = source();
   if (!frame) return std::nullopt;
-  const bool live = !options.realtime && options.arrival;
   return Input{std::move(*frame), milliseconds(Clock::now() - start),
-               live ? options.arrival() : std::nullopt};
+               options.arrival ? options.arrival() : std::nullopt};
 }
 
 Processed finished(Input input, FrameResult result) {
@@ -137,14 +136,17 @@ class StageThreads {
         keyframes_(kKeyframeCapacity) {}
 
   void read_all(const AsyncPipeline::Source& source, std::atomic<std::size_t>& dropped) {
+    const Clock::time_point begin = Clock::now();
     Pace pace;
     LeftOutFrames left_out;
     while (std::optional<Input> input = read(source, options_)) {
       if (options_.realtime) {
-        input->due = pace.wait_for(input->frame.stamp);
+        // Frames of a sensor come by themselves; those from before the run are too old.
+        const bool is_stale = input->due && *input->due < begin;
+        if (!input->due) input->due = pace.wait_for(input->frame.stamp);
         left_out.give_to(input->frame);
         left_out.add(input->frame);  // which is gone where there is no room
-        if (inputs_.try_push(std::move(*input))) {
+        if (!is_stale && inputs_.try_push(std::move(*input))) {
           left_out = {};
         } else {
           ++dropped;

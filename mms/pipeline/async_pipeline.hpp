@@ -20,8 +20,8 @@ struct AsyncOptions {
   bool realtime = false;
   bool live = false;          ///< a sensor: no pose waits for loop closure
   double max_mask_age = 0.1;  ///< [s]; 0: every frame has masks of its own
-  /// When the frame that the source gave last arrived, if it is live; called after the source. Not
-  /// used in real time, where frames have their times by their stamps.
+  /// When the frame that the source gave last arrived, if it is live; called after the source. In
+  /// real time, frames without it have their times by their stamps.
   std::function<std::optional<std::chrono::steady_clock::time_point>()> arrival{};
 };
 

@@ -4,6 +4,8 @@
 
 #include "mms/io/config/config_assignments.hpp"
 #include "mms/io/config/config_yaml.hpp"
+#include "mms/run/record/run_record.hpp"
+#include "mms/run/segmenter/network_detector.hpp"
 
 namespace mms {
 
@@ -18,6 +20,19 @@ SystemConfig sensor_settings(const Calibration* calibration, const std::filesyst
   for (std::string& warning : assign(config, assignments, where)) {
     warnings.push_back(std::move(warning));
   }
+  return config;
+}
+
+SystemConfig with_options(SystemConfig config, const RunOptions& options) {
+  std::string& weights = config.segmentation.weights;
+  if (!options.weights.empty()) weights = options.weights;
+  // The settings are kept with the results, which are viewed from other folders.
+  const bool is_used = options.segmenter == "network" && !weights.empty();
+  if (is_used) weights = absolute_path(weights_path(weights));
+  if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
+  if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
+  if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;
+  if (!options.loops.empty()) config.global_map.enabled = options.loops == "on";
   return config;
 }
 

@@ -7,6 +7,7 @@
 
 #include "mms/core/calibration.hpp"
 #include "mms/pipeline/system_config.hpp"
+#include "mms/run/record/run_options.hpp"
 
 namespace mms {
 
@@ -20,5 +21,9 @@ namespace mms {
 SystemConfig sensor_settings(const Calibration* calibration, const std::filesystem::path& file,
                              std::span<const std::string> assignments, const std::string& where,
                              std::vector<std::string>& warnings);
+
+/// The settings with the options of a run that replace some of them: network, fusion and loops.
+/// @throws FileError if the network has a name and is not there
+SystemConfig with_options(SystemConfig config, const RunOptions& options);
 
 }  // namespace mms

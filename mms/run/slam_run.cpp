@@ -38,17 +38,9 @@ std::size_t frames_to_process(const RunOptions& options, const FrameSource& sour
 /// @param warnings  receives warnings about the settings
 SystemConfig load_settings(const RunOptions& options, const FrameSource& source,
                            const std::optional<Frame>& first, std::vector<std::string>& warnings) {
-  SystemConfig config =
-      sensor_settings(source.calibration().get(), options.config, options.set, "--set", warnings);
-  std::string& weights = config.segmentation.weights;
-  if (!options.weights.empty()) weights = options.weights;
-  // The settings are kept with the results, which are viewed from other folders.
-  const bool is_used = options.segmenter == "network" && !weights.empty();
-  if (is_used) weights = absolute_path(weights_path(weights));
-  if (options.fusion == "multimodal") config.fusion.mode = FusionMode::kMultimodal;
-  if (options.fusion == "vision") config.fusion.mode = FusionMode::kVision;
-  if (options.fusion == "none") config.fusion.mode = FusionMode::kNone;
-  if (!options.loops.empty()) config.global_map.enabled = options.loops == "on";
+  SystemConfig config = with_options(
+      sensor_settings(source.calibration().get(), options.config, options.set, "--set", warnings),
+      options);
   if (first && config.measure_depth_noise) {
     config.noise.depth = measured_noise(config.noise.depth, first->depth);
   }

@@ -115,6 +115,12 @@ TEST_F(Camera, IsListed) {
   EXPECT_EQ(run({"cameras", "--json"}).out, "[]\n");
 }
 
+TEST_F(Camera, TakesNameOfNetwork) {
+  expect_success(
+      run({"run", "camera:openni2", "--weights", "nano", "--frames", "3", "-o", "named"}));
+  expect_in("nano.safetensors", read_file(temp_.path() / "named/config.yaml"));
+}
+
 TEST_F(Camera, GivesPosesOfRecordingAndEndsWhenUnplugged) {
   expect_success(localize(recording(), "recorded"));
   const Outcome live =

@@ -46,5 +46,16 @@ TEST(LiveSource, WaitEndsWithoutFrame) {
   EXPECT_FALSE(source.wait({}));
 }
 
+TEST(LiveSource, KeepsWarningsUntilThereIsAHandler) {
+  HandSource source(2);
+  source.warn("unplugged");
+  std::vector<std::string> heard;
+  source.on_warning([&](const std::string& message) { heard.push_back(message); });
+  source.on_warning({});
+  source.warn("dropped");
+  source.on_warning([&](const std::string& message) { heard.push_back(message); });
+  EXPECT_EQ(heard, (std::vector<std::string>{"unplugged", "dropped"}));
+}
+
 }  // namespace
 }  // namespace mms

@@ -87,5 +87,13 @@ TEST(FrameQueue, EndGivesWhatWaits) {
   EXPECT_FALSE(queue.pop());
 }
 
+TEST(FrameQueue, DropsNothingAfterItsEnd) {
+  FrameQueue queue(1);
+  queue.push(frame_of(0));
+  queue.close();
+  for (const int i : {1, 2, 3}) queue.push(frame_of(i));
+  EXPECT_EQ(queue.dropped(), 0U);
+}
+
 }  // namespace
 }  // namespace mms

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
@@ -212,6 +213,37 @@ TEST(AsyncPipelineRealtime, DroppedFramesHandOnTheirMotion) {
   });
   EXPECT_GT(pipeline.dropped(), 0U);
   EXPECT_EQ(sensed, expected);
+}
+
+/// Frames that wait since the network was loaded must not delay all later ones.
+TEST(AsyncPipelineRealtime, DoesNotHoldBackLiveFrames) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kPeriod = std::chrono::milliseconds(40);
+  SlamSystem system = mask_system();
+  const auto first = Clock::now() - std::chrono::seconds(1);
+  int next = 0;
+  Clock::time_point arrived;
+  const auto source = [&]() -> std::optional<Frame> {
+    if (next == 50) return std::nullopt;
+    arrived = first + next * kPeriod;
+    std::this_thread::sleep_until(arrived);
+    Frame frame = scene_frame(static_cast<std::size_t>(next) % kFrames);
+    frame.index = next;
+    frame.stamp = Timestamp(next * std::int64_t{40'000'000});
+    ++next;
+    return frame;
+  };
+  AsyncPipeline pipeline(
+      {.threads = 2, .realtime = true, .live = true, .arrival = [&] { return arrived; }});
+  std::int64_t earliest = 50;
+  std::size_t processed = 0;
+  pipeline.run(system, source, [&](const Processed& p) {
+    earliest = std::min(earliest, p.frame.index);
+    ++processed;
+  });
+  EXPECT_GE(earliest, 25);  // those before are older than the run
+  EXPECT_GT(processed, 0U);
+  EXPECT_EQ(processed + pipeline.dropped(), 50U);
 }
 
 }  // namespace

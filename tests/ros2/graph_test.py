@@ -242,9 +242,15 @@ def check_discovery():
 
 def check_settings():
     """A wrong setting is an error before any frame."""
+    Path("taken").mkdir()
+    Path("taken", "x").write_text("")
     for words, message in ((("--set", "mapping.nothing=1"), "mapping.nothing"),
                            (("--config", "none.yaml"), "none.yaml"),
-                           (("--weights", "none.safetensors"), "none.safetensors")):
+                           (("--weights", "none.safetensors"), "none.safetensors"),
+                           (("--weights", "small"), "small"),
+                           (("--map", "none.mmsmap"), "none.mmsmap"),
+                           (("--localize",), "--localize"),
+                           (("-o", "taken"), "taken")):
         result = subprocess.run([MMS, "ros2", *words], capture_output=True, text=True, timeout=WAIT,
                                 check=False)
         check(result.returncode == 1 and message in result.stderr, f"{words}: {result.stderr}")

@@ -12,7 +12,10 @@
 #include "apps/mms/console/viewing.hpp"
 #include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
+#include "mms/map_file/map_file.hpp"
 #include "mms/run/results/result_folder.hpp"
+#include "mms/run/results/run_map.hpp"
+#include "mms/run/segmenter/network_detector.hpp"
 #include "mms/run/sensor_settings.hpp"
 
 namespace mms {
@@ -128,9 +131,17 @@ void play_and_write(SlamRun& run, const ConsoleOptions& console) {
 /// Finds faults before the wait for the first frame.
 void check_settings(const RunOptions& options) {
   std::vector<std::string> warnings;  // the run has them again
-  sensor_settings(nullptr, options.config, options.set, "--set", warnings);
-  if (!options.weights.empty() && !std::filesystem::exists(options.weights)) {
-    throw FileError(options.weights, "no such file");
+  const SystemConfig config = with_options(
+      sensor_settings(nullptr, options.config, options.set, "--set", warnings), options);
+  if (options.segmenter == "network") {
+    const std::filesystem::path weights = weights_path(config.segmentation.weights);
+    if (!std::filesystem::exists(weights)) throw FileError(weights.string(), "no such file");
+  }
+  check_map_options(
+      {options.map, options.save_map, options.localize, options.overwrite, options.data}, config);
+  if (!options.map.empty()) const MapFile readable(options.map, MapFile::Mode::kRead);
+  if (!options.output.empty() && !options.overwrite) {
+    const ResultFolder free(options.output, options.data, false);  // removed if it is new
   }
 }
 

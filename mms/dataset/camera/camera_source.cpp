@@ -65,8 +65,13 @@ void CameraSource::capture() {
 bool CameraSource::take_frames(FrameAssembler& assembler) {
   bool any = false;
   while (std::optional<Frame> frame = assembler.next()) {
+    if (last_stamp_ && frame->stamp + FrameAssembler::kMaxStepBack < *last_stamp_) {
+      warn(address_ + ": its clock went back: the run ends with the frames so far");
+      ended_ = true;
+      return any;
+    }
+    if (last_stamp_ && frame->stamp <= *last_stamp_) continue;
     last_frame_ = Clock::now();
-    if (last_stamp_ && frame->stamp <= *last_stamp_) continue;  // its clock was reset
     last_stamp_ = frame->stamp;
     frame->calibration = shared_;
     if (recorder_) recorder_->add(*frame);

@@ -22,6 +22,7 @@ class FrameQueue {
 
   void push(Frame frame) {
     const std::scoped_lock lock(mutex_);
+    if (closed_ || ended_) return;  // nobody takes it
     frames_.push_back({std::move(frame), Clock::now()});
     if (frames_.size() > capacity_) drop_oldest();
     filled_.notify_one();

@@ -34,11 +34,15 @@ void LiveSource::skip(std::size_t count) {
 void LiveSource::on_warning(WarningHandler handler) {
   const std::scoped_lock lock(handler_mutex_);
   handler_ = std::move(handler);
+  if (!handler_) return;
+  for (const std::string& message : std::exchange(unheard_, {})) handler_(message);
 }
 
 void LiveSource::warn(const std::string& message) {
+  constexpr std::size_t kMaxUnheard = 20;
   const std::scoped_lock lock(handler_mutex_);
-  if (handler_) handler_(message);
+  if (handler_) return handler_(message);
+  if (unheard_.size() < kMaxUnheard) unheard_.push_back(message);
 }
 
 void LiveSource::push(Frame frame) {

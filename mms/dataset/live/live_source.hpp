@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mms/dataset/live/frame_queue.hpp"
 #include "mms/dataset/source/frame_source.hpp"
@@ -38,7 +39,7 @@ class LiveSource : public FrameSource {
   void add_motion(MotionRecording) override {}
   void on_warning(WarningHandler handler) override;
 
-  /// Passes a line to the warning handler; in any thread.
+  /// Passes a line to the warning handler, or to the next one while there is none; in any thread.
   void warn(const std::string& message);
 
  protected:
@@ -66,8 +67,9 @@ class LiveSource : public FrameSource {
   std::shared_ptr<const Calibration> raw_calibration_;  ///< of `registration_`
   std::optional<DepthRegistration> registration_;
 
-  std::mutex handler_mutex_;  ///< guards the handler
+  std::mutex handler_mutex_;  ///< guards all below
   WarningHandler handler_;
+  std::vector<std::string> unheard_;  ///< warnings for the next handler
 };
 
 }  // namespace mms

@@ -10,11 +10,11 @@
 #include "mms/map_file/map_composition.hpp"
 
 namespace mms {
-namespace {
 
 namespace fs = std::filesystem;
 
-void check_options(const MapFileOptions& options, const SystemConfig& config) {
+void check_map_options(const MapFileOptions& options, const SystemConfig& config) {
+  if (options.map.empty() && options.save_map.empty() && !options.localize) return;
   const std::string option = options.map.empty() ? "--save-map" : "--map";
   if (options.localize && options.map.empty()) {
     throw DataError("--localize", "needs a map", "--map FILE");
@@ -30,6 +30,8 @@ void check_options(const MapFileOptions& options, const SystemConfig& config) {
                     "--map FILE goes on in it, --overwrite replaces it");
   }
 }
+
+namespace {
 
 std::string size_of(const CameraIntrinsics& camera) {
   return fmt::format("{}x{}, fx {:.1f}", camera.width, camera.height, camera.fx);
@@ -48,8 +50,8 @@ RunMap::RunMap(const MapFileOptions& options, const SystemConfig& config) {
   session_.name = options.recording;
   session_.program = MMS_VERSION;
   session_.settings = dump_config(config);
-  if (options.map.empty() && options.save_map.empty() && !options.localize) return;
-  check_options(options, config);
+  check_map_options(options, config);
+  if (options.map.empty() && options.save_map.empty()) return;
   if (options.localize) use_ = MapUse::kLocalizeOnly;
   path_ = options.save_map.empty() ? options.map : options.save_map;
   if (options.map.empty()) {

@@ -22,6 +22,10 @@ struct MapFileOptions {
   std::string recording{};           ///< its name in the map
 };
 
+/// Checks options of map files before the files are opened.
+/// @throws Error for those that exclude each other, and a map to be written that exists
+void check_map_options(const MapFileOptions& options, const SystemConfig& config);
+
 /// Map files of a run: the earlier map that it starts from, and the one that it writes. That one is
 /// locked for the run, and changes only when the run ends.
 class RunMap {

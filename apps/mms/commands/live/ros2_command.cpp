@@ -56,13 +56,13 @@ void add_diagnosis(Ros2Node& node, Ros2Source& source, Ros2Results& results) {
 /// @returns the options of the next one, if the services ask for it
 std::optional<RunOptions> run_once(const Ros2CommandOptions& options, const RunOptions& run) {
   std::vector<std::string> warnings;  // the run has them again
-  const SystemConfig config = sensor_settings(nullptr, run.config, run.set, "--set", warnings);
+  const SystemConfig config =
+      with_options(sensor_settings(nullptr, run.config, run.set, "--set", warnings), run);
   Ros2Source* source = nullptr;  // set before the node starts
   Ros2Node node(options.node,
                 [&source](const std::string& fault) { source->count_damaged(fault); });
   Ros2Results results(node, options.results);
-  const bool closes_loops = run.loops.empty() ? config.global_map.enabled : run.loops == "on";
-  Ros2Restart restart(closes_loops,
+  Ros2Restart restart(config.global_map.enabled,
                       [&source](const std::string& message) { source->warn(message); });
   auto owned = std::make_unique<Ros2Source>(
       node, options.inputs, options.queue,
