@@ -125,5 +125,21 @@ TEST(MaskExchange, ClosingEndsWait) {
   other.join();
 }
 
+TEST(MaskExchange, ForgetsMasksOfEarlierClock) {
+  MaskExchange exchange(kLong, kLong);
+  exchange.sent(Timestamp(100));
+  exchange.received(Timestamp(100), masks_of(1));  // never taken
+  exchange.forget();
+  exchange.sent(Timestamp(1));
+  std::thread link([&] {
+    std::this_thread::sleep_for(20ms);
+    exchange.received(Timestamp(1), masks_of(7));
+  });
+  const auto masks = exchange.wait_for(Timestamp(1));
+  link.join();
+  ASSERT_TRUE(masks);
+  EXPECT_EQ(masks->width, 7);
+}
+
 }  // namespace
 }  // namespace mms

@@ -96,6 +96,15 @@ std::optional<Segmentation> MaskExchange::wait_for(Timestamp stamp) {
   return result;
 }
 
+void MaskExchange::forget() {
+  const std::scoped_lock lock(mutex_);
+  sent_.clear();
+  masks_.clear();
+  done_.reset();
+  waits_since_.reset();
+  arrived_.notify_all();
+}
+
 void MaskExchange::close() {
   const std::scoped_lock lock(mutex_);
   closed_ = true;

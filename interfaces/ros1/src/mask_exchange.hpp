@@ -45,6 +45,9 @@ class MaskExchange {
   /// The masks of a frame; nullopt if they did not arrive in time.
   std::optional<Segmentation> wait_for(Timestamp stamp);
 
+  /// Forgets all images and masks: stamps of another clock follow.
+  void forget();
+
   /// Makes all waiting threads continue without masks.
   void close();
 

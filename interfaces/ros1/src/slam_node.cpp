@@ -82,6 +82,15 @@ std::unique_ptr<Segmenter> SlamNode::make_segmenter() {
 }
 
 void SlamNode::take(Frame frame) {
+  if (last_stamp_ && frame.stamp + FrameAssembler::kMaxStepBack < *last_stamp_) {
+    ROS_WARN("the clock went back: map, objects and trajectory begin again");
+    exchange_.forget();
+    queue_.interrupt();  // the pipeline ends, and the next one begins with this frame
+  } else if (last_stamp_ && frame.stamp <= *last_stamp_) {
+    ROS_WARN_THROTTLE(kRepeat, "a frame is skipped: its stamp is not later than that before");
+    return;
+  }
+  last_stamp_ = frame.stamp;
   {
     const std::scoped_lock lock(mutex_);
     sensor_frame_ = sensor_->frame_id();

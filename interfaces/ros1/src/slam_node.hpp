@@ -55,6 +55,8 @@ class SlamNode {
   ros::ServiceServer save_map_, reset_;
   ros::WallTimer timer_;
 
+  std::optional<Timestamp> last_stamp_;  ///< of `take`, whose callers wait for each other
+
   std::mutex mutex_;  ///< guards all below
   std::condition_variable changed_;
   int in_flight_ = 0;  ///< frames between queue and result
