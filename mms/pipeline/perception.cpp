@@ -1,11 +1,34 @@
 #include "mms/pipeline/perception.hpp"
 
 #include <cassert>
+#include <string>
 #include <utility>
 
+#include "mms/core/error.hpp"
 #include "mms/pipeline/stage_timer.hpp"
 
 namespace mms {
+namespace {
+
+void check_length(const Frame& frame, const char* what, std::size_t length) {
+  const std::size_t points = frame.scan.points.size();
+  if (length == 0 || length == points) return;
+  throw DataError("frame " + frame.name,
+                  std::string(what) + " has " + std::to_string(length) +
+                      " numbers, but the scan has " + std::to_string(points) + " points",
+                  "give one for each point, or none");
+}
+
+void check(const Frame& frame) {
+  if (!frame.calibration) {
+    throw DataError("frame " + frame.name, "has no calibration",
+                    "a LiDAR alone takes an empty mms::Calibration");
+  }
+  check_length(frame, "time_offset", frame.scan.time_offset.size());
+  check_length(frame, "intensity", frame.scan.intensity.size());
+}
+
+}  // namespace
 
 Perception::Perception(const SystemConfig& config, std::unique_ptr<Segmenter> segmenter)
     : segmenter_(std::move(segmenter)),
@@ -23,6 +46,7 @@ TimedSegmentation Perception::segment(const Frame& frame) {
 
 PerceivedFrame Perception::perceive(const Frame& frame, const TimedSegmentation& masks) {
   assert(fusion_thread_.is_owner());
+  check(frame);
   PerceivedFrame result;
   result.motion = frame.motion;
   result.motion_calibration = frame.calibration->motion;

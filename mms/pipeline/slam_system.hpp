@@ -35,7 +35,8 @@ class SlamSystem {
   }
 
   /// Localizes a frame and integrates it into the maps. Frames come in the order of their stamps.
-  /// @throws DataError when the frame's images and calibration disagree in size
+  /// @throws DataError when the frame's images, scan and calibration disagree in size, or it has no
+  /// calibration
   FrameResult process(const Frame& frame) {
     FrameResult result = localize(perceive(frame, segment(frame)));
     if (result.wants_relocalization) {

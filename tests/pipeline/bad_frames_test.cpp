@@ -95,5 +95,18 @@ TEST(BadFrames, ReportsFullyMaskedFrameLost) {
   EXPECT_GT(result.dynamic_share, 0.9);
 }
 
+TEST(BadFrames, RefusesScansOfDifferentLengthsAndFramesWithoutCalibration) {
+  SlamSystem system = mask_system();
+  Frame frame;
+  frame.scan.points.assign(2000, Eigen::Vector3f(1.0F, 2.0F, 3.0F));
+  EXPECT_THROW(system.process(frame), DataError);
+  frame.calibration = std::make_shared<const Calibration>();
+  frame.scan.time_offset.assign(3000, 0.0F);
+  EXPECT_THROW(system.process(frame), DataError);
+  frame.scan.time_offset.clear();
+  frame.scan.intensity.assign(10, 1.0F);
+  EXPECT_THROW(system.process(frame), DataError);
+}
+
 }  // namespace
 }  // namespace mms
