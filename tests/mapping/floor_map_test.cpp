@@ -156,5 +156,16 @@ TEST_F(TiltedCamera, VoxelsAreUniqueAndSorted) {
   EXPECT_EQ(all.size(), voxels_.occupied.size() + voxels_.free.size());
 }
 
+TEST(FloorGrid, FloorIsFreeForVoxelsOfAnySize) {
+  for (const double size : {0.1, 0.2, 0.3, 0.4, 0.8, 1.2}) {
+    for (const int z : {-1, 0}) {
+      const OccupancyVoxels floor{size, {{0, 0, z}, {0, 1, z}, {1, 0, z}, {1, 1, z}}, {}};
+      EXPECT_EQ(first_cell(floor), Occupancy::kFree) << size << " m, layer " << z;
+    }
+    EXPECT_EQ(first_cell({size, {}, {{0, 0, 0}}}), Occupancy::kFree) << size << " m, empty";
+  }
+  EXPECT_EQ(first_cell({0.4, {{0, 0, 1}, {0, 0, 2}}, {}}), Occupancy::kOccupied) << "a wall";
+}
+
 }  // namespace
 }  // namespace mms

@@ -70,11 +70,12 @@ class CellState {
 
   Occupancy of(const VoxelKey& key, Occupancy state) const {
     const double height = (key.z + 0.5) * size_;
-    if (height < -kMaxFloorDip) return Occupancy::kUnknown;
+    // The layers on both sides of the plane hold the floor, whatever their height.
+    if (height < -std::max(kMaxFloorDip, size_)) return Occupancy::kUnknown;
     if (state == Occupancy::kFree) {
-      return height < config_.free_height ? Occupancy::kFree : Occupancy::kUnknown;
+      return height < std::max(config_.free_height, size_) ? Occupancy::kFree : Occupancy::kUnknown;
     }
-    if (height < config_.min_height) return Occupancy::kFree;
+    if (height < std::max(config_.min_height, size_)) return Occupancy::kFree;
     return height < config_.max_height ? Occupancy::kOccupied : Occupancy::kUnknown;
   }
 
