@@ -39,14 +39,17 @@ std::string summary_table(const std::vector<MetricSection>& summary) {
 
 /// Closed loops, and why others were rejected.
 std::string loops_note(const ReportLoops& loops) {
-  if (loops.closed.empty() && loops.rejected.empty()) return "";
+  if (loops.closed.empty() && loops.rejected.empty() && loops.to_earlier_map == 0) return "";
   std::string reasons;
   for (const auto& [reason, count] : loops.rejected) {
     reasons += (reasons.empty() ? " Rejected: " : ", ") + std::to_string(count) + " " + reason;
   }
   if (!reasons.empty()) reasons += ".";
+  const std::string to_map =
+      loops.to_earlier_map > 0 ? ", " + std::to_string(loops.to_earlier_map) + " to the map" : "";
   return "<p class=\"note\">" + std::to_string(loops.closed.size()) +
-         (loops.closed.size() == 1 ? " loop." : " loops.") + escape_html(reasons) + "</p>";
+         (loops.closed.size() == 1 ? " loop" : " loops") + to_map + "." + escape_html(reasons) +
+         "</p>";
 }
 
 std::string list_of(const std::string& title, const std::vector<std::string>& lines) {

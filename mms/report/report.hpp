@@ -33,6 +33,7 @@ struct ReportFrame {
 struct ReportLoops {
   std::vector<Eigen::Vector3d> odometry;  ///< positions before the correction, by frame [m]
   std::vector<std::pair<std::size_t, std::size_t>> closed;     ///< frames of the accepted ones
+  std::int64_t to_earlier_map = 0;                             ///< number of accepted ones
   std::vector<std::pair<std::string, std::int64_t>> rejected;  ///< their number by reason
 };
 

@@ -20,6 +20,8 @@ constexpr int kOdometryColor = 4;
 constexpr int kLoopColor = 3;
 /// Largest number of values per stage.
 constexpr std::size_t kMaxRuns = 400;
+/// Largest number of loops: lines of more than 2000 values are downsampled, and lose gaps.
+constexpr std::size_t kMaxLoops = 600;
 
 using Values = std::vector<double>;
 using Positions = std::vector<Eigen::Vector3d>;
@@ -78,10 +80,12 @@ void add_path(SvgPlot& plot, const std::string& name, int color, const Positions
   plot.add_line(name, color, x, y);
 }
 
-/// Both ends of each loop, with gaps between them.
+/// Both ends of each loop, with gaps between them; of many loops some.
 Positions loop_lines(const RunReport& report) {
   Positions lines;
-  for (const auto& [earlier, later] : report.loops.closed) {
+  const auto& closed = report.loops.closed;
+  for (std::size_t i = 0; i < closed.size(); i += closed.size() / kMaxLoops + 1) {
+    const auto& [earlier, later] = closed[i];
     lines.push_back(position(report.frames[earlier]));
     lines.push_back(position(report.frames[later]));
     lines.emplace_back(Eigen::Vector3d::Constant(kNaN));

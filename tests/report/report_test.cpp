@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -153,6 +154,18 @@ TEST(Report, WritesFile) {
   std::filesystem::remove(path);
   EXPECT_EQ(content, report_html(sample(3)));
   EXPECT_THROW(write_report_html("/nonexistent/folder/report.html", sample(3)), FileError);
+}
+
+TEST(Report, ManyLoopsStayLinesOfTheirOwn) {
+  RunReport report = sample(1000);
+  report.loops.odometry.assign(1000, Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < 900; ++i) report.loops.closed.emplace_back(i, i + 100);
+  const std::string html = report_html(report);
+  const std::size_t begin = html.find("class=\"line c3\"");
+  const std::string line = html.substr(begin, html.find("/>", begin) - begin);
+  const auto moves = std::count(line.begin(), line.end(), 'M');
+  EXPECT_GE(moves, 300);
+  EXPECT_EQ(moves, std::count(line.begin(), line.end(), 'L'));
 }
 
 }  // namespace

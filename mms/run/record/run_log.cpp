@@ -167,7 +167,10 @@ void RunLog::sum_up_loops(const GlobalMap& map) {
   const auto is_own = [&](std::size_t keyframe) {
     return map.records()[keyframe].session >= map.earlier_sessions();
   };
-  for (const KeyframeRecord& record : map.records()) loop_stamps_.push_back(record.stamp);
+  for (std::size_t i = 0; i < map.records().size(); ++i) {
+    loop_stamps_.push_back(map.records()[i].stamp);
+    own_keyframes_.push_back(is_own(i));
+  }
   std::copy_if(map.loops().begin(), map.loops().end(), std::back_inserter(loops_),
                [&](const Loop& loop) { return is_own(loop.query); });
   places_ = session_places(map, static_cast<std::uint32_t>(places_.size()));

@@ -74,6 +74,8 @@ class RunLog {
   const std::vector<Loop>& loops() const { return loops_; }
   /// Stamp of a keyframe of the global map.
   Timestamp stamp_of_keyframe(std::size_t keyframe) const { return loop_stamps_[keyframe]; }
+  /// Whether a keyframe of the global map is of this run, not of an earlier map.
+  bool is_own_keyframe(std::size_t keyframe) const { return own_keyframes_[keyframe]; }
   /// Places of the run's sessions, by their number; of one without loops before `finish`.
   const std::vector<SessionPlace>& places() const { return places_; }
 
@@ -100,6 +102,7 @@ class RunLog {
   std::size_t picture_stride_ = 1;
   std::vector<Loop> loops_;
   std::vector<Timestamp> loop_stamps_;  ///< by keyframe of the global map
+  std::vector<bool> own_keyframes_;     ///< likewise
   std::vector<SessionPlace> places_{1};
   bool has_image_ = false;
   bool compare_masks_ = false;

@@ -19,8 +19,8 @@ MapCloud result_map(const Mapping& mapping, MapFrame frame,
 
 std::vector<std::string> ply_comments(MapFrame frame) {
   return {"units: m", frame == MapFrame::kCamera
-                          ? "frame: world, the first camera frame, x right, y down, z forward"
-                          : "frame: world, the first LiDAR frame, x forward, y left, z up"};
+                          ? "frame: first camera frame of the map, x right, y down, z forward"
+                          : "frame: first LiDAR frame of the map, x forward, y left, z up"};
 }
 
 PointCloudFile file_of(const MapCloud& map, MapFrame frame) {

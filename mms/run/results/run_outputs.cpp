@@ -83,6 +83,28 @@ std::vector<ReportFrame> report_frames(const RunLog& log) {
   return frames;
 }
 
+/// Positions by odometry, each session moved to the map at the first of its frames that is known
+/// there; NaN for sessions without one.
+std::vector<Eigen::Vector3d> odometry_in_map(const RunLog& log) {
+  std::map<std::uint32_t, Eigen::Isometry3d> T_map_world;  // by session
+  for (const LoggedFrame& frame : log.frames()) {
+    const auto pose = log.corrected_pose(frame);
+    if (!pose) continue;
+    T_map_world.try_emplace(
+        frame.session,
+        Eigen::Isometry3d(pose->isometry() * frame.T_world_sensor.isometry().inverse()));
+  }
+  std::vector<Eigen::Vector3d> positions;
+  for (const LoggedFrame& frame : log.frames()) {
+    const auto T = T_map_world.find(frame.session);
+    const Eigen::Vector3d unknown =
+        Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    positions.push_back(T == T_map_world.end() ? unknown
+                                               : T->second * frame.T_world_sensor.translation());
+  }
+  return positions;
+}
+
 /// The loops within the run.
 ReportLoops report_loops(const RunLog& log) {
   ReportLoops result;
@@ -91,6 +113,10 @@ ReportLoops report_loops(const RunLog& log) {
   std::array<std::int64_t, kLoopOutcomes> counts{};
   for (const Loop& loop : log.loops()) {
     ++counts[static_cast<std::size_t>(loop.outcome)];
+    if (!log.is_own_keyframe(loop.candidate)) {  // its stamp is of another recording
+      result.to_earlier_map += loop.outcome == LoopOutcome::kAccepted;
+      continue;
+    }
     const auto earlier = frames.find(log.stamp_of_keyframe(loop.candidate));
     const auto later = frames.find(log.stamp_of_keyframe(loop.query));
     const bool is_within = earlier != frames.end() && later != frames.end();
@@ -103,9 +129,7 @@ ReportLoops report_loops(const RunLog& log) {
     result.rejected.emplace_back(to_string(outcome), counts[i]);
   }
   if (!are_corrected(log.places())) return result;
-  for (const LoggedFrame& frame : log.frames()) {
-    result.odometry.push_back(frame.T_world_sensor.translation());
-  }
+  result.odometry = odometry_in_map(log);
   return result;
 }
 
