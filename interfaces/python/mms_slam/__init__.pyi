@@ -193,7 +193,7 @@ class MapCloud:
 class Slam:
     def __init__(self, config: _Path | None = None, calibration: Calibration | None = None, *,
                  settings: Mapping[str, object] = ..., segmenter: str = "masks",
-                 weights: str | None = None, map: _Path | None = None,
+                 weights: _Path | None = None, map: _Path | None = None,
                  save_map: _Path | None = None, localize: bool = False,
                  overwrite: bool = False) -> None: ...
     def process(self, color: _UInt8, depth: NDArray[np.float32] | NDArray[np.uint16], stamp: int,

@@ -11,6 +11,9 @@ namespace mms::python {
 
 /// Made with the first frame, whose noise and calibration it needs.
 SlamSystem& LiveSlam::make_system(const Calibration* calibration) {
+  if (!system_ && takes_max_depth_ && calibration != nullptr && calibration->max_depth) {
+    config_.static_map.surface.max_depth = *calibration->max_depth;
+  }
   if (!system_) system_.emplace(config_, std::move(segmenter_));
   if (!std::exchange(has_map_, true)) {
     try {

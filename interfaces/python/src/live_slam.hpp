@@ -19,10 +19,14 @@ namespace mms::python {
 /// and all results are empty. Knows nothing of Python.
 class LiveSlam {
  public:
+  /// @param takes_max_depth  whether the calibration of the first frame replaces the largest depth
   /// @throws Error for map files that cannot be read or written
   LiveSlam(const SystemConfig& config, std::unique_ptr<Segmenter> segmenter,
-           const MapFileOptions& map)
-      : config_(config), segmenter_(std::move(segmenter)), map_(map, config) {}
+           const MapFileOptions& map, bool takes_max_depth)
+      : config_(config),
+        takes_max_depth_(takes_max_depth),
+        segmenter_(std::move(segmenter)),
+        map_(map, config) {}
 
   /// Localizes the frame that `fill` makes of the last one, whose memory is used again.
   /// @throws std::invalid_argument for a stamp that is not later than that before
@@ -70,6 +74,7 @@ class LiveSlam {
 
   std::mutex mutex_;
   SystemConfig config_;
+  bool takes_max_depth_;
   std::unique_ptr<Segmenter> segmenter_;  ///< null once there is a system
   std::optional<SlamSystem> system_;      ///< made with the first frame
   RunMap map_;

@@ -50,7 +50,8 @@ void fail_type(const py::array& array, const char* name, const char* allowed) {
   throw py::value_error(std::string(name) + ": has the type " + type + ", allowed: " + allowed);
 }
 
-std::vector<Eigen::Vector3f> points_of(const py::array& array, const char* name) {
+std::vector<Eigen::Vector3f> points_of(const py::array& given, const char* name) {
+  const py::array array = packed(given);
   const auto* data = data_of<float>(array, name, "float32", {-1, 3});
   std::vector<Eigen::Vector3f> points(static_cast<std::size_t>(array.shape(0)));
   if (points.empty()) return points;
@@ -62,7 +63,8 @@ std::vector<Eigen::Vector3f> points_of(const py::array& array, const char* name)
 std::vector<float> numbers_of(const std::optional<py::array>& array, const char* name,
                               py::ssize_t count) {
   if (!array) return {};
-  const auto* data = data_of<float>(*array, name, "float32", {count});
+  const py::array whole = packed(*array);
+  const auto* data = data_of<float>(whole, name, "float32", {count});
   return {data, data + count};
 }
 

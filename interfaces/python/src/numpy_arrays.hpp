@@ -26,6 +26,11 @@ void check_layout(const py::array& array, const char* name, const Shape& shape);
 /// @throws value_error that names the argument, the type that it has, and those that are allowed
 [[noreturn]] void fail_type(const py::array& array, const char* name, const char* allowed);
 
+/// The array without gaps: itself, or a copy.
+inline py::array packed(const py::array& array) {
+  return py::array::ensure(array, py::array::c_style);
+}
+
 /// The numbers of an array, without a copy.
 /// @param type  name of T in numpy
 /// @throws value_error if it has another type or shape, or gaps

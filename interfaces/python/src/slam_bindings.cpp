@@ -81,9 +81,9 @@ MapFileOptions map_files(const std::optional<Path>& map, const std::optional<Pat
 class Slam {
  public:
   Slam(const std::optional<Path>& config, std::shared_ptr<Calibration> calibration,
-       const py::dict& settings, const std::string& segmenter,
-       const std::optional<std::string>& weights, const std::optional<Path>& map,
-       const std::optional<Path>& save_map, bool localize, bool overwrite)
+       const py::dict& settings, const std::string& segmenter, const std::optional<Path>& weights,
+       const std::optional<Path>& map, const std::optional<Path>& save_map, bool localize,
+       bool overwrite)
       : source_(segmenter) {
     calibration_ = calibration ? std::move(calibration) : std::make_shared<Calibration>();
     if (weights && segmenter != "network") {
@@ -93,11 +93,22 @@ class Slam {
     std::vector<std::string> warnings;
     SystemConfig system = sensor_settings(calibration_.get(), config.value_or(Path()),
                                           assignments_of(settings), "settings", warnings);
-    if (weights) system.segmentation.weights = *weights;
+    if (weights) system.segmentation.weights = weights->string();
     warn(warnings);
     const MapFileOptions files = map_files(map, save_map, localize, overwrite);
+    // Without a calibration, the first frame brings the largest depth, unless the settings have it.
+    bool takes_max_depth = false;
+    if (!calibration_->max_depth) {
+      Calibration other;
+      other.max_depth = 1.0;  // another one than the default
+      const SystemConfig with_other = sensor_settings(
+          &other, config.value_or(Path()), assignments_of(settings), "settings", warnings);
+      takes_max_depth =
+          with_other.static_map.surface.max_depth != system.static_map.surface.max_depth;
+    }
     const py::gil_scoped_release release;
-    slam_ = std::make_unique<LiveSlam>(system, make_segmenter_of(segmenter, system), files);
+    slam_ = std::make_unique<LiveSlam>(system, make_segmenter_of(segmenter, system), files,
+                                       takes_max_depth);
   }
 
   FrameResult process(const py::array& color, const py::array& depth, std::int64_t stamp,
@@ -162,11 +173,14 @@ class Slam {
   /// Without the lock of Python, but for the warnings after it.
   template <class Call>
   std::invoke_result_t<Call> with_warnings(const Call& call) {
+    std::vector<std::string> warnings;
     auto result = [&] {
       const py::gil_scoped_release release;
-      return call();
+      auto value = call();
+      warnings = slam_->take_warnings();  // waits for other threads
+      return value;
     }();
-    warn(slam_->take_warnings());
+    warn(warnings);
     return result;
   }
 
@@ -243,7 +257,10 @@ void bind_results(py::module_& module) {
           "until the place in an earlier map, or of a session after a loss, is recognized.")
       .def_readonly("dynamic_share", &FrameResult::dynamic_share,
                     "Share of the valid points that are dynamic, 0 to 1.")
-      .def_readonly("objects", &FrameResult::objects, "List of TrackedObject, by id.")
+      // Copies: a box that is kept would keep the points of its frame.
+      .def_property_readonly(
+          "objects", [](const FrameResult& r) { return r.objects; },
+          "List of TrackedObject, by id.")
       .def_readonly("warnings", &FrameResult::warnings, "Lines about wheels and gyroscope.")
       .def_property_readonly(
           "points",
@@ -294,8 +311,8 @@ void bind_slam(py::module_& module) {
       "Localizes and maps, one frame at a time. Threads may share it: they take turns.\n"
       "Other threads of Python run meanwhile.")
       .def(py::init<const std::optional<Path>&, std::shared_ptr<Calibration>, const py::dict&,
-                    const std::string&, const std::optional<std::string>&,
-                    const std::optional<Path>&, const std::optional<Path>&, bool, bool>(),
+                    const std::string&, const std::optional<Path>&, const std::optional<Path>&,
+                    const std::optional<Path>&, bool, bool>(),
            py::arg("config") = py::none(), py::arg("calibration") = py::none(), py::kw_only(),
            py::arg("settings") = py::dict(), py::arg("segmenter") = "masks",
            py::arg("weights") = py::none(), py::arg("map") = py::none(),

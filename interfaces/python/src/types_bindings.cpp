@@ -3,6 +3,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <memory>
+#include <sstream>
 
 #include "interfaces/python/src/bindings.hpp"
 #include "interfaces/python/src/numpy_arrays.hpp"
@@ -10,6 +11,7 @@
 #include "mms/core/frame.hpp"
 #include "mms/core/object_box.hpp"
 #include "mms/io/config/calibration_formats.hpp"
+#include "mms/io/config/calibration_ranges.hpp"
 #include "mms/io/results/objects_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 
@@ -46,7 +48,9 @@ py::array poses_of(const py::object& self) {
                     {sizeof(double), 4 * sizeof(double)});
 }
 
-Trajectory make_trajectory(const py::array& stamps, const py::array& poses) {
+Trajectory make_trajectory(const py::array& given_stamps, const py::array& given_poses) {
+  const py::array stamps = packed(given_stamps);
+  const py::array poses = packed(given_poses);
   const auto* nanoseconds = data_of<int64_t>(stamps, "stamps", "int64", {-1});
   const auto* numbers = data_of<double>(poses, "poses", "float64", {stamps.shape(0), 4, 4});
   Trajectory trajectory;
@@ -66,13 +70,18 @@ CameraIntrinsics make_camera(double fx, double fy, double cx, double cy, int wid
   return camera;
 }
 
+void check_number(double value, const char* name, const Range& range, const char* unit) {
+  if (value >= range.min && value <= range.max) return;
+  std::ostringstream text;
+  text << name << ": is " << value << ", allowed: " << range.min << " to " << range.max << unit;
+  throw py::value_error(text.str());
+}
+
 std::shared_ptr<Calibration> make_calibration(const std::optional<CameraIntrinsics>& camera,
                                               double depth_scale, std::optional<double> max_depth,
                                               const Eigen::Matrix4d& T_camera_lidar) {
-  if (!(depth_scale > 0.0)) {
-    throw py::value_error("depth_scale: is " + std::to_string(depth_scale) +
-                          ", allowed: more than 0 (depth image units per meter)");
-  }
+  check_number(depth_scale, "depth_scale", kDepthScaleRange, " (depth image units per meter)");
+  if (max_depth) check_number(*max_depth, "max_depth", kMaxDepthRange, " m");
   auto calibration = std::make_shared<Calibration>();
   calibration->camera = camera;
   calibration->depth_scale = depth_scale;

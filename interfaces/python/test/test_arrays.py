@@ -1,5 +1,6 @@
 """Arrays are views of the library's memory; what an argument cannot be is said by name."""
 import gc
+import weakref
 
 import numpy as np
 import pytest
@@ -92,7 +93,10 @@ def test_other_arguments_are_named(slam, frames):
          "times: has the shape (4,), allowed: (5,)"),
         (lambda: mms_slam.Trajectory(np.array([1]), np.zeros((1, 4, 4))),
          "poses: is no rigid transform"),
-        (lambda: mms_slam.Calibration(depth_scale=0.0), "depth_scale: is 0.0"),
+        (lambda: mms_slam.Calibration(depth_scale=0.0), "depth_scale: is 0, allowed"),
+        (lambda: mms_slam.Calibration(depth_scale=float("inf")), "depth_scale: is inf"),
+        (lambda: mms_slam.Calibration(max_depth=-3.0), "max_depth: is -3, allowed: 0.1 to 1000 m"),
+        (lambda: mms_slam.Calibration(max_depth=float("nan")), "max_depth: is nan"),
     ]
     for call, text in cases:
         with pytest.raises(ValueError) as fault:
@@ -109,3 +113,28 @@ def test_trajectory_goes_there_and_back():
     trajectory = mms_slam.Trajectory(np.array([5, 6, 7]), poses)
     assert np.array_equal(trajectory.poses, poses)
     assert trajectory.stamps.tolist() == [5, 6, 7]
+
+
+def test_objects_do_not_keep_the_points_of_their_frame():
+    recording = mms_slam.Recording("sim:stop_and_go?frames=8&width=320")
+    slam = mms_slam.Slam(calibration=recording.calibration)
+    for frame in recording:
+        result = slam.process_frame(frame)
+        if result.objects:
+            break
+    velocity, alive = result.objects[0].box.velocity, weakref.ref(result)
+    del result
+    gc.collect()
+    assert alive() is None and np.isfinite(velocity).all()
+
+
+def test_arrays_that_are_copied_may_have_gaps(slam, frames):
+    for frame in frames[:5]:
+        slam.process_frame(frame)
+    one = slam.trajectory()
+    two = mms_slam.Trajectory(one.stamps[::2], one.poses[::2])
+    assert np.array_equal(two.poses, one.poses[::2])
+    scan = np.random.default_rng(0).normal(size=(500, 4)).astype(np.float32)
+    a = mms_slam.Slam().process_scan(scan[:, :3], 1, intensity=scan[:, 3])
+    b = mms_slam.Slam().process_scan(scan[:, :3].copy(), 1)
+    assert np.array_equal(a.points, b.points, equal_nan=True)

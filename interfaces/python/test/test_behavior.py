@@ -26,7 +26,7 @@ def test_errors_have_the_text_of_the_program(mms, tmp_path):
         (mms_slam.FileError, lambda: mms_slam.Slam(tmp_path / "none.yaml"),
          ("run", SCENE, "-c", tmp_path / "none.yaml")),
         (mms_slam.FileError,
-         lambda: mms_slam.Slam(segmenter="network", weights=str(tmp_path / "w.safetensors")),
+         lambda: mms_slam.Slam(segmenter="network", weights=tmp_path / "w.safetensors"),
          ("run", SCENE, "--weights", tmp_path / "w.safetensors")),
     ]
     for kind, call, words in cases:
@@ -184,3 +184,49 @@ def test_interrupt_leaves_a_whole_state(slam, frames):
     for frame in frames:
         alone.process_frame(frame)
     assert np.array_equal(slam.trajectory().poses, alone.trajectory().poses)
+
+
+def test_threads_that_wait_for_a_slam_stop_no_others():
+    frames = list(mms_slam.Recording("sim:warehouse_loop?frames=40&width=320"))
+    slam, stop, gaps = mms_slam.Slam(calibration=frames[0].calibration), threading.Event(), []
+    slam.process_frame(frames[0])
+
+    def tick():
+        last = time.perf_counter()
+        while not stop.is_set():
+            time.sleep(0.0005)
+            now = time.perf_counter()
+            gaps.append(now - last)
+            last = now
+
+    def read():
+        while not stop.is_set():
+            slam.static_map()
+
+    threads = [threading.Thread(target=target) for target in (tick, read, read)]
+    for thread in threads:
+        thread.start()
+    begin = time.perf_counter()
+    for frame in frames[1:]:
+        slam.process_frame(frame)
+    took = time.perf_counter() - begin
+    stop.set()
+    for thread in threads:
+        thread.join()
+    # Each frame waits for two maps; a thread that holds the lock meanwhile stops the clock so long.
+    assert sum(gap for gap in gaps if gap > 0.02) < 0.5 * took
+
+
+def test_text_that_is_no_utf8_is_shown(mms, tmp_path):
+    path = tmp_path / "bad.tum"
+    path.write_bytes(b"0 0.\xff1 0 0 0 0 0 1\n")
+    with pytest.raises(mms_slam.DataError, match=r"bad\.tum:1: .*\\xff"):
+        mms_slam.Trajectory.read(path)
+    folder = os.fsencode(tmp_path) + b"/M\xfcnchen"
+    mms("simulate", "crowd", "--frames", "4", "--seed", "1", "-o", tmp_path / "sim")
+    os.rename(tmp_path / "sim", folder)
+    depth = sorted(os.listdir(folder + b"/depth"))
+    with open(folder + b"/depth/" + depth[1], "wb") as image:
+        image.write(b"no image")
+    with pytest.warns(UserWarning, match=r"M\\xfcnchen"):
+        assert len(list(mms_slam.Recording(folder))) == 3

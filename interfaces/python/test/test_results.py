@@ -132,3 +132,11 @@ def test_evaluation_gives_numbers_of_run(mms, folder_of, tmp_path):
     assert mms_slam.evaluate_trajectory(mms_slam.Trajectory.read(tmp_path / "truth.tum"),
                                         read) == json.loads(printed)
     assert sum(len(frame.objects) for frame in mms_slam.read_objects(folder / "objects.json")) > 0
+
+
+def test_frames_bring_their_largest_depth(folder_of, tmp_path):
+    scene = "sim:warehouse_loop?frames=10&width=320"  # its camera maps up to 9 m
+    slam = mms_slam.Slam()
+    for frame in mms_slam.Recording(scene):
+        slam.process_frame(frame)
+    check_files(slam, folder_of(scene, "--segmenter", "masks"), tmp_path)

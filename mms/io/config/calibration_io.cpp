@@ -14,7 +14,6 @@ namespace mms {
 namespace {
 
 constexpr Range kLens{-1e4, 1e4};
-constexpr Range kMaxDepth{0.1, 1000.0};
 constexpr std::string_view kCameraKeys[] = {
     "fx", "fy", "cx", "cy", "width", "height", "distortion", "depth_scale", "max_depth"};
 
@@ -169,7 +168,7 @@ Calibration read_calibration(const std::filesystem::path& path) {
   calibration.depth_scale =
       map.number(required(map, path.string(), "depth_scale"), "depth_scale", kDepthScaleRange);
   if (const auto node = map.find("max_depth")) {
-    calibration.max_depth = map.number(*node, "max_depth", kMaxDepth);
+    calibration.max_depth = map.number(*node, "max_depth", kMaxDepthRange);
   }
   if (has_depth_camera) {
     calibration.depth_camera = read_depth_camera(map.child("depth_camera"), path.string());
