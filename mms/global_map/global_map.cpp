@@ -122,6 +122,7 @@ void GlobalMap::restore(GlobalMapContent content, MapUse use) {
   for (KeyframeRecord& record : content.records) {
     graph_.add_node(record);
     recognizer_.add(record.keypoints.descriptors);
+    scan_places_.add(record.scan);
     records_.push_back(std::move(record));
   }
   graph_.restore(std::move(content.poses), std::move(content.loops));
@@ -140,16 +141,19 @@ std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
 }
 
 std::vector<Loop> GlobalMap::add(KeyframeRecord record,
-                                 const std::optional<Transform<Global, Sensor>>& expected) {
+                                 const std::optional<Transform<Global, Sensor>>& expected,
+                                 const std::vector<Loop>& known) {
   graph_.add_node(record);
-  const std::vector<Loop> accepted =
-      first_loop_ ? join_session(record) : find_loop(record, expected);
+  const std::vector<Loop> accepted = first_loop_             ? join_session(record)
+                                     : record.is_pose_only() ? take(known)
+                                                             : find_loop(record, expected);
   const bool is_in_map = std::any_of(accepted.begin(), accepted.end(), [&](const Loop& loop) {
     return graph_.is_fixed(loop.candidate);
   });
   // The map has the place already: its memory grows with places, not with time.
   if (is_in_map || has_enough_views(record, accepted)) record = pose_of(record);
   recognizer_.add(record.keypoints.descriptors);
+  scan_places_.add(record.scan);
   records_.push_back(std::move(record));
   relocalizer_.reset();
   graph_.solve_if_needed(accepted);
@@ -205,6 +209,13 @@ std::vector<Loop> GlobalMap::join_session(const KeyframeRecord& first) {
   graph_.add_check(loop);
   graph_.add_edges({loop});
   return {loop};
+}
+
+/// Takes loops that another map has found.
+std::vector<Loop> GlobalMap::take(const std::vector<Loop>& known) {
+  for (const Loop& loop : known) graph_.add_check(loop);
+  graph_.add_edges(known);
+  return known;
 }
 
 /// Whether a keyframe may be the end of a loop of the present session.
@@ -269,7 +280,6 @@ std::vector<std::size_t> GlobalMap::around(const Transform<Global, Sensor>& expe
 /// then those around the expected place, then those that place recognition finds.
 std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record,
                                        const std::optional<Transform<Global, Sensor>>& expected) {
-  if (record.is_pose_only()) return {};  // of another map, which has its place already
   const std::vector<Eigen::Isometry3d>& poses = graph_.poses();
   const std::size_t end = graph_.first_recent(config_.min_path);
   const int min_inliers = min_inliers_of(config_.loops, record);
@@ -279,18 +289,26 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record,
       loop.outcome = LoopOutcome::kUnlikely;
     return graph_.add_check(std::move(loop));
   };
+  std::vector<Loop> accepted;
+  bool is_found = false;
   for (const std::size_t candidate : nearby(end)) {
     const Eigen::Isometry3d by_odometry = poses[candidate].inverse() * poses.back();
-    if (passes(verifier_.verify_nearby(records_, poses, candidate, record, by_odometry))) {
-      return confirmation_.confirm(graph_, min_inliers);
-    }
+    is_found = passes(verifier_.verify_nearby(records_, poses, candidate, record, by_odometry));
+    if (!is_found) continue;
+    accepted = confirmation_.confirm(graph_, min_inliers);
+    break;
   }
+  // A session that is not in the map is compared with it at known places of its own, too.
+  if (is_found && is_joined(session())) return accepted;
   std::vector<std::size_t> candidates;
   if (expected && !is_joined(session())) candidates = around(*expected);
-  for (const PlaceCandidate& candidate :
-       recognizer_.find(record.keypoints.descriptors,
-                        record.is_scan() ? graph_.first_recent(kScanPath) : end, kMaxRecognized)) {
-    if (may_match(candidate.keyframe)) candidates.push_back(candidate.keyframe);
+  const auto is_usable = [&](std::size_t i) {
+    return may_match(i) && !(is_found && graph_.shares_frame(i));
+  };
+  for (const PlaceCandidate& candidate : recognizer_.find(
+           record.keypoints.descriptors, record.is_scan() ? graph_.first_recent(kScanPath) : end,
+           kMaxRecognized, is_usable)) {
+    candidates.push_back(candidate.keyframe);
   }
   for (const std::size_t i : candidates) {
     // Another session of the run: after a loss, people may cover the view, and nothing was moved
@@ -299,10 +317,45 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record,
                                !run_sessions_.empty() && records_[i].session >= earlier_sessions_;
     if (passes(is_after_loss ? lost_verifier_.verify(records_, poses, i, record)
                              : verifier_.verify(records_, poses, i, record))) {
-      return confirmation_.confirm(graph_, min_inliers);
+      const std::vector<Loop> others = confirmation_.confirm(graph_, min_inliers);
+      accepted.insert(accepted.end(), others.begin(), others.end());
+      return accepted;
     }
   }
-  return {};
+  if (!record.is_scan() || is_joined(session())) return accepted;
+  // A sensor that stands has no local map.
+  std::optional<Loop> loop = place_of_scan(
+      record, poses, [&](std::size_t i) { return may_match(i) && !graph_.shares_frame(i); });
+  if (!loop) return accepted;
+  // Two scans join the session, since a whole scan fits no other place.
+  loop->inliers = 2 * min_inliers;
+  if (!passes(*std::move(loop))) return accepted;
+  const std::vector<Loop> others = confirmation_.confirm(graph_, min_inliers);
+  accepted.insert(accepted.end(), others.begin(), others.end());
+  return accepted;
+}
+
+std::optional<Loop> GlobalMap::place_of_scan(const KeyframeRecord& scan,
+                                             const std::vector<Eigen::Isometry3d>& poses,
+                                             const ScanPlaces::IsUsable& is_usable) const {
+  const auto share_frame = [&](std::size_t a, std::size_t b) {
+    return graph_.are_in_one_frame(a, b);
+  };
+  return find_place_of_scan({records_, poses, scan_places_, verifier_, is_usable, share_frame},
+                            config_.loops, scan);
+}
+
+/// The record of a lost scan, of which no scans around are known.
+KeyframeRecord GlobalMap::record_of_lost(const GlobalKeyframe& frame) const {
+  KeyframeRecord record = record_of(frame);
+  if (frame.cloud.organised()) return record;
+  LocalScans alone;
+  alone.add(frame.cloud, frame.T_world_sensor);
+  const Eigen::Vector3d up =
+      frame.T_world_sensor.isometry().linear().transpose() * SensorAxes::lidar().up;
+  record.scan = make_scan_view(frame.cloud);
+  record.scan.T_sensor_floor = floor_frame(alone.points(), up);
+  return record;
 }
 
 /// Poses of all keyframes in the world of the present session: its own by odometry, those of others
@@ -342,13 +395,15 @@ std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame)
     relocalizer_.reset();
     return std::nullopt;
   }
-  assert(frame.cloud.organised());
   const std::vector<Eigen::Isometry3d> poses = poses_in_world();
   const auto is_usable = [&](std::size_t keyframe) { return may_match(keyframe); };
   const auto shares_frame = [&](std::size_t keyframe) { return graph_.shares_frame(keyframe); };
-  const auto loop =
-      relocalizer_.find({records_, poses, recognizer_, lost_verifier_, is_usable, shares_frame},
-                        record_of(frame), frame.has_pose);
+  const auto place_of = [&](const KeyframeRecord& scan) {
+    return place_of_scan(scan, poses, is_usable);
+  };
+  const auto loop = relocalizer_.find(
+      {records_, poses, recognizer_, lost_verifier_, is_usable, shares_frame, place_of},
+      record_of_lost(frame), frame.has_pose);
   if (!loop) return std::nullopt;
   return relocalization_at(*loop, poses);
 }

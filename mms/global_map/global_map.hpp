@@ -14,6 +14,7 @@
 #include "mms/global_map/loops/loop.hpp"
 #include "mms/global_map/loops/loop_verification.hpp"
 #include "mms/global_map/loops/lost_verification.hpp"
+#include "mms/global_map/loops/scan_place.hpp"
 #include "mms/global_map/places/place_recognizer.hpp"
 #include "mms/global_map/pose_correction.hpp"
 #include "mms/global_map/relocalizer.hpp"
@@ -101,8 +102,10 @@ class GlobalMap {
   /// The same with a record, as those of another map; its session is that of the last one, or the
   /// next.
   /// @param expected  where a user says that it is, while its session is not in the map
+  /// @param known     loops of a record of which only the pose is kept
   std::vector<Loop> add(KeyframeRecord record,
-                        const std::optional<Transform<Global, Sensor>>& expected = std::nullopt);
+                        const std::optional<Transform<Global, Sensor>>& expected = std::nullopt,
+                        const std::vector<Loop>& known = {});
 
   /// Brings the poses up to date with all loops. After the last keyframe.
   void finish() { graph_.finish(); }
@@ -143,6 +146,7 @@ class GlobalMap {
 
  private:
   KeyframeRecord record_of(const GlobalKeyframe& keyframe) const;
+  KeyframeRecord record_of_lost(const GlobalKeyframe& frame) const;
   Relocalization relocalization_at(const Loop& loop, const std::vector<Eigen::Isometry3d>& poses);
   void describe_scan(const GlobalKeyframe& keyframe, KeyframeRecord& record);
   std::vector<Eigen::Isometry3d> poses_in_world() const;
@@ -154,6 +158,10 @@ class GlobalMap {
   std::vector<Loop> find_loop(const KeyframeRecord& record,
                               const std::optional<Transform<Global, Sensor>>& expected);
   std::vector<Loop> join_session(const KeyframeRecord& first);
+  std::vector<Loop> take(const std::vector<Loop>& known);
+  std::optional<Loop> place_of_scan(const KeyframeRecord& scan,
+                                    const std::vector<Eigen::Isometry3d>& poses,
+                                    const ScanPlaces::IsUsable& is_usable) const;
 
   GlobalMapConfig config_;
   FeatureExtractor extractor_;
@@ -162,6 +170,7 @@ class GlobalMap {
   LostFrameVerifier lost_verifier_;
   LocalScans scans_;
   PlaceRecognizer recognizer_;
+  ScanPlaces scan_places_;
   std::deque<KeyframeRecord> records_;
   LoopGraph graph_;
   LoopConfirmation confirmation_;

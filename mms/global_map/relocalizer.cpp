@@ -53,12 +53,12 @@ bool can_move(const StampedPose& before, const StampedPose& now) {
          se3::angle(motion) < kMaxStepTurn + kMaxTurnRate * seconds;
 }
 
-/// The place of a lost frame by its keypoints: the candidate with most of them.
+/// The place of a lost frame by its keypoints, the candidate with most of them, or as a scan.
 std::optional<Loop> recognize(const KnownPlaces& places, const KeyframeRecord& frame) {
+  if (frame.is_scan()) return places.place_of_scan(frame);
   std::optional<Loop> best;
-  for (const PlaceCandidate& candidate :
-       places.recognizer.find(frame.keypoints.descriptors, places.records.size(), kMaxRecognized)) {
-    if (!places.is_usable(candidate.keyframe)) continue;
+  for (const PlaceCandidate& candidate : places.recognizer.find(
+           frame.keypoints.descriptors, places.records.size(), kMaxRecognized, places.is_usable)) {
     Loop loop = places.verifier.verify(places.records, places.poses, candidate.keyframe, frame);
     if (loop.outcome != LoopOutcome::kAccepted) continue;
     if (!best || loop.inliers > best->inliers) best = std::move(loop);

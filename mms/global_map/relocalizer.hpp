@@ -23,6 +23,7 @@ struct KnownPlaces {
   const LostFrameVerifier& verifier;
   std::function<bool(std::size_t keyframe)> is_usable;
   std::function<bool(std::size_t keyframe)> shares_frame;  ///< with the present session
+  std::function<std::optional<Loop>(const KeyframeRecord&)> place_of_scan;
 };
 
 /// Finds the place of a lost sensor from frame to frame.

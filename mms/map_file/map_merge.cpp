@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "mms/core/error.hpp"
 #include "mms/map_file/map_composition.hpp"
@@ -26,6 +28,20 @@ std::uint64_t digest_of(const GlobalMapContent& content) {
     }
   }
   return digest;
+}
+
+/// Accepted loops of the keyframes of which only the pose is kept, by keyframe.
+/// @param offset  number of the first keyframe in the joined map
+std::vector<std::vector<Loop>> loops_of_poses(const GlobalMapContent& content, std::size_t offset) {
+  std::vector<std::vector<Loop>> loops(content.records.size());
+  for (Loop loop : content.loops) {
+    const std::size_t query = loop.query;
+    if (loop.outcome != LoopOutcome::kAccepted || !content.records[query].is_pose_only()) continue;
+    loop.candidate += offset;
+    loop.query += offset;
+    loops[query].push_back(std::move(loop));
+  }
+  return loops;
 }
 
 }  // namespace
@@ -71,9 +87,11 @@ std::size_t MapMerge::join(GlobalMap& map, const ProgressHandler& progress) {
   for (std::size_t i = 1; i < parts_.size(); ++i) {
     const std::uint32_t first = session;
     session += static_cast<std::uint32_t>(parts_[i].file->sessions().size());
-    for (KeyframeRecord& record : parts_[i].content.records) {
-      record.session += first;
-      map.add(std::move(record));
+    GlobalMapContent& content = parts_[i].content;
+    std::vector<std::vector<Loop>> known = loops_of_poses(content, map.records().size());
+    for (std::size_t k = 0; k < content.records.size(); ++k) {
+      content.records[k].session += first;
+      map.add(std::move(content.records[k]), std::nullopt, known[k]);
       progress(++done, all);
     }
   }

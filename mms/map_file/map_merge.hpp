@@ -29,6 +29,9 @@ class MapMerge {
 
   std::size_t sessions() const { return sessions_; }
 
+  /// The map whose frame is that of all.
+  const MapFile& first() const { return *parts_.front().file; }
+
   /// Writes all sessions to a new file.
   /// @param map  of `join`
   void write(const std::filesystem::path& path, const GlobalMap& map,

@@ -41,6 +41,10 @@ constexpr Duration kSearchTime = std::chrono::seconds(5);
 /// [s]: these intervals. Source: two views must agree, and within 1 s of the start some may fail.
 constexpr Duration kSearchInterval = std::chrono::milliseconds(200);
 
+/// [-]: part of the time since the start that an interval is, at least. Source: `kSearchTime` over
+/// `kSearchInterval`; an hour in an unknown place has about 190 such views.
+constexpr int kSearchShare = 25;
+
 /// [s]: time for which a sensor with enough features is lost after which a new session begins.
 /// Source: nine of ten kidnapped cameras are relocalized within 1 s, if their place is known.
 constexpr Duration kSessionDelay = std::chrono::seconds(3);
@@ -257,8 +261,9 @@ std::optional<Transform<Global, Sensor>> Localization::expected_place(const Fram
 bool Localization::wants_relocalization(const FrameResult& result) {
   if (!closes_loops_) return false;
   if (result.odometry.status == Status::kLost) lost_since_global_keyframe_ = true;
-  if (!result.cloud.organised()) return false;
   lost_frames_ = result.odometry.status == Status::kLost ? lost_frames_ + 1 : 0;
+  // A scan of which the odometry has a pose is not in doubt.
+  if (!result.cloud.organised()) return has_global_keyframe_ && lost_frames_ >= kMinLostFrames;
   is_in_doubt_ |= has_global_keyframe_ && lost_frames_ >= kMinLostFrames;
   return is_in_doubt_;
 }
@@ -274,8 +279,7 @@ void Localization::choose_keyframes(FrameResult& result) {
   if (!closes_loops_) return;
   KeyframeSelector& global =
       result.cloud.organised() ? session_.global_keyframes : session_.scan_keyframes;
-  result.global_keyframe =
-      global.is_keyframe(result.odometry) || is_search_keyframe(result.odometry);
+  result.global_keyframe = global.is_keyframe(result.odometry) || is_search_keyframe(result);
   has_global_keyframe_ |= result.global_keyframe;
   if (result.global_keyframe) {
     result.after_lost = std::exchange(lost_since_global_keyframe_, false);
@@ -283,11 +287,14 @@ void Localization::choose_keyframes(FrameResult& result) {
 }
 
 /// A sensor that stands still where the map begins has no keyframes by distance.
-bool Localization::is_search_keyframe(const OdometryEstimate& odometry) {
+bool Localization::is_search_keyframe(const FrameResult& result) {
+  const OdometryEstimate& odometry = result.odometry;
   if (!searches_place_ || odometry.status == Status::kLost) return false;
   if (!search_begin_) search_begin_ = last_search_ = odometry.stamp;
-  if (odometry.stamp - *search_begin_ > kSearchTime) searches_place_ = false;
-  if (odometry.stamp - last_search_ < kSearchInterval) return false;
+  const Duration since = odometry.stamp - *search_begin_;
+  if (since > kSearchTime && result.correction.T_global_world) searches_place_ = false;
+  // Ever more rarely, so that a sensor that stands in an unknown place hardly takes memory.
+  if (odometry.stamp - last_search_ < std::max(kSearchInterval, since / kSearchShare)) return false;
   last_search_ = odometry.stamp;
   return true;
 }

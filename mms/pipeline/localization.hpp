@@ -76,7 +76,7 @@ class Localization {
   void exclude_moving_points(LabeledCloud& cloud, FeatureCloud& features) const;
   bool wants_relocalization(const FrameResult& result);
   void choose_keyframes(FrameResult& result);
-  bool is_search_keyframe(const OdometryEstimate& odometry);
+  bool is_search_keyframe(const FrameResult& result);
 
   SystemConfig config_;
   Odometry odometry_;

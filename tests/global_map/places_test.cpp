@@ -123,5 +123,16 @@ TEST(PlaceRecognizer, DescriptorsOfEveryPlaceCountLittle) {
   EXPECT_TRUE(recognizer.find({everywhere.begin(), everywhere.begin() + 10}, 60, 3).empty());
 }
 
+TEST(PlaceRecognizer, KeyframesThatCannotBeUsedTakeNoRoom) {
+  RandomStream random(13);
+  PlaceRecognizer recognizer;
+  const auto place = random_place(random);
+  for (int i = 0; i < 40; ++i) recognizer.add(i % 10 == 0 ? place : random_place(random));
+  const auto found =
+      recognizer.find(noisy(place, random), 40, 3, [](std::size_t i) { return i == 30; });
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].keyframe, 30U);
+}
+
 }  // namespace
 }  // namespace mms

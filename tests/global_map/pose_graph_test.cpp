@@ -7,6 +7,7 @@
 
 #include "mms/core/random_stream.hpp"
 #include "mms/geometry/se3.hpp"
+#include "mms/global_map/graph/loop_graph.hpp"
 #include "mms/global_map/graph/odometry_noise.hpp"
 #include "mms/global_map/graph/pose_graph.hpp"
 #include "mms/global_map/pose_correction.hpp"
@@ -175,6 +176,66 @@ TEST(PoseCorrection, IsInterpolatedBetweenKeyframes) {
   EXPECT_NEAR(correction.at(Timestamp(125)).translation().x(), 0.25, 1e-12);
   EXPECT_NEAR(correction.at(Timestamp(200)).translation().x(), 1.0, 1e-12);
   EXPECT_EQ(correction.at(Timestamp(900)).translation().x(), 1.0);
+}
+
+/// Standard deviation of a keyframe relative to that of a lap of 62 m before [m].
+double sigma_after_a_lap(bool has_loop) {
+  constexpr std::size_t kLap = 248;
+  constexpr std::size_t kEnd = 2 * kLap - 100;
+  LoopGraph graph(20.0);
+  Isometry pose = Isometry::Identity();
+  for (std::size_t i = 0; i < kEnd; ++i) {
+    KeyframeRecord record;
+    record.T_world_sensor = Transform<World, Sensor>(pose);
+    graph.add_node(record);
+    if (has_loop && i + 12 == kEnd) {
+      Loop loop;
+      loop.candidate = i - kLap;
+      loop.query = i;
+      loop.outcome = LoopOutcome::kAccepted;
+      loop.information = information(0.01, 0.002);
+      graph.add_check(loop);
+      graph.add_edges({loop});
+    }
+    Isometry step(Eigen::Translation3d(0.25, 0.0, 0.0));
+    if (i % 62 >= 56) {
+      step.rotate(Eigen::AngleAxisd(std::numbers::pi / 12, Eigen::Vector3d::UnitZ()));
+    }
+    pose = pose * step;
+  }
+  const auto covariance = graph.relative_covariance(kEnd - 1 - kLap, kEnd - 1);
+  return std::sqrt(covariance->topLeftCorner<3, 3>().diagonal().maxCoeff());
+}
+
+TEST(LoopGraph, AClosedLoopTellsWhereTheOdometryIs) {
+  EXPECT_GT(sigma_after_a_lap(false), 0.15);
+  EXPECT_LT(sigma_after_a_lap(true), 0.05);
+}
+
+TEST(LoopGraph, SessionsAreRelatedByAnotherOne) {
+  for (const bool has_second : {false, true}) {
+    LoopGraph graph(20.0);
+    for (std::size_t i = 0; i < 15; ++i) {
+      KeyframeRecord record;
+      record.session = static_cast<std::uint32_t>(i / 5);
+      record.T_world_sensor = Transform<World, Sensor>(
+          Isometry(Eigen::Translation3d(0.25 * static_cast<double>(i % 5), 0.0, 0.0)));
+      graph.add_node(record);
+      if (i % 5 != 0 || i == 0 || (i == 10 && !has_second)) continue;
+      Loop loop;
+      loop.candidate = i - 5;
+      loop.query = i;
+      loop.outcome = LoopOutcome::kAccepted;
+      loop.information = information(0.01, 0.002);
+      graph.add_check(loop);
+      graph.add_edges({loop});
+    }
+    const auto covariance = graph.relative_covariance(1, 13);
+    ASSERT_EQ(covariance.has_value(), has_second);
+    if (!covariance) continue;
+    EXPECT_LT(std::sqrt(covariance->diagonal().maxCoeff()), 0.1);
+    EXPECT_GT(covariance->diagonal().minCoeff(), 0.0);
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "mms/global_map/keyframes/density_image.hpp"
 #include "mms/global_map/keyframes/local_scans.hpp"
 #include "mms/global_map/keyframes/scan_keypoints.hpp"
+#include "mms/global_map/keyframes/scan_signature.hpp"
 #include "mms/global_map/keyframes/scan_view.hpp"
 #include "mms/global_map/loops/floor_alignment.hpp"
 #include "mms/global_map/loops/keypoint_matching.hpp"
@@ -290,6 +291,39 @@ TEST(ScanView, DynamicPointsAreNotCompared) {
   EXPECT_LT(
       compare_scans(without, make_scan_view(cloud), Eigen::Isometry3d::Identity()).contradiction,
       0.005);
+}
+
+TEST(LocalScans, AreBoundedWhereTheSensorTurnsOnTheSpot) {
+  LabeledCloud cloud;
+  cloud.points = {{5.0F, 0.0F, 0.0F}};
+  cloud.labels = {PointLabel::kStatic};
+  LocalScans scans;
+  for (int i = 0; i < 500; ++i) {
+    scans.add(cloud, Transform<World, Sensor>(moved_by(0.0, 0.26 * i)));
+  }
+  EXPECT_LE(scans.points().size(), 40U);
+}
+
+/// A view of the room; its floor is 1.5 m below.
+ScanView view_of(const Eigen::Isometry3d& T_world_sensor, bool with_box) {
+  ScanView view = make_scan_view(room(T_world_sensor, with_box));
+  view.T_sensor_floor.translation().z() = -1.5;
+  return view;
+}
+
+TEST(ScanPlaces, FindTheKeyframeAndItsTurn) {
+  ScanPlaces places;
+  for (int i = 0; i < 20; ++i) places.add(view_of(moved_by(-4.0 + 0.4 * i, 0.0), true));
+  const auto all = [](std::size_t) { return true; };
+  const auto found = places.find(view_of(moved_by(-4.0 + 0.4 * 5, 1.2), true), all, 3);
+  ASSERT_FALSE(found.empty());
+  EXPECT_NEAR(static_cast<double>(found[0].keyframe), 5.0, 1.0);
+  EXPECT_NEAR(found[0].turn, 1.2, 0.06);
+  EXPECT_TRUE(places
+                  .find(
+                      view_of(moved_by(0.0, 0.0), true), [](std::size_t) { return false; }, 3)
+                  .empty());
+  EXPECT_TRUE(places.find({}, all, 3).empty());
 }
 
 }  // namespace

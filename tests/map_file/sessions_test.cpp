@@ -257,5 +257,62 @@ TEST(MapMerge, RefusesACopy) {
   EXPECT_THROW(MapMerge({folder.path() / "a", folder.path() / "b"}, refuse), DataError);
 }
 
+TEST(Sessions, ASecondVisitOfItsOwnIsComparedWithTheMap) {
+  GlobalMap map = empty_map();
+  map.restore(first_session(), MapUse::kExtend);
+  const auto lap = [&](bool has_image) {
+    for (int i = 4; i < 16; ++i) {
+      GlobalKeyframe view = views()[static_cast<std::size_t>(i)];
+      view.T_world_sensor =
+          Transform<World, Sensor>(other_world() * view.T_world_sensor.isometry());
+      view.cloud.stamp =
+          Timestamp(static_cast<std::int64_t>(map.records().size() + 1) * 500'000'000);
+      if (!has_image) view.color = {};
+      map.add(view);
+    }
+  };
+  lap(false);  // depth alone recognizes no place
+  ASSERT_FALSE(map.is_joined(1));
+  lap(true);
+  EXPECT_TRUE(map.is_joined(1));
+}
+
+TEST(MapMerge, KeepsTheLoopsOfKeyframesOfWhichOnlyThePoseIsKept) {
+  const TempFolder folder;
+  write_part(folder.path() / "a", 0, 12, 1, Eigen::Isometry3d::Identity());
+  GlobalMap visited = empty_map();
+  drive(visited, 6, 18, other_world());
+  std::deque<KeyframeRecord> records = visited.records();
+  std::vector<Eigen::Isometry3d> poses = visited.poses();
+  std::vector<Loop> loops;
+  for (std::size_t i = 0; i < 12; ++i) {  // a second visit that drifts by 1 cm a keyframe
+    KeyframeRecord again;
+    again.stamp = Timestamp(static_cast<std::int64_t>(records.size() + 1) * 500'000'000);
+    Eigen::Isometry3d drifted = records[i].T_world_sensor.isometry();
+    drifted.pretranslate(Eigen::Vector3d(0.01 * static_cast<double>(i + 1), 0.0, 0.0));
+    again.T_world_sensor = Transform<World, Sensor>(drifted);
+    Loop loop;
+    loop.candidate = i;
+    loop.query = records.size();
+    loop.outcome = LoopOutcome::kAccepted;
+    loop.information = 1e6 * Matrix6d::Identity();
+    loops.push_back(loop);
+    poses.push_back(poses[i]);
+    records.push_back(again);
+  }
+  {
+    MapFile file(folder.path() / "b", MapFile::Mode::kCreate);
+    MapSession session = some_session("b");
+    session.begin = Timestamp(600'000'000);  // the second part
+    file.add_session(session, some_surfaces(visited, 2000, 2), records);
+    file.set_graph(poses, loops);
+    file.commit();
+  }
+  MapMerge merge({folder.path() / "a", folder.path() / "b"}, refuse);
+  GlobalMap map = empty_map();
+  merge.join(map, [](std::size_t, std::size_t) {});
+  EXPECT_LT(distance(map.poses()[12 + 11], map.poses()[12 + 23]), 0.03);  // 0.12 by odometry
+}
+
 }  // namespace
 }  // namespace mms

@@ -449,5 +449,25 @@ TEST(Relocalization, PoseInAnEarlierMapIsUnknownUntilItsPlaceIsRecognized) {
   }
 }
 
+TEST(Relocalization, ASensorThatStandsIsSearchedForEverMoreRarely) {
+  SystemConfig config;
+  SlamSystem earlier(config, std::make_unique<MaskSegmenter>());
+  drive(earlier, 0, 30);
+  SlamSystem later(config, std::make_unique<MaskSegmenter>());
+  const GlobalMap& map = earlier.global_map();
+  later.restore({map.records(), map.poses(), map.loops()}, MapUse::kLocalizeOnly);
+  Frame frame = SimulatedScene(aisle(2)).render(0).frame;
+  int in_the_first_seconds = 0;
+  int after = 0;
+  for (int i = 0; i < 200; ++i) {
+    frame.index = i;
+    frame.stamp = Timestamp(i * std::int64_t{100'000'000});
+    (i <= 60 ? in_the_first_seconds : after) += later.process(frame).global_keyframe;
+  }
+  EXPECT_GE(in_the_first_seconds, 20);
+  EXPECT_GT(after, 10);
+  EXPECT_LT(after, 45);
+}
+
 }  // namespace
 }  // namespace mms

@@ -146,5 +146,49 @@ TEST(ScanLoops, EqualKeyframesGiveEqualPoses) {
   }
 }
 
+GlobalMap with_first_visit() {
+  Visits visits;
+  for (const GlobalKeyframe& scan : first_visit()) visits.add(scan, Eigen::Isometry3d::Identity());
+  return std::move(visits.map);
+}
+
+/// A later run of a sensor that stands, with the map of the first visit.
+GlobalMap after_standing(GlobalKeyframe scan) {
+  const GlobalMap earlier = with_first_visit();
+  const SystemConfig system;
+  GlobalMap map(system.global_map, system.features, system.odometry.registration);
+  map.restore({earlier.records(), earlier.poses(), earlier.loops()}, MapUse::kLocalizeOnly);
+  scan.T_world_sensor = {};
+  for (int i = 1; i <= 3; ++i) {
+    scan.cloud.stamp = Timestamp(i * std::int64_t{200'000'000});
+    map.add(scan);
+  }
+  return map;
+}
+
+TEST(ScanLoops, ASensorThatStandsIsRecognizedInAnEarlierMap) {
+  const GlobalMap map = after_standing(second_visit()[12]);
+  ASSERT_TRUE(map.is_joined(1));
+  const Eigen::Vector3d truth = second_visit()[12].T_world_sensor.translation();
+  EXPECT_LT((map.poses().back().translation() - truth).norm(), 0.05);
+}
+
+TEST(ScanLoops, ASensorThatStandsInAnotherHallIsNotRecognized) {
+  EXPECT_FALSE(after_standing(scans_of(2, 0)[12]).is_joined(1));
+}
+
+TEST(ScanLoops, ALostScanIsRelocalized) {
+  GlobalMap map = with_first_visit();
+  GlobalKeyframe lost = second_visit()[12];
+  const Eigen::Vector3d truth = lost.T_world_sensor.translation();
+  lost.T_world_sensor = {};
+  lost.cloud.stamp = Timestamp(100'000'000'000);
+  EXPECT_FALSE(map.relocalize(lost));
+  lost.cloud.stamp = Timestamp(100'100'000'000);
+  const auto place = map.relocalize(lost);
+  ASSERT_TRUE(place);
+  EXPECT_LT((place->T_world_sensor.translation() - truth).norm(), 0.05);
+}
+
 }  // namespace
 }  // namespace mms

@@ -33,6 +33,12 @@ nlohmann::json loops_of(const TempFolder& folder, const std::string& output) {
   return nlohmann::json::parse(read_file(folder.path() / output / "metrics.json"))["loops"];
 }
 
+/// First vertex of a line of the report's first plot.
+std::string first_vertex(const std::string& html, const std::string& color) {
+  const std::size_t begin = html.find("d=\"M", html.find("class=\"line " + color + "\"")) + 4;
+  return html.substr(begin, html.find_first_of("hLM\"", begin) - begin);
+}
+
 TEST(Map, IsSavedLocalizedInExtendedAndExported) {
   const TempFolder folder;
   const Outcome first = run_day(folder, kFirstDay, "first", {"--save-map", "a.mmsmap"});
@@ -46,6 +52,13 @@ TEST(Map, IsSavedLocalizedInExtendedAndExported) {
   EXPECT_EQ(loops["earlier_map"]["sessions"], 1);
   EXPECT_GT(loops["earlier_map"]["closed"], 1);
   ASSERT_TRUE(loops["earlier_map"]["localized_s"].is_number());
+  const std::string closed = loops["closed"].dump();
+  const std::string note = closed + (closed == "1" ? " loop, " : " loops, ") +
+                           loops["earlier_map"]["closed"].dump() + " to the map.";
+  const std::string report = read_file(folder.path() / "second/report.html");
+  EXPECT_NE(report.find(note), std::string::npos) << note;
+  ASSERT_NE(report.find("odometry</span>"), std::string::npos);
+  EXPECT_EQ(first_vertex(report, "c4"), first_vertex(report, "c0"));  // odometry, estimate
 
   expect_success(run_day(folder, kSecondDay, "third", {"--map", "a.mmsmap"}));
   const Outcome info = run_mms(folder.path(), {"info", "a.mmsmap"});

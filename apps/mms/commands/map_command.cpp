@@ -61,7 +61,7 @@ SystemConfig settings_of(const MapFile& file, const fs::path& path) {
   try {
     parse_config(file.sessions().front().settings, path.string() + ", its settings", config);
   } catch (const ConfigError& error) {
-    warn(std::string(error.what()) + "; the occupancy maps have the default settings");
+    warn(std::string(error.what()) + "; the default settings are used");
   }
   return config;
 }
@@ -139,7 +139,7 @@ void compact(const fs::path& path) {
 void merge(const std::vector<std::string>& maps, const fs::path& output, bool overwrite) {
   refuse_existing_file(output, overwrite);
   MapMerge merge({maps.begin(), maps.end()}, warn);
-  const SystemConfig config;
+  const SystemConfig config = settings_of(merge.first(), output);
   GlobalMap map(config.global_map, with_noise(config.features, config.noise),
                 config.odometry.registration);
   RateProgress progress("keyframe");

@@ -49,6 +49,7 @@ std::vector<Loop> LoopConfirmation::confirm(LoopGraph& graph, int min_inliers) {
            graph.poses()[loop.query];
   };
   const auto agrees = [&](std::size_t i) {
+    if (!graph.are_in_one_frame(loops[i].candidate, loop.candidate)) return false;
     const Eigen::Isometry3d difference = pose_by(loops[i]).inverse() * pose_by(loop);
     return difference.translation().norm() < kMaxDifference && se3::angle(difference) < kMaxTurn;
   };

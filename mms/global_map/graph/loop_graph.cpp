@@ -23,6 +23,12 @@ constexpr std::size_t kMaxUnsolved = 20;
 /// loops to the map are much more frequent.
 constexpr std::size_t kWindow = 100;
 
+/// Covariance of a right perturbation of a pose, of the pose after a motion from there.
+Matrix6d carried(const Matrix6d& covariance, const Eigen::Isometry3d& motion) {
+  const Matrix6d moved = se3::adjoint(motion.inverse());
+  return moved * covariance * moved.transpose();
+}
+
 }  // namespace
 
 void LoopGraph::add_node(const KeyframeRecord& record) {
@@ -133,28 +139,57 @@ std::optional<Matrix6d> LoopGraph::relative_covariance(std::size_t earlier,
                                                        std::size_t later) const {
   const std::uint32_t from = sessions_.session_of(earlier);
   const std::uint32_t to = sessions_.session_of(later);
-  if (from == to) return graph_.chain_covariance(earlier, later);
-  const auto link = std::find_if(loops_.rbegin(), loops_.rend(), [&](const Loop& loop) {
-    return loop.outcome == LoopOutcome::kAccepted && sessions_.session_of(loop.candidate) == from &&
-           sessions_.session_of(loop.query) == to;
-  });
-  if (link == loops_.rend()) return std::nullopt;
-  const auto carry = [](const Matrix6d& covariance, const Eigen::Isometry3d& motion) -> Matrix6d {
-    const Matrix6d moved = se3::adjoint(motion.inverse());
-    return moved * covariance * moved.transpose();
-  };
-  Matrix6d covariance;  // of the link's earlier end relative to `earlier`
-  if (earlier <= link->candidate) {
-    covariance = graph_.chain_covariance(earlier, link->candidate);
-  } else {
-    const Eigen::Isometry3d back =
-        graph_.poses()[earlier].inverse() * graph_.poses()[link->candidate];
-    covariance = carry(graph_.chain_covariance(link->candidate, earlier), back);
+  const auto link = last_loop(later, [&](std::uint32_t session) { return session == from; });
+  if (from != to) {
+    return link ? covariance_by(*link, earlier, later) : covariance_by_session(earlier, later);
   }
-  covariance = carry(covariance, link->T_candidate_query) +
-               (link->information + kMinInformation * Matrix6d::Identity()).inverse();
-  const Eigen::Isometry3d since = graph_.poses()[link->query].inverse() * graph_.poses()[later];
-  return carry(covariance, since) + graph_.chain_covariance(link->query, later);
+  // The shorter way: along the path, or back by the last loop.
+  const bool goes_by_loop = link && std::max(earlier, link->candidate) -
+                                            std::min(earlier, link->candidate) + later -
+                                            link->query <
+                                        later - earlier;
+  return goes_by_loop ? covariance_by(*link, earlier, later)
+                      : graph_.chain_covariance(earlier, later);
+}
+
+/// The last accepted loop from a node of such a session to one of the session of `later`, up to it.
+template <class IsSession>
+std::optional<Loop> LoopGraph::last_loop(std::size_t later, const IsSession& is_earlier) const {
+  const std::uint32_t session = sessions_.session_of(later);
+  const auto found = std::find_if(loops_.rbegin(), loops_.rend(), [&](const Loop& loop) {
+    return loop.outcome == LoopOutcome::kAccepted && loop.query <= later &&
+           sessions_.session_of(loop.query) == session &&
+           is_earlier(sessions_.session_of(loop.candidate));
+  });
+  if (found == loops_.rend()) return std::nullopt;
+  return *found;
+}
+
+/// From `earlier` along the path to a loop's earlier end, by the loop, and along the path.
+std::optional<Matrix6d> LoopGraph::covariance_by(const Loop& link, std::size_t earlier,
+                                                 std::size_t later) const {
+  const std::vector<Eigen::Isometry3d>& poses = graph_.poses();
+  const bool is_forward = earlier <= link.candidate;
+  std::optional<Matrix6d> covariance = is_forward ? relative_covariance(earlier, link.candidate)
+                                                  : relative_covariance(link.candidate, earlier);
+  if (!covariance) return std::nullopt;
+  if (!is_forward) {
+    *covariance = carried(*covariance, poses[earlier].inverse() * poses[link.candidate]);
+  }
+  *covariance = carried(*covariance, link.T_candidate_query) +
+                (link.information + kMinInformation * Matrix6d::Identity()).inverse();
+  return carried(*covariance, poses[link.query].inverse() * poses[later]) +
+         graph_.chain_covariance(link.query, later);
+}
+
+/// By a loop to another session than that of `earlier`, and from that one on.
+std::optional<Matrix6d> LoopGraph::covariance_by_session(std::size_t earlier,
+                                                         std::size_t later) const {
+  const std::uint32_t from = sessions_.session_of(earlier);
+  const std::uint32_t to = sessions_.session_of(later);
+  const auto link =
+      last_loop(later, [&](std::uint32_t session) { return session != from && session != to; });
+  return link ? covariance_by(*link, earlier, later) : std::nullopt;
 }
 
 std::size_t LoopGraph::first_recent(double path) const {

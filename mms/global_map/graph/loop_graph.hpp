@@ -43,7 +43,8 @@ class LoopGraph {
   void finish();
 
   /// Covariance of the pose of a node relative to an earlier one, of a right perturbation of the
-  /// later one; nothing without a loop between their sessions.
+  /// later one, by the odometry and one loop, or one for each session on the way; nothing where
+  /// loops do not join their sessions.
   std::optional<Matrix6d> relative_covariance(std::size_t earlier, std::size_t later) const;
 
   /// The first node that the path since is too short for; the last one at the latest.
@@ -60,6 +61,11 @@ class LoopGraph {
 
   /// Whether loops join two sessions that have nodes.
   bool share_frame(std::uint32_t a, std::uint32_t b) const { return sessions_.share_frame(a, b); }
+
+  /// Whether loops join the sessions of two nodes.
+  bool are_in_one_frame(std::size_t a, std::size_t b) const {
+    return share_frame(sessions_.session_of(a), sessions_.session_of(b));
+  }
 
   bool is_fixed(std::size_t node) const { return node < fixed_; }
 
@@ -78,6 +84,11 @@ class LoopGraph {
  private:
   void join(const Loop& loop);
   void solve();
+  template <class IsSession>
+  std::optional<Loop> last_loop(std::size_t later, const IsSession& is_earlier) const;
+  std::optional<Matrix6d> covariance_by(const Loop& link, std::size_t earlier,
+                                        std::size_t later) const;
+  std::optional<Matrix6d> covariance_by_session(std::size_t earlier, std::size_t later) const;
 
   double min_path_;
   PoseGraph graph_;

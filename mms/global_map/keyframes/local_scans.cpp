@@ -20,6 +20,10 @@ constexpr float kLocalRange = 40.0F;
 /// image.
 constexpr float kPointGrid = 0.05F;
 
+/// [-]: such scans, at most. Source: twice those of `kLocalPath` every 0.5 m; a sensor that turns
+/// on the spot has keyframes, but no path.
+constexpr std::size_t kMaxScans = 40;
+
 }  // namespace
 
 void LocalScans::add(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor) {
@@ -35,7 +39,9 @@ void LocalScans::add(const LabeledCloud& cloud, const Transform<World, Sensor>& 
     scan.path = scans_.back().path + way.norm();
   }
   scans_.push_back(std::move(scan));
-  while (scans_.back().path - scans_.front().path > kLocalPath) scans_.pop_front();
+  while (scans_.size() > kMaxScans || scans_.back().path - scans_.front().path > kLocalPath) {
+    scans_.pop_front();
+  }
 }
 
 std::vector<Eigen::Vector3f> LocalScans::points() const {

@@ -28,7 +28,8 @@ void PlaceRecognizer::add(const std::vector<BinaryDescriptor>& descriptors) {
 }
 
 std::vector<PlaceCandidate> PlaceRecognizer::find(const std::vector<BinaryDescriptor>& descriptors,
-                                                  std::size_t end, std::size_t max_count) const {
+                                                  std::size_t end, std::size_t max_count,
+                                                  const IsUsable& is_usable) const {
   std::vector<double> scores(std::min(end, keyframes_));
   std::vector<std::uint32_t> ids;
   std::vector<std::uint32_t> found;
@@ -48,7 +49,7 @@ std::vector<PlaceCandidate> PlaceRecognizer::find(const std::vector<BinaryDescri
   }
   std::vector<PlaceCandidate> all;
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    if (scores[i] >= kMinScore) all.push_back({i, scores[i]});
+    if (scores[i] >= kMinScore && is_usable(i)) all.push_back({i, scores[i]});
   }
   std::stable_sort(all.begin(), all.end(), [](const PlaceCandidate& a, const PlaceCandidate& b) {
     return a.score > b.score;
