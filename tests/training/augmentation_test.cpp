@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -83,7 +85,7 @@ TEST(Jitter, PadsSmallerImages) {
       jittered(sample_of(64, 48, {box_object(0, 10, 12, 20, 16)}), 64, 48, config, random);
   EXPECT_EQ(small.width, 32);
   EXPECT_EQ(small.height, 24);
-  EXPECT_EQ(small.image(40, 30), Rgb{});
+  EXPECT_EQ(small.image(40, 30), (Rgb{124, 116, 104}));  // zero for the network
   ASSERT_EQ(small.objects.size(), 1U);
   EXPECT_EQ(small.objects[0].x, 5);
   EXPECT_EQ(small.objects[0].mask.width(), 10);
@@ -108,6 +110,24 @@ TEST(Jitter, CroppingKeepsMasksOnTheirPixels) {
       EXPECT_LE(last.g, 34);
     }
   }
+}
+
+/// Less than half of a box may show something else.
+TEST(Jitter, IgnoresTheRestOfABoxWithoutMask) {
+  AugmentationConfig config = kUnchanged;
+  config.scale_min = config.scale_max = 2.0;
+  ObjectMask box = box_object(0, 24, 8, 16, 32);
+  box.box_only = true;
+  std::set<bool> ignored;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    RandomStream random(seed);
+    for (const ObjectMask& object :
+         jittered(sample_of(64, 48, {box}), 64, 48, config, random).objects) {
+      EXPECT_EQ(object.crowd, mask_area(object.mask) < 0.5 * 32 * 64);
+      ignored.insert(object.crowd);
+    }
+  }
+  EXPECT_EQ(ignored.size(), 2U);
 }
 
 TEST(Jitter, DropsObjectsOutsideCrop) {
@@ -237,6 +257,13 @@ TEST(ColorChanges, GreyHasNoColor) {
     EXPECT_NEAR(pixel.r, pixel.g, 1);
     EXPECT_NEAR(pixel.b, pixel.g, 1);
   }
+}
+
+TEST(CopyPaste, IgnoresBoxesThatAreMostlyHidden) {
+  ObjectMask box = box_object(0, 10, 8, 20, 24);
+  box.box_only = true;
+  EXPECT_TRUE(pasted({box}, box_object(1, 12, 10, 16, 20), true).objects.at(0).crowd);
+  EXPECT_FALSE(pasted({box}, box_object(1, 12, 10, 6, 6), true).objects.at(0).crowd);
 }
 
 }  // namespace

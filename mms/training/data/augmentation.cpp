@@ -102,7 +102,7 @@ Sample jittered(const Sample& upright, int width, int height, const Augmentation
 
   Sample result;
   result.partial = sample.partial;
-  result.image = Image<Rgb>(width, height);
+  result.image = Image<Rgb>(width, height, kMeanColor);
   result.width = std::min(width, scaled_width);
   result.height = std::min(height, scaled_height);
   const int left = flip ? scaled_width + dx - result.width : -dx;  // of the part to be seen
@@ -121,6 +121,7 @@ Sample jittered(const Sample& upright, int width, int height, const Augmentation
                                        .dy = dy,
                                        .width = result.width,
                                        .height = result.height});
+    doubt_box(moved, mask_area(object.mask) * scale * scale);
     if (mask_area(moved.mask) >= kMinObjectPixels) result.objects.push_back(std::move(moved));
   }
   return result;

@@ -5,6 +5,7 @@
 #include "mms/core/hash_noise.hpp"
 #include "mms/geometry/parallel.hpp"
 #include "mms/segmentation/solo/prepared_image.hpp"
+#include "mms/segmentation/solo/resize.hpp"
 #include "mms/training/data/augmentation.hpp"
 
 namespace mms {
@@ -15,8 +16,17 @@ struct Canvas {
   int height = 0;  ///< [px]
 };
 
-/// Size of the network's input, landscape or portrait; equal for all images of a batch.
-Canvas canvas_of(const TrainingConfig& config, RandomStream& random) {
+/// Size of the network's input: that of a random image at inference, or landscape or portrait;
+/// equal for all images of a batch.
+Canvas canvas_of(const SampleStore& store, const TrainingConfig& config, RandomStream& random) {
+  const double shapes = config.augmentation.image_shapes;
+  if (shapes > 0.0 && random.chance(static_cast<float>(shapes))) {
+    const Sample& like = store.draw(random);
+    const double scale =
+        fitting_scale(like.width, like.height, config.network.long_side, config.network.short_side);
+    return {padded_length(scaled_length(like.width, scale)),
+            padded_length(scaled_length(like.height, scale))};
+  }
   const int wide = padded_length(config.network.long_side);
   const int high = padded_length(config.network.short_side);
   const bool upright = random.chance(static_cast<float>(config.augmentation.portrait));
@@ -46,7 +56,7 @@ Batch make_batch(const SampleStore& store, const TrainingConfig& config, int num
   const auto seed =
       hash_of(static_cast<std::uint64_t>(config.seed), static_cast<std::uint64_t>(number));
   RandomStream random(seed);
-  const Canvas canvas = canvas_of(config, random);
+  const Canvas canvas = canvas_of(store, config, random);
   const int images = config.schedule.batch / part.parts;
   const auto first = static_cast<std::size_t>(part.number * images);
   const auto count = static_cast<std::size_t>(images);

@@ -64,6 +64,7 @@ void paste_objects(Sample& target, const Sample& source, RandomStream& random) {
     ObjectMask rest = object;
     for (const ObjectMask& cover : pasted) cut(rest, cover);
     rest = tightened(rest);
+    doubt_box(rest, mask_area(object.mask));
     if (!hardly_left(object, rest)) kept.push_back(std::move(rest));
   }
   kept.insert(kept.end(), pasted.begin(), pasted.end());

@@ -30,6 +30,11 @@ int mask_area(const Image<std::uint8_t>& mask) {
          static_cast<int>(std::count(mask.pixels().begin(), mask.pixels().end(), std::uint8_t{0}));
 }
 
+void doubt_box(ObjectMask& rest, double whole) {
+  constexpr double kMinPart = 0.5;
+  if (rest.box_only && mask_area(rest.mask) < kMinPart * whole) rest.crowd = true;
+}
+
 ObjectMask tightened(const ObjectMask& object) {
   Span columns;
   Span rows;

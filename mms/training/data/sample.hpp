@@ -29,6 +29,11 @@ struct Sample {
 /// Number of pixels of a mask.
 int mask_area(const Image<std::uint8_t>& mask);
 
+/// Ignores an object whose mask is unknown if less than half of its box is left: the object itself
+/// may be hidden or outside.
+/// @param whole  area of the box before [px]
+void doubt_box(ObjectMask& rest, double whole);
+
 /// The object with its mask cropped to its non-zero part; empty if there is none.
 ObjectMask tightened(const ObjectMask& object);
 

@@ -79,6 +79,9 @@ void claim_cells(const ObjectMask& object, const Centre& centre, int grid, const
   for (int row = rows.first; row <= rows.last; ++row) {
     for (int column = columns.first; column <= columns.last; ++column) {
       const int cell = row * grid + column;
+      std::erase_if(targets.pairs, [&](const ImageTargets::Pair& pair) {
+        return pair.level == level && pair.cell == cell;
+      });
       categories[static_cast<std::size_t>(cell)] = object.category;
       targets.pairs.push_back({level, cell, static_cast<int>(targets.masks.size()) - 1});
     }
@@ -102,8 +105,15 @@ ImageTargets assign_targets(const Sample& sample, const HeadConfig& head) {
       if (object.crowd) ignore_crowd(object, grids[level], width, height, categories);
     }
   }
+  std::vector<const ObjectMask*> ordered;  // smaller objects last
   for (const ObjectMask& object : sample.objects) {
-    if (object.crowd) continue;
+    if (!object.crowd) ordered.push_back(&object);
+  }
+  std::stable_sort(ordered.begin(), ordered.end(), [](const ObjectMask* a, const ObjectMask* b) {
+    return a->mask.size() > b->mask.size();
+  });
+  for (const ObjectMask* each : ordered) {
+    const ObjectMask& object = *each;
     Image<std::uint8_t> mask = quarter_mask(object, width, height);
     if (mask_area(mask) == 0) continue;
     targets.masks.push_back(std::move(mask));

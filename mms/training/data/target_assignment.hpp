@@ -31,7 +31,8 @@ struct ImageTargets {
 
 /// Assigns the objects of an image to grid cells as in SOLOv2: every level whose range contains the
 /// square root of the box's area, in the cells of the central fifth of the box around the mask's
-/// center of mass, at most 3x3. A later object replaces the class of a cell; both keep their pair.
+/// center of mass, at most 3x3. A cell in which several objects are is that of the smallest one, as
+/// in FCOS (Tian et al., ICCV 2019): it can predict one mask only.
 ImageTargets assign_targets(const Sample& sample, const HeadConfig& head);
 
 }  // namespace mms

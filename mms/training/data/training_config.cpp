@@ -38,6 +38,8 @@ void AugmentationConfig::visit(ConfigVisitor& v) {
   v.number({"roll", "", "probability of a rotation in the image plane"}, roll, kChance);
   v.number({"roll_max", "deg", "largest rotation"}, roll_max, {0.0, 180.0});
   v.number({"exposure", "", "probability of a dark or overexposed image"}, exposure, kChance);
+  v.number({"image_shapes", "", "probability of a batch in the shape of one of the images"},
+           image_shapes, kChance);
 }
 
 void ScheduleConfig::visit(ConfigVisitor& v) {

@@ -22,19 +22,20 @@ struct TrainingData {
 
 /// Augmentation of the training images. Probabilities are per image.
 struct AugmentationConfig {
-  double scale_min = 0.5;    ///< relative to the size that fits the network's input
-  double scale_max = 1.6;    ///< larger images are cropped
-  double flip = 0.5;         ///< probability of mirroring left and right
-  double portrait = 0.15;    ///< probability of a portrait batch
-  double copy_paste = 0.5;   ///< probability of pasting objects of another image
-  double color = 0.8;        ///< probability of a change of brightness, contrast, saturation, hue
-  double blur = 0.2;         ///< probability of motion blur
-  double blur_length = 8.0;  ///< longest [px]
-  double noise = 0.3;        ///< probability of sensor noise
-  double grey = 0.05;        ///< probability of a gray image
-  double roll = 0.0;         ///< probability of a rotation in the image plane
-  double roll_max = 45.0;    ///< largest [deg]
-  double exposure = 0.0;     ///< probability of a dark or overexposed image
+  double scale_min = 0.5;     ///< relative to the size that fits the network's input
+  double scale_max = 1.6;     ///< larger images are cropped
+  double flip = 0.5;          ///< probability of mirroring left and right
+  double portrait = 0.15;     ///< probability of a portrait batch
+  double copy_paste = 0.5;    ///< probability of pasting objects of another image
+  double color = 0.8;         ///< probability of a change of brightness, contrast, saturation, hue
+  double blur = 0.2;          ///< probability of motion blur
+  double blur_length = 8.0;   ///< longest [px]
+  double noise = 0.3;         ///< probability of sensor noise
+  double grey = 0.05;         ///< probability of a gray image
+  double roll = 0.0;          ///< probability of a rotation in the image plane
+  double roll_max = 45.0;     ///< largest [deg]
+  double exposure = 0.0;      ///< probability of a dark or overexposed image
+  double image_shapes = 0.0;  ///< probability of a batch in the shape of one of the images
 
   void visit(ConfigVisitor& v);
 };

@@ -51,7 +51,8 @@ void ValidationSet::add(const DataImage& source) {
     const auto number = static_cast<std::int64_t>(truth_.annotations.size()) + 1;
     truth_.annotations.push_back(
         coco_annotation(number, id, 1 + object.category, object.segmentation));
-    truth_.annotations.back().iscrowd = object.crowd;
+    // A box is no mask: what is found in it counts neither as right nor as wrong.
+    truth_.annotations.back().iscrowd = object.crowd || object.box_only;
   }
 }
 
