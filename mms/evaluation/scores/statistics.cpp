@@ -21,6 +21,10 @@ std::vector<double> sorted_finite(std::span<const double> values) {
 
 }  // namespace
 
+double ratio(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : kNaN;
+}
+
 double percentile(std::span<const double> values, double percent) {
   const std::vector<double> sorted = sorted_finite(values);
   if (sorted.empty()) return kNaN;

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 namespace mms {
+
+/// part / whole; NaN without a whole.
+double ratio(std::int64_t part, std::int64_t whole);
 
 /// These statistics ignore NaN and infinite values; they are NaN if no value is left.
 

@@ -1,17 +1,8 @@
 #include "mms/evaluation/segmentation/mask_agreement.hpp"
 
-#include <limits>
+#include "mms/evaluation/scores/statistics.hpp"
 
 namespace mms {
-namespace {
-
-double share(std::int64_t part, std::int64_t rest) {
-  const std::int64_t whole = part + rest;
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole)
-                   : std::numeric_limits<double>::quiet_NaN();
-}
-
-}  // namespace
 
 void MaskAgreement::add(const Image<std::uint8_t>& mask, const LabeledCloud& cloud) {
   if (mask.empty() || cloud.width == 0) return;
@@ -31,11 +22,11 @@ void MaskAgreement::add(const Image<std::uint8_t>& mask, const LabeledCloud& clo
 }
 
 double MaskAgreement::recall() const {
-  return share(hits, missed);
+  return ratio(hits, hits + missed);
 }
 
 double MaskAgreement::precision() const {
-  return share(hits, extra);
+  return ratio(hits, hits + extra);
 }
 
 std::vector<MetricValue> metric_values(const MaskAgreement& agreement) {

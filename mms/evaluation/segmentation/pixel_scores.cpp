@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 
 #include "mms/evaluation/scores/metric_json.hpp"
+#include "mms/evaluation/scores/statistics.hpp"
 
 namespace mms {
 namespace {
@@ -93,11 +93,6 @@ void add(const InImage& image, int width, int height, PixelScores& scores) {
     add_masks(union_of(of_height(image.masks, k), width, height), truth, crowd,
               scores.by_height[k]);
   }
-}
-
-double ratio(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole)
-                   : std::numeric_limits<double>::quiet_NaN();
 }
 
 nlohmann::ordered_json json_of(const PixelCounts& counts) {

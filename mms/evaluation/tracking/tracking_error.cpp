@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "mms/evaluation/scores/statistics.hpp"
@@ -11,11 +10,6 @@
 
 namespace mms {
 namespace {
-
-double share(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole)
-                   : std::numeric_limits<double>::quiet_NaN();
-}
 
 template <class Stamped>
 std::map<Timestamp, const Stamped*> by_stamp(const std::vector<Stamped>& items) {
@@ -64,10 +58,10 @@ class Comparison {
     TrackingError error;
     const auto paired = static_cast<std::int64_t>(offsets_.size());
     error.objects = objects_;
-    error.recall = share(paired, objects_);
-    error.false_discovery_rate = share(tracks_ - paired, tracks_);
+    error.recall = ratio(paired, objects_);
+    error.false_discovery_rate = ratio(tracks_ - paired, tracks_);
     error.id_switches = switches_;
-    error.idf1 = share(2 * best_identity_matches(met_), objects_ + tracks_);
+    error.idf1 = ratio(2 * best_identity_matches(met_), objects_ + tracks_);
     error.center_mean = mean(offsets_);
     error.center_median = percentile(offsets_, 50.0);
     error.velocity_rmse = std::sqrt(mean(squared_velocity_errors_));
