@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mms/core/error.hpp"
+#include "mms/core/upper_median.hpp"
 #include "mms/dataset/bag/bag_calibration.hpp"
 #include "mms/dataset/bag/bag_motion.hpp"
 #include "mms/dataset/bag/bag_topics.hpp"
@@ -64,10 +65,7 @@ class StreamReader {
   }
 
   void finish() {
-    if (delays_.empty()) return;
-    const auto center = delays_.begin() + std::ptrdiff_t(delays_.size() / 2);
-    std::nth_element(delays_.begin(), center, delays_.end());
-    stream_->delay = *center;
+    if (!delays_.empty()) stream_->delay = upper_median(std::move(delays_));
   }
 
  private:

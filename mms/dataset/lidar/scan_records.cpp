@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mms/core/error.hpp"
+#include "mms/core/upper_median.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -51,9 +52,7 @@ std::optional<double> median_distance(const std::vector<fs::path>& scans, int fl
                                                     : std::numeric_limits<double>::infinity());
       }
       if (distances.empty()) continue;
-      const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-      std::nth_element(distances.begin(), middle, distances.end());
-      return *middle;
+      return upper_median(std::move(distances));
     } catch (const Error&) {
       continue;
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mms/core/upper_median.hpp"
 #include "mms/geometry/image_blur.hpp"
 #include "mms/geometry/image_overlap.hpp"
 #include "mms/io/text/numbers.hpp"
@@ -25,12 +26,6 @@ constexpr double kMaxShift = 0.07;
 /// [-]: median of `image_blur` at half size. Source: recordings have 0.23 to 0.31, scene `fast`
 /// 0.42, a blur of 9 px 0.52.
 constexpr double kMaxBlur = 0.5;
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Brightness, as means of squares.
 Image<float> small_gray(const Image<Rgb>& color) {
@@ -106,14 +101,14 @@ void ImageMotion::add(Timestamp stamp, const Image<Rgb>& color, bool begins) {
 std::vector<std::string> ImageMotion::faults() const {
   std::vector<std::string> faults;
   if (shifts_.size() < kMinFrames) return faults;
-  const double shift = median_of(shifts_);
+  const double shift = upper_median(shifts_);
   if (shift > kMaxShift) {
     faults.push_back("the image moves by " + format_number(std::round(100.0 * shift)) +
                      " % of its width between frames, " +
-                     format_number(std::round(1e3 * median_of(intervals_))) +
+                     format_number(std::round(1e3 * upper_median(intervals_))) +
                      " ms apart: record more frames per second, or move slower");
   }
-  const double blur = median_of(blurs_);
+  const double blur = upper_median(blurs_);
   if (blur > kMaxBlur) {
     faults.push_back("the images are blurred (" + format_number(std::round(100.0 * blur)) +
                      " %, sharp ones have about 30 %): is the exposure too long for the motion, or "

@@ -19,8 +19,8 @@ constexpr double kMinValidShare = 0.03;
 constexpr std::size_t kMaxPixels = 1'500'000;
 /// [m]: far depth (98 % are nearer) that depth cameras have in rooms. The recordings and scenes
 /// here have 2.9 to 8.5 m; with a scale wrong by 5, at most 1.7 or at least 14 m.
-constexpr double kNearestFar = 2.0;
-constexpr double kFarthestFar = 12.0;
+constexpr double kMinFar = 2.0;
+constexpr double kMaxFar = 12.0;
 /// [m]: depths that differ less are constant.
 constexpr double kConstant = 0.01;
 /// [0 to 255]: images darker or brighter than this on average have little texture left.
@@ -153,7 +153,7 @@ std::vector<std::string> RecordingCheck::depth_faults() const {
   }
   std::vector<std::string> faults;
   const bool in_meters = calibration_ && calibration_->depth_scale == 1.0;
-  if (!in_meters && (far < kNearestFar || far > kFarthestFar)) {
+  if (!in_meters && (far < kMinFar || far > kMaxFar)) {
     faults.push_back("98 % of the depths are below " + rounded(far, 2) +
                      " m, in rooms it is 2 to 12 m: is the depth scale of " +
                      format_number(calibration_ ? calibration_->depth_scale : 0.0) +

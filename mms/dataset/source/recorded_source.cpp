@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mms/core/error.hpp"
+#include "mms/core/upper_median.hpp"
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/results/objects_io.hpp"
 #include "mms/io/text/numbers.hpp"
@@ -116,10 +117,9 @@ std::string RecordedSource::step_fault() const {
   if (size() < kMinFrames) return "";
   std::vector<Duration> steps;
   for (std::size_t i = 1; i < size(); ++i) steps.push_back(stamp_of(i) - stamp_of(i - 1));
-  const auto center = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), center, steps.end());
-  if (to_seconds(*center) <= kLongestImageStep) return "";
-  return "the frames are " + decimals("%.0f s", to_seconds(*center)) +
+  const double step = to_seconds(upper_median(std::move(steps)));
+  if (step <= kLongestImageStep) return "";
+  return "the frames are " + decimals("%.0f s", step) +
          " apart, for a map at most 10 s: are the stamps in seconds, or in milli-, micro- or "
          "nanoseconds since 1970?";
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "mms/core/upper_median.hpp"
+
 namespace mms {
 namespace {
 
@@ -10,9 +12,7 @@ namespace {
 std::int64_t median_step(const std::vector<std::int64_t>& sorted) {
   std::vector<std::int64_t> steps;
   for (std::size_t i = 1; i < sorted.size(); ++i) steps.push_back(sorted[i] - sorted[i - 1]);
-  const auto center = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), center, steps.end());
-  return *center;
+  return upper_median(std::move(steps));
 }
 
 }  // namespace

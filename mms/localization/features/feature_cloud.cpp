@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "mms/core/upper_median.hpp"
+
 namespace mms {
 namespace {
 
@@ -21,10 +23,7 @@ constexpr double kMaxVoxel = 1.0;
 }  // namespace
 
 double median_range(std::vector<float> ranges) {
-  if (ranges.empty()) return 0.0;
-  const auto center = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), center, ranges.end());
-  return static_cast<double>(*center);
+  return ranges.empty() ? 0.0 : static_cast<double>(upper_median(std::move(ranges)));
 }
 
 double median_range(const FeatureCloud& features) {

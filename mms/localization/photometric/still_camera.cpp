@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "mms/core/upper_median.hpp"
 #include "mms/geometry/se3.hpp"
 
 namespace mms {
@@ -148,9 +149,7 @@ float median_change(const std::vector<TexturedPixel>& pixels) {
   std::vector<float> changes;
   changes.reserve(pixels.size());
   for (const TexturedPixel& pixel : pixels) changes.push_back(pixel.now - pixel.before);
-  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
-  std::nth_element(changes.begin(), middle, changes.end());
-  return *middle;
+  return upper_median(std::move(changes));
 }
 
 /// The same for the pixels whose residuals are within `kMaxResidual`.

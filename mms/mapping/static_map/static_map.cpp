@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "mms/core/upper_median.hpp"
 #include "mms/mapping/free_space/scan_sight.hpp"
 #include "mms/mapping/static_map/sparse_normals.hpp"
 #include "mms/mapping/static_map/voxel_normals.hpp"
@@ -109,9 +110,7 @@ void StaticMap::choose_voxel_size(const LabeledCloud& first_scan) {
     if (first_scan.labels[i] == PointLabel::kStatic) ranges.push_back(first_scan.points[i].norm());
   }
   if (ranges.empty()) return;
-  const auto median = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), median, ranges.end());
-  const double least = config_.scan_voxel * static_cast<double>(*median);
+  const double least = config_.scan_voxel * static_cast<double>(upper_median(std::move(ranges)));
   if (!(least > grid_.voxel_size())) return;
   grid_ = VoxelGrid(least);
   is_resized_ = true;
