@@ -41,7 +41,7 @@ ALLOWED = re.compile(r"(?i)\b(?:two ways|both ways|SAC switches)\b")
 OLD_NAMES = (
     "end_look", "ViewMemory", "kBlank", "leave_out", "TurnDelays", "LostTracks", "FloorWatch",
     "looks_ratio", "take_name", "let_go", "is_told", "kPrompt", "mask_enlargement",
-    "weight_bytes", "weight_growth", "nearest_seed", "kLeast", "kMost", "kFewest", "kFarthest",
+    "weight_bytes", "weight_growth", "nearest_seed", r"k(?:Least|Most|Fewest|Farthest)\w*",
 )
 
 

@@ -18,7 +18,7 @@
 namespace mms {
 namespace {
 
-constexpr std::size_t kMostShards = 100'000;
+constexpr std::size_t kMaxShards = 100'000;
 constexpr std::size_t kLongestName = 120;  // characters; file systems allow 255
 
 /// Those that the batch sets itself, or that make no sense in it.
@@ -133,7 +133,7 @@ Shard parse_shard(const std::string& text) {
   const auto count =
       slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
   const bool is_valid = index && count && *index >= 1 && *index <= *count &&
-                        *count <= static_cast<std::int64_t>(kMostShards);
+                        *count <= static_cast<std::int64_t>(kMaxShards);
   if (!is_valid) {
     throw DataError("--shard", fmt::format("is {}, expected i/n with i from 1 to n, as 2/5", text));
   }

@@ -11,10 +11,10 @@ namespace {
 
 /// [-]: inliers of a loop between sessions that nothing relates, as a multiple of those of a loop.
 /// Source: initial choice; `kSumFactor` decides.
-constexpr double kLeastFactor = 1.25;
+constexpr double kMinFactor = 1.25;
 
 /// [-]: the same of all such loops that agree, together: two or three keyframes. Source: as
-/// `kInlierFactor`, of two keyframes.
+/// `kMinFactor`, of two keyframes.
 constexpr int kSumFactor = 4;
 
 /// [-]: keyframes between two loops that confirm each other, at most. Source: one of them
@@ -32,7 +32,7 @@ constexpr double kMaxTurn = std::numbers::pi / 180.0;
 
 bool LoopConfirmation::is_likely(const LoopGraph& graph, const Loop& loop, int min_inliers) const {
   const std::optional<Matrix6d> covariance = graph.relative_covariance(loop.candidate, loop.query);
-  if (!covariance) return loop.inliers >= kLeastFactor * min_inliers;
+  if (!covariance) return loop.inliers >= kMinFactor * min_inliers;
   const Eigen::Isometry3d expected =
       graph.poses()[loop.candidate].inverse() * graph.poses()[loop.query];
   PoseEdge edge{loop.candidate, loop.query, loop.T_candidate_query, {}};

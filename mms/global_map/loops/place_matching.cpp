@@ -14,7 +14,7 @@ constexpr double kRelativeError = 0.004;
 
 /// [m]: least error of a keypoint's position. Source: views from other directions select other
 /// points of one corner.
-constexpr double kLeastError = 0.01;
+constexpr double kMinError = 0.01;
 
 /// [-]: largest distance of descriptors of one point whose position is known. Source: in 700 views
 /// of two warehouses, right places had 55 pairs up to 40 in the median, wrong ones 10.
@@ -34,7 +34,7 @@ struct PossiblePair {
 
 double keypoint_sigma(const Eigen::Vector3f& point, const DepthNoise& noise) {
   const double z = point.z();
-  return std::hypot(noise.sigma(z), kLeastError + kRelativeError * z);
+  return std::hypot(noise.sigma(z), kMinError + kRelativeError * z);
 }
 
 PlacedKeypoints keypoints_at(const std::deque<KeyframeRecord>& records,

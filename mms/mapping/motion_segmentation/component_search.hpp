@@ -16,7 +16,7 @@ namespace mms {
 /// Indices of connected nodes.
 using Component = std::vector<std::size_t>;
 
-/// The search for components that moved, of depth images (`GridNodes`) and LiDAR scans
+/// The search for components that moved, of depth images (`ImageNodes`) and LiDAR scans
 /// (`ScanNodes`). `Nodes` thins a cloud and defines
 /// - kMaxNoReturnShare, kMinContacts: gates;
 /// - for_each_neighbor(node, visit): the nodes on the same surface beside a node;

@@ -9,7 +9,7 @@ namespace mms {
 namespace {
 
 /// [-]: views that are kept. Source: memory, 20 MB at 320 x 240 points.
-constexpr std::size_t kMostViews = 64;
+constexpr std::size_t kMaxViews = 64;
 
 /// [m]: distance between the views of two places. Source: initial choice; a few overlap then.
 constexpr double kPlaceSpacing = 0.5;
@@ -44,7 +44,7 @@ void PlaceViews::add(Timestamp stamp, const FreeSpace& statics,
     return distance(view.T_world_sensor, T_world_sensor, kPlaceSpacing, kAngleSpacing) < 1.0;
   });
   if (is_known) return;
-  if (views_.size() == kMostViews) views_.pop_front();
+  if (views_.size() == kMaxViews) views_.pop_front();
   views_.push_back({stamp, statics, T_world_sensor});
 }
 

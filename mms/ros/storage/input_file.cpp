@@ -38,8 +38,8 @@ std::string_view InputFile::view(std::uint64_t offset, std::uint64_t size) {
                                std::to_string(kMaxBlock));
   }
   if (offset < buffer_offset_ || offset + size > buffer_offset_ + buffer_.size()) {
-    constexpr std::uint64_t kLeastRead = 4096;  // several small records with one read
-    fill(offset, static_cast<std::size_t>(std::min(std::max(size, kLeastRead), size_ - offset)));
+    constexpr std::uint64_t kMinRead = 4096;  // several small records with one read
+    fill(offset, static_cast<std::size_t>(std::min(std::max(size, kMinRead), size_ - offset)));
   }
   return std::string_view(buffer_).substr(static_cast<std::size_t>(offset - buffer_offset_),
                                           static_cast<std::size_t>(size));

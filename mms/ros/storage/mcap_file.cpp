@@ -68,15 +68,15 @@ std::uint64_t McapFile::walk_record(std::uint64_t offset) {
 }
 
 void McapFile::add_chunk(std::uint64_t content, std::uint64_t size) {
-  constexpr std::uint64_t kMostBeforeRecords = 256;  // [B], of customary 40 or 41
-  ByteReader head(file_.view(content, std::min(size, kMostBeforeRecords)), "chunk");
+  constexpr std::uint64_t kMaxBeforeRecords = 256;  // [B], of customary 40 or 41
+  ByteReader head(file_.view(content, std::min(size, kMaxBeforeRecords)), "chunk");
   head.take(2 * sizeof(std::uint64_t));  // times of the first and last message
   Chunk chunk;
   chunk.raw_size = head.take<std::uint64_t>();
   chunk.crc = head.take<std::uint32_t>();
   chunk.compression = compression_of(take_text(head), file_.name());
   const auto announced = head.take<std::uint64_t>();
-  const std::uint64_t before = std::min(size, kMostBeforeRecords) - head.left();
+  const std::uint64_t before = std::min(size, kMaxBeforeRecords) - head.left();
   chunk.offset = content + before;
   chunk.size = std::min(announced, size - before);
   chunk.incomplete = chunk.size < announced;

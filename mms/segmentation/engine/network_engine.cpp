@@ -53,7 +53,7 @@ Plan& NetworkEngine::plan_for(int height, int width) {
     std::rotate(plans_.begin(), found, found + 1);
     return *plans_.front();
   }
-  if (plans_.size() == kMostPlans) plans_.pop_back();
+  if (plans_.size() == kMaxPlans) plans_.pop_back();
   const Graph graph = network_graph(config_, layers_, height, width);
   check_quantization(quantization_, graph, where_);
   plans_.insert(plans_.begin(), std::make_unique<Plan>(quantized(graph, quantization_), library_));

@@ -30,7 +30,7 @@ class NetworkEngine {
  private:
   Plan& plan_for(int height, int width);
 
-  static constexpr std::size_t kMostPlans = 4;
+  static constexpr std::size_t kMaxPlans = 4;
 
   NetworkConfig config_;
   std::vector<std::string> classes_;
