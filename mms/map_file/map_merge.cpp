@@ -50,6 +50,7 @@ MapMerge::MapMerge(const std::vector<std::filesystem::path>& maps,
                    const MapFile::WarningHandler& warn) {
   for (const std::filesystem::path& path : maps) {
     Part part;
+    part.path = path;
     part.file = std::make_unique<MapFile>(path, MapFile::Mode::kRead);
     part.content = part.file->content(warn);  // has a session
     part.digest = digest_of(part.content);

@@ -29,8 +29,9 @@ class MapMerge {
 
   std::size_t sessions() const { return sessions_; }
 
-  /// The map whose frame is that of all.
+  /// The map whose frame is that of all: that of the earliest session.
   const MapFile& first() const { return *parts_.front().file; }
+  const std::filesystem::path& first_path() const { return parts_.front().path; }
 
   /// Writes all sessions to a new file.
   /// @param map  of `join`
@@ -39,6 +40,7 @@ class MapMerge {
 
  private:
   struct Part {
+    std::filesystem::path path;
     std::unique_ptr<MapFile> file;
     GlobalMapContent content;
     std::uint64_t digest = 0;  // of the keyframes

@@ -139,7 +139,7 @@ void compact(const fs::path& path) {
 void merge(const std::vector<std::string>& maps, const fs::path& output, bool overwrite) {
   refuse_existing_file(output, overwrite);
   MapMerge merge({maps.begin(), maps.end()}, warn);
-  const SystemConfig config = settings_of(merge.first(), output);
+  const SystemConfig config = settings_of(merge.first(), merge.first_path());
   GlobalMap map(config.global_map, with_noise(config.features, config.noise),
                 config.odometry.registration);
   RateProgress progress("keyframe");

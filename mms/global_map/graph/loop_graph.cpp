@@ -148,8 +148,14 @@ std::optional<Matrix6d> LoopGraph::relative_covariance(std::size_t earlier,
                                             std::min(earlier, link->candidate) + later -
                                             link->query <
                                         later - earlier;
-  return goes_by_loop ? covariance_by(*link, earlier, later)
-                      : graph_.chain_covariance(earlier, later);
+  const Matrix6d chain = graph_.chain_covariance(earlier, later);
+  if (!goes_by_loop) return chain;
+  // The views of a loop may not determine a direction, as that along a corridor.
+  const auto largest = [](const Matrix6d& covariance) {
+    return covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
+  };
+  const std::optional<Matrix6d> by_loop = covariance_by(*link, earlier, later);
+  return by_loop && largest(*by_loop) < largest(chain) ? by_loop : chain;
 }
 
 /// The last accepted loop from a node of such a session to one of the session of `later`, up to it.
@@ -182,14 +188,18 @@ std::optional<Matrix6d> LoopGraph::covariance_by(const Loop& link, std::size_t e
          graph_.chain_covariance(link.query, later);
 }
 
-/// By a loop to another session than that of `earlier`, and from that one on.
+/// By loops to other sessions than that of `earlier`, and from these on.
 std::optional<Matrix6d> LoopGraph::covariance_by_session(std::size_t earlier,
                                                          std::size_t later) const {
-  const std::uint32_t from = sessions_.session_of(earlier);
-  const std::uint32_t to = sessions_.session_of(later);
-  const auto link =
-      last_loop(later, [&](std::uint32_t session) { return session != from && session != to; });
-  return link ? covariance_by(*link, earlier, later) : std::nullopt;
+  std::vector<std::uint32_t> tried = {sessions_.session_of(earlier), sessions_.session_of(later)};
+  const auto is_new = [&](std::uint32_t session) {
+    return std::find(tried.begin(), tried.end(), session) == tried.end();
+  };
+  while (const auto link = last_loop(later, is_new)) {
+    if (auto covariance = covariance_by(*link, earlier, later)) return covariance;
+    tried.push_back(sessions_.session_of(link->candidate));
+  }
+  return std::nullopt;
 }
 
 std::size_t LoopGraph::first_recent(double path) const {

@@ -43,8 +43,8 @@ class LoopGraph {
   void finish();
 
   /// Covariance of the pose of a node relative to an earlier one, of a right perturbation of the
-  /// later one, by the odometry and one loop, or one for each session on the way; nothing where
-  /// loops do not join their sessions.
+  /// later one, by the odometry and one loop, or one for each session on the way back in time;
+  /// nothing where there is no such way.
   std::optional<Matrix6d> relative_covariance(std::size_t earlier, std::size_t later) const;
 
   /// The first node that the path since is too short for; the last one at the latest.

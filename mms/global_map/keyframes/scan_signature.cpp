@@ -69,6 +69,8 @@ SimilarScan best_turn(std::size_t keyframe, const ScanSignature& known, const Sc
 
 ScanSignature scan_signature(const ScanView& scan) {
   ScanSignature signature;
+  if (scan.points.empty()) return signature;
+  signature.heights.resize(kRings * kSectors);
   const Eigen::Isometry3f T_floor_sensor = scan.T_sensor_floor.inverse().cast<float>();
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     if (scan.is_static[i] == 0) continue;

@@ -16,10 +16,10 @@ struct ScanSignature {
   static constexpr std::size_t kRings = 30;     ///< 1 m wide each
   static constexpr std::size_t kSectors = 120;  ///< 3 degrees wide each
 
-  std::array<std::uint8_t, kRings * kSectors> heights{};  ///< [2 cm], 0 for none; sector by sector
+  std::vector<std::uint8_t> heights;     ///< [2 cm], 0 for none; sector by sector
   std::array<float, kRings> occupied{};  ///< share of the sectors, the same for any heading
 
-  bool empty() const { return occupied == std::array<float, kRings>{}; }
+  bool empty() const { return heights.empty(); }
 };
 
 ScanSignature scan_signature(const ScanView& scan);
