@@ -135,7 +135,8 @@ TEST(MaskExchange, ForgetsMasksOfEarlierClock) {
     std::this_thread::sleep_for(20ms);
     exchange.received(Timestamp(1), masks_of(7));
   });
-  const auto masks = exchange.wait_for(Timestamp(1));
+  EXPECT_FALSE(exchange.wait_for(Timestamp(100), 0));  // a frame of the clock before
+  const auto masks = exchange.wait_for(Timestamp(1), exchange.clock());
   link.join();
   ASSERT_TRUE(masks);
   EXPECT_EQ(masks->width, 7);

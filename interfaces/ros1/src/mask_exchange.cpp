@@ -74,16 +74,17 @@ bool MaskExchange::link_lost(Clock::time_point now) const {
   return waits_since_ && now - *waits_since_ > link_timeout_;
 }
 
-std::optional<Segmentation> MaskExchange::wait_for(Timestamp stamp) {
+std::optional<Segmentation> MaskExchange::wait_for(Timestamp stamp, std::size_t clock) {
   std::unique_lock lock(mutex_);
   const auto sent = sent_.find(stamp);
   const Clock::time_point deadline =
       (sent == sent_.end() ? Clock::now() : sent->second + max_wait_);
   const auto is_settled = [&] {
     const bool overtaken = !masks_.empty() && masks_.rbegin()->first >= stamp;
-    return closed_ || overtaken || link_lost(Clock::now());
+    return clock != clock_ || closed_ || overtaken || link_lost(Clock::now());
   };
   arrived_.wait_until(lock, deadline, is_settled);
+  if (clock != clock_) return std::nullopt;
   done_ = stamp;
   std::optional<Segmentation> result;
   if (const auto found = masks_.find(stamp); found != masks_.end()) {
@@ -96,8 +97,14 @@ std::optional<Segmentation> MaskExchange::wait_for(Timestamp stamp) {
   return result;
 }
 
+std::size_t MaskExchange::clock() const {
+  const std::scoped_lock lock(mutex_);
+  return clock_;
+}
+
 void MaskExchange::forget() {
   const std::scoped_lock lock(mutex_);
+  ++clock_;
   sent_.clear();
   masks_.clear();
   done_.reset();

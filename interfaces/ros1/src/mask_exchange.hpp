@@ -43,10 +43,15 @@ class MaskExchange {
   void received(Timestamp stamp, Segmentation masks);
 
   /// The masks of a frame; nullopt if they did not arrive in time.
-  std::optional<Segmentation> wait_for(Timestamp stamp);
+  /// @param clock  number of the clock of the stamp
+  std::optional<Segmentation> wait_for(Timestamp stamp, std::size_t clock = 0);
 
-  /// Forgets all images and masks: stamps of another clock follow.
+  /// Forgets all images and masks: stamps of another clock follow, and no frame waits for masks of
+  /// the clock before.
   void forget();
+
+  /// Number of the present clock.
+  std::size_t clock() const;
 
   /// Makes all waiting threads continue without masks.
   void close();
@@ -72,20 +77,23 @@ class MaskExchange {
   Clock::time_point last_shrunk_;
   Counts counts_;
   bool closed_ = false;
+  std::size_t clock_ = 0;
 };
 
 /// Passes the masks of another host to the pipeline; an empty segmentation (0x0) if they did not
 /// arrive.
 class RemoteSegmenter final : public Segmenter {
  public:
-  explicit RemoteSegmenter(MaskExchange& exchange) : exchange_(exchange) {}
+  explicit RemoteSegmenter(MaskExchange& exchange)
+      : exchange_(exchange), clock_(exchange.clock()) {}
 
   Segmentation segment(const Frame& frame) override {
-    return exchange_.wait_for(frame.stamp).value_or(Segmentation());
+    return exchange_.wait_for(frame.stamp, clock_).value_or(Segmentation());
   }
 
  private:
   MaskExchange& exchange_;
+  std::size_t clock_;  ///< of the frames
 };
 
 }  // namespace mms
