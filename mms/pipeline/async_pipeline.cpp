@@ -41,7 +41,8 @@ double milliseconds(Clock::duration duration) {
 struct Input {
   Frame frame;
   double read_ms = 0.0;
-  std::optional<Clock::time_point> due;  // in real time
+  std::optional<Clock::time_point> due;    // when it came from the sensor, in real time
+  std::optional<Clock::time_point> ready;  // when it was read, in real time
 };
 
 struct Segmented {
@@ -78,15 +79,17 @@ void fulfil(std::promise<Result>& answer, const Compute& compute) {
 
 /// Whether the segmentation of the frame before delayed this one.
 bool had_to_wait(const Input& input) {
-  return input.due && Clock::now() - *input.due > kMaxQueueWait;
+  return input.ready && Clock::now() - *input.ready > kMaxQueueWait;
 }
 
 std::optional<Input> read(const AsyncPipeline::Source& source, const AsyncOptions& options) {
   const Clock::time_point start = Clock::now();
   std::optional<Frame> frame = source();
   if (!frame) return std::nullopt;
-  return Input{std::move(*frame), milliseconds(Clock::now() - start),
-               options.arrival ? options.arrival() : std::nullopt};
+  const Clock::time_point end = Clock::now();
+  const auto arrival = options.arrival ? options.arrival() : std::nullopt;
+  return Input{std::move(*frame), milliseconds(end - start), arrival,
+               arrival ? std::optional(end) : std::nullopt};
 }
 
 Processed finished(Input input, FrameResult result) {
@@ -136,17 +139,15 @@ class StageThreads {
         keyframes_(kKeyframeCapacity) {}
 
   void read_all(const AsyncPipeline::Source& source, std::atomic<std::size_t>& dropped) {
-    const Clock::time_point begin = Clock::now();
     Pace pace;
     LeftOutFrames left_out;
     while (std::optional<Input> input = read(source, options_)) {
       if (options_.realtime) {
-        // Frames of a sensor come by themselves; those from before the run are too old.
-        const bool is_stale = input->due && *input->due < begin;
-        if (!input->due) input->due = pace.wait_for(input->frame.stamp);
+        // Frames of a sensor come by themselves.
+        if (!input->due) input->due = input->ready = pace.wait_for(input->frame.stamp);
         left_out.give_to(input->frame);
         left_out.add(input->frame);  // which is gone where there is no room
-        if (!is_stale && inputs_.try_push(std::move(*input))) {
+        if (inputs_.try_push(std::move(*input))) {
           left_out = {};
         } else {
           ++dropped;

@@ -162,21 +162,28 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   observer.on_end();
   interrupted_ = observer.stop_requested();
   if (interrupted_) warn("interrupted, writing the results so far", observer);
-  log_->finish(source_->skipped() + repeated_.count(), source_->dropped(), pipeline, system_);
+  log_->finish(source_->skipped() + repeated_.count(), source_->dropped() + stale_, pipeline,
+               system_);
   warn_if_not_localized(observer);
   warn_of_sessions_outside(observer);
   if (log_->size() == 0) throw_no_frames(options_, *source_);
   compare_with_truth(observer);
 }
 
-/// The requested frames but repeated ones; none after the observer ended the run, or the run gave
-/// up.
+/// The requested frames but repeated ones, and in real time those that arrived before now; none
+/// after the observer ended the run, or the run gave up.
 AsyncPipeline::Source SlamRun::frames_for(RunObserver& observer) {
-  return [this, &observer, left = options_.frames]() mutable -> std::optional<Frame> {
+  const auto begin = std::chrono::steady_clock::now();
+  return [this, &observer, begin, left = options_.frames]() mutable -> std::optional<Frame> {
     while (left > 0 && !observer.stop_requested() && !gave_up_) {
-      --left;
       std::optional<Frame> frame = first_ ? std::exchange(first_, std::nullopt) : source_->next();
       if (!frame) return std::nullopt;
+      const auto arrival = source_->arrival();
+      if (options_.realtime && arrival && *arrival < begin) {
+        ++stale_;
+        continue;
+      }
+      --left;
       if (is_repeated(*frame, observer)) continue;
       check_plausibility(*frame, observer);
       return frame;

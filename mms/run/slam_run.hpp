@@ -86,6 +86,7 @@ class SlamRun {
   std::vector<std::string> warnings_;  // of the settings, then of the run
   std::mutex warnings_mutex_;
   std::optional<Frame> first_;  // read for the settings, null once processed
+  std::size_t stale_ = 0;       // frames that arrived before a run in real time
   RepeatedFrames repeated_;     // of the reading thread
   SystemConfig config_;
   SlamSystem system_;

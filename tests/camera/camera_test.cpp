@@ -115,6 +115,12 @@ TEST_F(Camera, IsListed) {
   EXPECT_EQ(run({"cameras", "--json"}).out, "[]\n");
 }
 
+/// Frames that arrived before the run do not count.
+TEST_F(Camera, RunsInRealTime) {
+  expect_success(localize("camera:openni2", "live", {"--realtime", "--frames", "3"}));
+  EXPECT_FALSE(trajectory("live").empty());
+}
+
 TEST_F(Camera, TakesNameOfNetwork) {
   expect_success(
       run({"run", "camera:openni2", "--weights", "nano", "--frames", "3", "-o", "named"}));

@@ -41,10 +41,12 @@ void run_camera(const RunOptions& options, const ConsoleOptions& console,
   reject_for_camera(!options.motion.wheels.empty() || !options.motion.imu.empty(),
                     "--wheels, --imu");
   const InterruptGuard interrupt;
-  // The camera counts those that are skipped at the start.
-  const std::size_t frames = options.frames > FrameSource::kEndless - options.start
-                                 ? FrameSource::kEndless
-                                 : options.frames + options.start;
+  // The camera counts those that are skipped at the start. In real time, the run leaves out those
+  // that arrived before it.
+  const std::size_t frames =
+      options.realtime || options.frames > FrameSource::kEndless - options.start
+          ? FrameSource::kEndless
+          : options.frames + options.start;
   auto camera = std::make_unique<CameraSource>(
       options.data, LiveCameraOptions{.calibration = options.camera,
                                       .record = record,
