@@ -474,6 +474,10 @@ TEST(LidarScans, ReadsSecondsWithDecimalsInNames) {
   EXPECT_EQ(played.frames[0].stamp, Timestamp(1'710'252'326'122'305'000));
   EXPECT_EQ(played.frames[2].stamp, Timestamp(1'710'252'327'022'305'000));
   EXPECT_TRUE(any_has(played.source->describe(), "stamps: names of the scans"));
+  const TempFolder other;
+  other.write("scan.1532402927647951.bin", kPoint);
+  EXPECT_EQ(Playback(open_dataset(other.path())).frames.at(0).stamp,
+            Timestamp(1'532'402'927'647'951'000));
 }
 
 }  // namespace

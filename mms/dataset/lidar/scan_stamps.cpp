@@ -65,7 +65,7 @@ std::optional<Timestamp> stamp_in_name(const fs::path& scan) {
   const auto number = parse_integer(digits);
   if (!number) return std::nullopt;
   if (text.substr(0, text.size() - digits.size()).ends_with(".")) {
-    return decimal_stamp(text, digits);
+    if (const auto stamp = decimal_stamp(text, digits)) return stamp;
   }
   if (const auto stamp = stamp_of_number(*number)) return stamp;
   if (!text.substr(0, text.size() - digits.size()).ends_with("_")) return std::nullopt;
