@@ -19,7 +19,7 @@ TYPES = {"F32": np.float32, "F16": np.float16}
 
 
 def fail(text):
-    sys.exit(f"average_weights.py: {text}")
+    sys.exit(f"{Path(sys.argv[0]).name}: {text}")
 
 
 def tensors_of(path):

@@ -15,7 +15,7 @@ import average_weights as weights
 SCRIPT = Path(__file__).with_name("average_weights.py")
 
 
-class Averaging(unittest.TestCase):
+class InFolder(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
@@ -25,6 +25,8 @@ class Averaging(unittest.TestCase):
         weights.write_weights(path, metadata or {"network.size": "nano"}, tensors)
         return str(path)
 
+
+class Averaging(InFolder):
     def run_script(self, *arguments):
         output = Path(self.folder.name) / "out.safetensors"
         done = subprocess.run(
@@ -89,6 +91,26 @@ class Averaging(unittest.TestCase):
             self.assertIn("cannot be read", done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
             self.assertFalse(output.exists())
+
+
+class ShiftedScores(InFolder):
+    def test_adds_to_the_bias_of_the_class(self):
+        given = self.write(
+            "a", {"mask_head.conv_cls.bias": np.float16([-3, -4]), "x": np.float16([1])},
+            {"classes": "person,agv"},
+        )
+        output = Path(self.folder.name) / "shifted.safetensors"
+        script = SCRIPT.with_name("shift_scores.py")
+        for name, code in (("cat", 1), ("agv", 0)):
+            done = subprocess.run(
+                [sys.executable, script, given, name, "-0.5", "-o", output],
+                capture_output=True, text=True,
+            )
+            self.assertEqual(done.returncode, code, done.stderr)
+        metadata, tensors = weights.tensors_of(output)
+        self.assertEqual(metadata, {"classes": "person,agv"})
+        np.testing.assert_array_equal(tensors["mask_head.conv_cls.bias"], np.float16([-3, -4.5]))
+        np.testing.assert_array_equal(tensors["x"], np.float16([1]))
 
 
 if __name__ == "__main__":
