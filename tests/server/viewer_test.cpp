@@ -350,5 +350,35 @@ TEST(Viewer, SendsNoChunksWhenMapIsDisabled) {
   only(viewer.drain(), "map");
 }
 
+TEST(Viewer, APausedLiveRunKeepsThePicturesThatAreShown) {
+  const auto scene = live_scene(true);
+  scene->add(frame_at(0), view_of(0), nullptr);
+  TestViewer viewer(scene);
+  viewer.advance(1s);
+  viewer.drain();
+  scene->add(frame_at(1), view_of(1), nullptr);
+  viewer.advance(10ms);  // its pictures are not due yet
+  viewer.drain();
+  scene->add(frame_at(2), view_of(2), nullptr);
+  viewer.receive(R"({"type":"pause"})");
+  viewer.advance(33ms);
+  const auto messages = viewer.drain();
+  EXPECT_EQ(types_of(messages), "state") << "no frame without pictures";
+  EXPECT_EQ(only(messages, "state").json["frame"], 0);
+}
+
+TEST(Viewer, ARepeatedWantSendsNoPicturesAgain) {
+  const auto scene = live_scene(true);
+  scene->add(frame_at(0), view_of(0), nullptr);
+  TestViewer viewer(scene);
+  viewer.advance(1s);
+  viewer.drain();
+  viewer.receive(R"({"type":"pause"})");
+  scene->add(frame_at(1), view_of(1), nullptr);
+  viewer.receive(R"({"type":"want","points":true,"image":true})");
+  viewer.advance(33ms);
+  EXPECT_EQ(types_of(viewer.drain()), "state");
+}
+
 }  // namespace
 }  // namespace mms

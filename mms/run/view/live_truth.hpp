@@ -18,6 +18,11 @@ class LiveTruth {
   /// time.
   std::optional<Eigen::Vector3d> at(const StampedPose& estimate);
 
+  /// Moves the positions to come, as loops moved the frame that they are aligned by.
+  void move(const Eigen::Isometry3d& T) {
+    if (T_world_truth_) T_world_truth_ = T * *T_world_truth_;
+  }
+
  private:
   Trajectory truth_;  // in order of time
   std::optional<Eigen::Isometry3d> T_world_truth_;

@@ -125,13 +125,21 @@ void LiveView::show_corrected(const FrameResult& result, const Mapping& mapping)
   if (result.correction.loops) {
     scene_->set_loops(loops_between(scene_->stamps(), *result.correction.loops));
   }
+  std::optional<Eigen::Isometry3d> T_truth;  // motion of the first frame with ground truth
   scene_->change(
       [&](std::size_t index, SceneFrame& frame) {
+        const Eigen::Isometry3d before = frame.T_world_sensor.isometry();
         correct_frame(frame, sessions_[index], index < corrected_ ? &shown_ : nullptr,
                       result.correction);
+        if (!frame.truth) return;
+        if (!T_truth) T_truth = frame.T_world_sensor.isometry() * before.inverse();
+        frame.truth = *T_truth * *frame.truth;
+        frame.series.resize(frame.series.size() - kDistanceSeries);
+        append_distances(frame.series, frame, true);
       },
       std::make_shared<const MapChanges>(
           changes_of(map.points, map.colors, mapping.static_map().voxel_size())));
+  if (T_truth) truth_.move(*T_truth);
   corrected_ = sessions_.size();
   shown_ = result.correction;
   const Clock::time_point end = Clock::now();

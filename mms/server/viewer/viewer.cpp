@@ -40,7 +40,11 @@ bool Viewer::receive(std::string_view text, Clock::time_point now) {
 void Viewer::obey(const Command& command, Clock::time_point now) {
   state_due_ = true;
   if (std::holds_alternative<PlayCommand>(command)) playhead_.play(now);
-  if (std::holds_alternative<PauseCommand>(command)) playhead_.pause();
+  if (std::holds_alternative<PauseCommand>(command)) {
+    // Of a newer frame than the displayed one there may be no pictures any more.
+    if (playhead_.follows() && sent_.frame) playhead_.seek(*sent_.frame);
+    playhead_.pause();
+  }
   if (const auto* step = std::get_if<StepCommand>(&command)) playhead_.step(step->by);
   if (const auto* seek = std::get_if<SeekCommand>(&command)) playhead_.seek(seek->frame);
   if (const auto* speed = std::get_if<SpeedCommand>(&command)) {
@@ -51,12 +55,13 @@ void Viewer::obey(const Command& command, Clock::time_point now) {
 }
 
 void Viewer::obey(const WantCommand& want) {
+  const PictureParts before = parts_;
   parts_.points = want.points.value_or(parts_.points);
   parts_.image = want.image.value_or(parts_.image);
+  if (parts_ != before) sent_.pictures = false;
+  if (want.map.value_or(wants_map_) != wants_map_ || want.budget) map_version_ = 0;
   wants_map_ = want.map.value_or(wants_map_);
   if (want.budget) feed_.set_budget(*want.budget);
-  map_version_ = 0;
-  sent_.pictures = false;  // other parts were sent
 }
 
 void Viewer::tick(Clock::time_point now) {

@@ -40,6 +40,7 @@ struct PictureParts {
   bool image = true;  ///< and mask
 
   bool any() const { return points || image; }
+  bool operator==(const PictureParts&) const = default;
 };
 
 /// @param pictures  null unless PicturesState::kHere

@@ -1,6 +1,6 @@
 /** Envelope of a message: u32 length, JSON of that length, then raw buffers aligned to 4 bytes. */
 
-export type Buffer = Float32Array | Uint8Array | Uint16Array | Int16Array | Uint32Array;
+export type Buffer = Float32Array | Uint8Array | Uint32Array;
 
 export interface Envelope {
   header: Record<string, unknown>;
@@ -15,8 +15,6 @@ export class ProtocolError extends Error {
 const kTypes = {
   f32: Float32Array,
   u8: Uint8Array,
-  u16: Uint16Array,
-  i16: Int16Array,
   u32: Uint32Array,
 } as const;
 

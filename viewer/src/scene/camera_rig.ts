@@ -8,6 +8,8 @@ const kFollow = { behind: 4.6, above: 3.6, ahead: 2.6, below: 0.4 };
 /** For larger distances the camera jumps instead of moving [m]. */
 const kJump = 6;
 const kGlide = 0.5;
+/** Distance to which the camera can move away in every scene [m]. */
+const kReach = 300;
 const kHair = 0.01;
 const kEase = 0.18;
 
@@ -19,7 +21,7 @@ interface View {
 /** The scene's camera: orbits a point, follows the sensor, or shows the top view. The scene's y is up. */
 export class CameraRig {
   mode: CameraMode = 'orbit';
-  private readonly perspective = new PerspectiveCamera(55, 1, 0.05, 600);
+  private readonly perspective = new PerspectiveCamera(55, 1, 0.05);
   private readonly orthographic = new OrthographicCamera(-1, 1, 1, -1, -200, 400);
   private readonly around: OrbitControls;
   private readonly above: OrbitControls;
@@ -43,7 +45,6 @@ export class CameraRig {
     this.above.touches.TWO = TOUCH.DOLLY_PAN;
     this.around.maxPolarAngle = 0.495 * Math.PI;
     this.around.minDistance = 0.5;
-    this.around.maxDistance = 300;
     for (const controls of [this.around, this.above]) {
       controls.screenSpacePanning = controls === this.above;
       controls.enableDamping = true;
@@ -88,7 +89,7 @@ export class CameraRig {
   resize(width: number, height: number): void {
     [this.width, this.height] = [width, height];
     this.perspective.aspect = width / height;
-    this.perspective.updateProjectionMatrix();
+    this.reach();
     this.fitOrthographic();
     if (!this.moved && this.mode !== 'follow') this.settle();
   }
@@ -97,6 +98,7 @@ export class CameraRig {
   setBounds(bounds: Box3): void {
     if (bounds.isEmpty() || bounds.equals(this.bounds)) return;
     this.bounds.copy(bounds);
+    this.reach();
     if (!this.moved && this.mode !== 'follow') this.settle();
   }
 
@@ -152,8 +154,8 @@ export class CameraRig {
   }
 
   /** Initial view of the mode: behind the sensor, or far enough to show the whole scene. */
-  private home(): View {
-    if (this.mode === 'follow') {
+  private home(mode: CameraMode = this.mode): View {
+    if (mode === 'follow') {
       const turn = new Quaternion().setFromAxisAngle(kUp, this.anchor.yaw);
       const eye = new Vector3(0, kFollow.above, kFollow.behind).applyQuaternion(turn).add(this.anchor.at);
       const target = new Vector3(0, -kFollow.below, -kFollow.ahead).applyQuaternion(turn).add(this.anchor.at);
@@ -166,6 +168,14 @@ export class CameraRig {
     const away = (0.86 * radius) / Math.sin((this.perspective.fov * Math.PI) / 360) / narrow;
     const side = extent.x > extent.z ? new Vector3(0.35, 0.85, 0.75) : new Vector3(0.75, 0.85, 0.35);
     return { eye: side.normalize().multiplyScalar(away).add(target), target };
+  }
+
+  /** Lets the camera move away until the whole scene is in view, however large it is. */
+  private reach(): void {
+    const { eye, target } = this.home('orbit');
+    this.around.maxDistance = Math.max(kReach, 1.5 * eye.distanceTo(target));
+    this.perspective.far = 2 * this.around.maxDistance;
+    this.perspective.updateProjectionMatrix();
   }
 
   /** Moves the camera by a share of its distance to the sensor; true if noticeable. */

@@ -22,7 +22,7 @@ export function floorHeight(heights: Iterable<number>): number | null {
 
 /** Heights of the colors: from the floor to that below which nearly all points lie, at least 2 m. */
 export function heightRange(heights: number[], floor: number): [number, number] {
-  const sorted = [...heights].sort((a, b) => a - b);
+  const sorted = Float64Array.from(heights).sort();
   return [floor, Math.max(floor + 2, sorted[Math.floor(0.98 * sorted.length)] ?? floor)];
 }
 

@@ -3,6 +3,7 @@ import type { FrameMessage, Hello, MapMessage, SceneObject, Vector3 as Triple } 
 import { className } from '../state/class_words';
 import type { Run } from '../state/run';
 import type { Layer, Settings } from '../state/settings';
+import { throttled } from '../state/throttled';
 import { floorGrid, floorHeight, heightRange } from './floor';
 import type { Label } from './label_overlay';
 import { LoopLayer } from './loop_layer';
@@ -18,6 +19,8 @@ import { aheadOf, upright } from './upright';
 
 /** Points higher above the sensor are hidden, to show the inside of rooms [m]. */
 const kCeiling = 1;
+/** Shortest time between two measurements of a growing scene [ms]. */
+const kMeasureEvery = 1000;
 
 /** The 3D panel: the layers of the scene, updated from the run and the settings. */
 export class SceneView {
@@ -35,6 +38,10 @@ export class SceneView {
   private readonly layers: Partial<Record<Layer, Object3D>>;
   private pending = false;
   private measured = false;
+  private readonly remeasure = throttled(kMeasureEvery, () => {
+    this.measured = false;
+    this.stage.invalidate();
+  });
   private lastFrame = -1;
   /** Of the trajectory's poses. */
   private drawnEdition = 0;
@@ -94,7 +101,7 @@ export class SceneView {
       if (this.drawnEdition !== this.run.trajectory.edition) this.trajectory.clear();
       this.drawnEdition = this.run.trajectory.edition;
       this.loops.update(this.run.loops, this.run.trajectory);
-      this.measured = false;
+      this.remeasure();
       this.refresh();
     });
     this.settings.on('layer', () => this.refresh());
@@ -122,7 +129,7 @@ export class SceneView {
 
   private addMap(message: MapMessage): void {
     this.map.set(message);
-    this.measured = false;
+    this.remeasure();
     this.stage.invalidate();
   }
 

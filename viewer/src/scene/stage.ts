@@ -42,6 +42,8 @@ export class Stage {
     this.labels.canvas.classList.add('label-canvas');
     container.append(this.renderer.domElement, this.labels.canvas);
     this.rig = new CameraRig(this.renderer.domElement, () => this.invalidate());
+    // Nothing else changes when the browser gives the lost context back.
+    this.renderer.domElement.addEventListener('webglcontextrestored', () => this.invalidate());
     new ResizeObserver(() => this.resize()).observe(container);
   }
 

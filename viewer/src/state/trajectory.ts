@@ -25,8 +25,9 @@ export class Trajectory {
   add({ frame, pose, truth, stampNs }: FrameMessage): void {
     if (pose) this.poses.write(frame, pose);
     if (truth) this.truth.write(frame, truth);
-    if (stampNs === null || Number.isFinite(this.seconds.row(frame)[0])) return;
-    this.firstStampNs ??= stampNs - this.elapsedNs(frame);
+    if (stampNs === null) return;
+    this.firstStampNs ??= stampNs - this.elapsedNs(frame); // exact where the frame's own time is known
+    if (Number.isFinite(this.seconds.row(frame)[0])) return;
     this.seconds.write(frame, [Number(stampNs - this.firstStampNs) / 1e9]);
   }
 

@@ -3,9 +3,10 @@ import type { Unit } from '../protocol/messages';
 import { kColors } from '../scene/palette';
 import type { Run } from '../state/run';
 import { kInterval, type Series } from '../state/series';
+import { throttled } from '../state/throttled';
 import { Chart } from './chart';
 import type { Line } from './chart_data';
-import { h, part, throttled } from './dom';
+import { h, part } from './dom';
 import { clock, quantity, words } from './format';
 
 const kStageColors = ['#4db8ff', '#9b8cff', '#ff9f43', '#3ddcc0', '#f2d35e', '#ff6fae', '#8fa3b8', '#b7e06a'];

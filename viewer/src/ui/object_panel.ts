@@ -2,7 +2,8 @@ import type { SceneObject } from '../protocol/messages';
 import { classColor } from '../scene/palette';
 import { className } from '../state/class_words';
 import type { Run } from '../state/run';
-import { h, part, setText, throttled } from './dom';
+import { throttled } from '../state/throttled';
+import { h, part, setText } from './dom';
 
 /** The objects of the current frame: class and number, speed, distance from the sensor; nearest first. */
 export class ObjectPanel {

@@ -1,6 +1,7 @@
 import type { Command } from '../protocol/messages';
 import type { Run } from '../state/run';
-import { h, part, setText, throttled } from './dom';
+import { throttled } from '../state/throttled';
+import { h, part, setText } from './dom';
 import { clock, frameOf } from './format';
 import { icon } from './icons';
 

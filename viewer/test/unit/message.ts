@@ -3,8 +3,6 @@ import type { Buffer } from '../../src/protocol/envelope';
 const kNames = new Map<unknown, string>([
   [Float32Array, 'f32'],
   [Uint8Array, 'u8'],
-  [Uint16Array, 'u16'],
-  [Int16Array, 'i16'],
   [Uint32Array, 'u32'],
 ]);
 

@@ -1,5 +1,6 @@
-import { Color, Vector3 } from 'three';
+import { Box3, Color, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
+import { CameraRig } from '../../src/scene/camera_rig';
 import { floorHeight, heightRange } from '../../src/scene/floor';
 import { drawnCounts } from '../../src/scene/level_of_detail';
 import { ColoredSegments } from '../../src/scene/line_segments';
@@ -114,5 +115,20 @@ describe('ColoredSegments', () => {
     }
     const { positions } = lines as unknown as { positions: { updateRanges: unknown } };
     expect(positions.updateRanges).toEqual([{ start: 0, count: 18 }]);
+  });
+});
+
+describe('CameraRig', () => {
+  it('shows a large scene as a whole', () => {
+    const rig = new CameraRig(null as never, () => {});
+    rig.resize(1440, 900);
+    rig.setMode('orbit');
+    rig.setBounds(new Box3(new Vector3(-600, -2, -600), new Vector3(600, 8, 600)));
+    rig.update(1);
+    rig.camera.updateMatrixWorld();
+    for (const at of [new Vector3(-600, 0, 0), new Vector3(600, 0, 0), new Vector3(0, 0, -600), new Vector3(0, 0, 600)]) {
+      const seen = at.project(rig.camera);
+      expect(Math.max(Math.abs(seen.x), Math.abs(seen.y), Math.abs(seen.z))).toBeLessThan(1);
+    }
   });
 });

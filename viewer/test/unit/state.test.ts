@@ -1,10 +1,11 @@
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { decodeMessage } from '../../src/protocol/decode';
 import type { Buffer } from '../../src/protocol/envelope';
 import type { Command } from '../../src/protocol/messages';
 import { Place } from '../../src/state/place';
 import { Run } from '../../src/state/run';
 import { Settings } from '../../src/state/settings';
+import { throttled } from '../../src/state/throttled';
 import { forEachTrailSegment, type Track } from '../../src/state/tracks';
 import { message } from './message';
 
@@ -30,6 +31,18 @@ describe('Run', () => {
     expect(run.trajectory.time(1)).toBe(0.25);
     expect(run.trajectory.time(2)).toBeNull();
     expect(run.frames).toBe(4);
+  });
+
+  it('knows the times of frames after joining a live run', () => {
+    const run = new Run();
+    tell(run, { ...kHello, frames: null, live: true });
+    tell(run, { type: 'trajectory', first_frame: 0 }, [
+      ['pose', 7, Float32Array.of(...pose(0), ...pose(1))],
+      ['stamp', 1, Uint32Array.of(0, 100)],
+    ]);
+    tell(run, { type: 'frame', frame: 1, stamp_ns: '5100000000' }, [['pose', 7, pose(1)]]);
+    tell(run, { type: 'frame', frame: 2, stamp_ns: '5200000000' }, [['pose', 7, pose(2)]]);
+    expect(run.trajectory.time(2)).toBeCloseTo(0.2, 6);
   });
 
   it('appends frames of a live run and leaves gaps for missed ones', () => {
@@ -205,5 +218,21 @@ describe('Settings', () => {
     const settings = new Settings(null);
     settings.toggle('grid');
     expect(settings.shows('grid')).toBe(false);
+  });
+});
+
+describe('throttled', () => {
+  it('runs once per period, and once more at the end', () => {
+    vi.useFakeTimers();
+    let runs = 0;
+    const run = throttled(1000, () => ++runs);
+    for (let i = 0; i < 50; ++i) {
+      run();
+      vi.advanceTimersByTime(66);
+    }
+    expect(runs).toBe(4);
+    vi.advanceTimersByTime(2000);
+    expect(runs).toBe(5);
+    vi.useRealTimers();
   });
 });
