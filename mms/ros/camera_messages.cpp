@@ -22,7 +22,7 @@ std::array<double, 5> lens_of(const msg::CameraInfo& message, const std::string&
     throw DataError(where,
                     "has the distortion model '" + model + "' of " + std::to_string(D.size()) +
                         " coefficients, expected plumb_bob (k1 k2 p1 p2 k3)",
-                    "rectify the images, or provide a calibration");
+                    "rectify the images, or record a bag and give --calibration");
   }
   std::copy_n(D.begin(), std::min(D.size(), lens.size()), lens.begin());
   return lens;
@@ -51,6 +51,10 @@ CameraIntrinsics intrinsics_of(const msg::CameraInfo& message, bool rectified,
   }
   if (!rectified) camera.distortion = lens_of(message, where);
   return camera;
+}
+
+bool is_named_rectified(const std::string& topic) {
+  return topic.find("rect") != std::string::npos;
 }
 
 msg::CameraInfo camera_info_message(const msg::Header& header, const CameraIntrinsics& camera) {

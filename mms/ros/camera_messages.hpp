@@ -15,6 +15,9 @@ namespace mms {
 CameraIntrinsics intrinsics_of(const msg::CameraInfo& message, bool rectified,
                                const std::string& where);
 
+/// Whether images of a topic are rectified, by the names of image_proc and of drivers.
+bool is_named_rectified(const std::string& topic);
+
 msg::CameraInfo camera_info_message(const msg::Header& header, const CameraIntrinsics& camera);
 
 }  // namespace mms

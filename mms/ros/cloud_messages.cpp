@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/cloud/point_fields.hpp"
 
 namespace mms {
@@ -104,8 +105,8 @@ void check_size(const msg::PointCloud2& cloud, const std::string& where) {
       cloud.height == 0 ? 0 : (cloud.height - std::size_t{1}) * cloud.row_step + row;
   if (rows && cloud.data.size() >= required) return;
   throw DataError(where, "has " + std::to_string(cloud.data.size()) + " bytes for " +
-                             std::to_string(cloud.width) + "x" + std::to_string(cloud.height) +
-                             " points of " + std::to_string(cloud.point_step));
+                             size_text(cloud.width, cloud.height) + " points of " +
+                             std::to_string(cloud.point_step));
 }
 
 /// Calls `visit(row, column)` for every point in order.

@@ -50,8 +50,8 @@ struct MeshFile {
 
 /// visualization_msgs/Marker
 struct Marker {
-  enum Type : std::int32_t { kCube = 1, kLineStrip = 4, kText = 9 };
-  enum Action : std::int32_t { kAdd = 0, kDelete = 2, kDeleteAll = 3 };
+  enum Type : std::int32_t { kCube = 1, kText = 9 };
+  enum Action : std::int32_t { kAdd = 0, kDeleteAll = 3 };
 
   Header header;
   std::string ns;

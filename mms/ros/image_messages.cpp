@@ -8,6 +8,7 @@
 #include <span>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/ros/raw_colors.hpp"
 #include "mms/ros/rvl.hpp"
@@ -36,8 +37,7 @@ const ColorLayout* color_layout(const std::string& encoding) {
 
 /// @throws DataError if rows are incomplete.
 void check_layout(const msg::Image& message, std::size_t pixel_size, const std::string& where) {
-  const std::string size =
-      std::to_string(message.width) + "x" + std::to_string(message.height) + " pixels";
+  const std::string size = size_text(message.width, message.height) + " pixels";
   if (message.width == 0 || message.height == 0 || message.width > kMaxImageSide ||
       message.height > kMaxImageSide) {
     throw DataError(where, "is " + size + ", allowed: 1x1 to 16384x16384");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/image/rle.hpp"
 
 namespace mms {
@@ -65,8 +66,7 @@ Segmentation segmentation_of(const msg::Masks& message, int width, int height,
                              const std::string& where) {
   if (message.width == 0 || message.height == 0 || message.width > kMaxImageSide ||
       message.height > kMaxImageSide) {
-    throw DataError(where, "masks of " + std::to_string(message.width) + "x" +
-                               std::to_string(message.height) + " pixels");
+    throw DataError(where, "masks of " + size_text(message.width, message.height) + " pixels");
   }
   Segmentation segmentation{width, height, {}};
   for (const msg::Instance& sent : message.instances) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/image/yuv_color.hpp"
 
 namespace mms {
@@ -106,9 +107,8 @@ Image<Rgb> color_of_bayer(const msg::Image& message, const BayerPattern& pattern
 
 [[noreturn]] void fail_sides(const msg::Image& message, const char* allowed,
                              const std::string& where) {
-  throw DataError(where, "is " + std::to_string(message.width) + "x" +
-                             std::to_string(message.height) + " pixels of " + message.encoding +
-                             ", allowed: " + allowed);
+  throw DataError(where, "is " + size_text(message.width, message.height) + " pixels of " +
+                             message.encoding + ", allowed: " + allowed);
 }
 
 }  // namespace

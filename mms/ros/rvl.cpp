@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/journal/byte_reader.hpp"
 
 namespace mms {
@@ -51,8 +52,8 @@ Image<std::uint16_t> decode_rvl(std::span<const std::uint8_t> bytes, const std::
   const auto width = reader.take<std::uint32_t>();
   const auto height = reader.take<std::uint32_t>();
   if (width == 0 || height == 0 || width > kMaxPixels / height) {
-    throw DataError(where, "is " + std::to_string(width) + "x" + std::to_string(height) +
-                               " pixels, allowed: 1 to " + std::to_string(kMaxPixels));
+    throw DataError(where, "is " + size_text(width, height) + " pixels, allowed: 1 to " +
+                               std::to_string(kMaxPixels));
   }
   Image<std::uint16_t> image(static_cast<int>(width), static_cast<int>(height));
   Nibbles nibbles(std::move(reader));

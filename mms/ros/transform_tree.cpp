@@ -11,13 +11,19 @@ std::string plain(const std::string& frame) {
   return frame.starts_with("/") ? frame.substr(1) : frame;
 }
 
-const Eigen::Isometry3d& nearest(const std::map<Timestamp, Eigen::Isometry3d>& transforms,
-                                 Timestamp stamp) {
+/// Interpolated between two stamps; outside the first or last one, as tf2.
+Eigen::Isometry3d pose_at(const std::map<Timestamp, Eigen::Isometry3d>& transforms,
+                          Timestamp stamp) {
   const auto after = transforms.lower_bound(stamp);
-  if (after == transforms.begin()) return after->second;
+  if (after == transforms.end()) return std::prev(after)->second;
+  if (after == transforms.begin() || after->first == stamp) return after->second;
   const auto before = std::prev(after);
-  if (after == transforms.end()) return before->second;
-  return stamp - before->first <= after->first - stamp ? before->second : after->second;
+  const double share = to_seconds(stamp - before->first) / to_seconds(after->first - before->first);
+  const Eigen::Quaterniond first(before->second.linear());
+  Eigen::Isometry3d T(first.slerp(share, Eigen::Quaterniond(after->second.linear())));
+  T.translation() =
+      (1.0 - share) * before->second.translation() + share * after->second.translation();
+  return T;
 }
 
 }  // namespace
@@ -65,7 +71,7 @@ Eigen::Isometry3d TransformTree::to_ancestor(const std::vector<std::string>& cha
   Eigen::Isometry3d T_ancestor_frame = Eigen::Isometry3d::Identity();
   for (const std::string& frame : chain) {
     if (frame == ancestor) break;
-    T_ancestor_frame = nearest(edges_.find(frame)->second.T_parent_child, stamp) * T_ancestor_frame;
+    T_ancestor_frame = pose_at(edges_.find(frame)->second.T_parent_child, stamp) * T_ancestor_frame;
   }
   return T_ancestor_frame;
 }

@@ -23,8 +23,8 @@ class TransformTree {
   /// Ignores transforms that are not finite.
   void add(const msg::Transforms& message);
 
-  /// Transform from `source` to `target`, from the transforms nearest in time to `stamp`; nullopt
-  /// if the frames are not connected.
+  /// Transform from `source` to `target` at `stamp`, each part interpolated as by tf2; nullopt if
+  /// the frames are not connected.
   std::optional<Eigen::Isometry3d> lookup(const std::string& target, const std::string& source,
                                           Timestamp stamp) const;
 

@@ -43,15 +43,20 @@ std::string dds_settings() {
   std::string settings =
       "<CycloneDDS><Domain><General><MaxMessageSize>65500B</MaxMessageSize>"
       "<FragmentSize>63000B</FragmentSize>";
-  if (environment("ROS_LOCALHOST_ONLY") == "1" ||
-      environment("ROS_AUTOMATIC_DISCOVERY_RANGE") == "LOCALHOST") {
+  const bool is_local = environment("ROS_LOCALHOST_ONLY") == "1" ||
+                        environment("ROS_AUTOMATIC_DISCOVERY_RANGE") == "LOCALHOST";
+  if (is_local) {
     settings +=
         R"(<Interfaces><NetworkInterface address="127.0.0.1" multicast="false"/></Interfaces>)";
   }
+  settings += "</General>";
+  if (is_local) {  // without multicast each process needs a number, and a robot has more than ten
+    settings +=
+        "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+        "<MaxAutoParticipantIndex>99</MaxAutoParticipantIndex></Discovery>";
+  }
   // A color and a depth image of 640x480 have 1.5 MB; as much as the system allows.
-  settings +=
-      "</General><Internal><SocketReceiveBufferSize "
-      "max=\"16MB\"/></Internal></Domain></CycloneDDS>";
+  settings += "<Internal><SocketReceiveBufferSize max=\"16MB\"/></Internal></Domain></CycloneDDS>";
   const std::string own = environment("CYCLONEDDS_URI");
   return own.empty() ? settings : settings + "," + own;
 }

@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kHumble = "humble";
-constexpr std::array kRos2Distros = {kHumble, "iron", "jazzy", "kilted", "rolling"};
+constexpr std::array kRos2Distros = {kHumble, "iron", "jazzy", "kilted", "lyrical", "rolling"};
 constexpr std::int64_t kWake = 50'000'000;  // longest sleep of the receiving thread [ns]
 constexpr std::uint32_t kTaken = 16;        // samples per call
 
@@ -61,12 +61,18 @@ class Ros2Node::Graph {
     options_.name_space = msg::full_namespace(options_.name_space, "--namespace");
     if (std::find(kRos2Distros.begin(), kRos2Distros.end(), options_.distro) ==
         kRos2Distros.end()) {
-      throw ConfigError("--ros-distro", "is '" + options_.distro +
-                                            "', allowed: humble, iron, jazzy, kilted, rolling");
+      throw ConfigError(
+          "--ros-distro",
+          "is '" + options_.distro + "', allowed: humble, iron, jazzy, kilted, lyrical, rolling");
     }
     domain_ = domain_id();
     const dds_entity_t own = dds_create_domain(domain_, dds_settings().c_str());
-    if (own > 0) domain_entity_ = own;  // else another node of this process made it
+    if (own > 0) {
+      domain_entity_ = own;
+    } else if (own !=
+               DDS_RETCODE_PRECONDITION_NOT_MET) {  // else another node of this process made it
+      fail_dds("cannot join the domain " + std::to_string(domain_), own);
+    }
     try {
       open();
     } catch (...) {

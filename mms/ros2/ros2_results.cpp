@@ -40,10 +40,12 @@ Ros2Results::Ros2Results(Ros2Node& node, const Ros2ResultOptions& options)
   const TopicQos latest{Reliability::kReliable, true, 1};
   odometry_ = node.advertise<msg::Odometry>("~/odometry", small);
   if (options.transforms) {
-    transforms_ = node.advertise<msg::Transforms>("/tf", small);
+    transforms_ = node.advertise<msg::Transforms>(options.transforms_topic, small);
     const auto add = [this](const msg::Transforms& message) { robot_.add(message); };
-    node.subscribe<msg::Transforms>("/tf_static", {Reliability::kReliable, true, 100}, add);
-    node.subscribe<msg::Transforms>("/tf", {Reliability::kAsPublishers, false, 100}, add);
+    node.subscribe<msg::Transforms>(options.transforms_topic + "_static",
+                                    {Reliability::kReliable, true, 100}, add);
+    node.subscribe<msg::Transforms>(options.transforms_topic,
+                                    {Reliability::kAsPublishers, false, 100}, add);
   }
   path_topic_ = node.advertise<msg::Path>("~/path", latest);
   static_cloud_ = node.advertise<msg::PointCloud2>("~/static_cloud", large);

@@ -16,7 +16,8 @@ namespace mms {
 
 /// How results are published.
 struct Ros2ResultOptions {
-  bool transforms = true;                 ///< on /tf
+  bool transforms = true;  ///< on `transforms_topic`
+  std::string transforms_topic = "/tf";
   std::string map_frame = "map";          ///< of the global map: z up, x forward
   std::string world_frame = "mms_world";  ///< of the odometry: the first sensor frame
   double map_period = 2.0;                ///< between two maps [s]

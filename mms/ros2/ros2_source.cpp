@@ -8,6 +8,7 @@
 #include "mms/ros/camera_messages.hpp"
 #include "mms/ros/cloud_messages.hpp"
 #include "mms/ros/image_messages.hpp"
+#include "mms/ros/motion_messages.hpp"
 
 namespace mms {
 namespace {
@@ -63,7 +64,7 @@ Ros2Source::Ros2Source(Ros2Node& node, const Ros2Inputs& inputs, std::size_t que
     subscribe_points();
   }
   subscribe_motion();
-  if (!is_placed() || needs_mounting()) subscribe_transforms();
+  if (!is_placed() || !is_mounted()) subscribe_transforms();
   if (!inputs_.initial_pose.empty()) subscribe_initial_pose();
   node_.every(kPoll, [this] {
     if (stop_()) close();
@@ -85,7 +86,7 @@ void Ros2Source::subscribe_color() {
   }
   node_.subscribe<msg::CameraInfo>(
       inputs_.camera_info, qos, [this](const msg::CameraInfo& message) {
-        const bool rectified = inputs_.color.find("rect") != std::string::npos;
+        const bool rectified = is_named_rectified(inputs_.color);
         assembler_.set_camera(intrinsics_of(message, rectified, "camera_info"));
         advance();
       });
@@ -111,7 +112,7 @@ void Ros2Source::subscribe_depth() {
   if (depth_known_) return;
   node_.subscribe<msg::CameraInfo>(
       inputs_.depth_info, sensor_qos(30), [this](const msg::CameraInfo& message) {
-        const bool rectified = inputs_.depth.find("rect") != std::string::npos;
+        const bool rectified = is_named_rectified(inputs_.depth);
         depth_camera_ = intrinsics_of(message, rectified, "camera_info of the depth images");
         advance();
       });
@@ -133,33 +134,30 @@ void Ros2Source::subscribe_motion() {
   if (!inputs_.imu.empty()) {
     node_.subscribe<msg::Imu>(inputs_.imu, sensor_qos(kQueue), [this](const msg::Imu& message) {
       imu_frame_ = message.header.frame_id;
-      const ImuSample sample{message.header.stamp,
-                             Eigen::Map<const Eigen::Vector3d>(message.angular_velocity.data()),
-                             Eigen::Map<const Eigen::Vector3d>(message.linear_acceleration.data())};
+      const ImuSample sample = sample_of(message);
       if (sample.rate.allFinite()) add_sample(imu_, sample);
       advance();
     });
   }
   if (inputs_.wheels.empty()) return;
-  node_.subscribe<msg::Odometry>(
-      inputs_.wheels, sensor_qos(kQueue), [this](const msg::Odometry& message) {
-        wheel_frame_ = message.child_frame_id;
-        const WheelSample sample{message.header.stamp,
-                                 Transform<Odometer, Base>(isometry_of(message.pose))};
-        if (sample.T_odom_base.is_finite()) add_sample(wheels_, sample);
-        advance();
-      });
+  node_.subscribe<msg::Odometry>(inputs_.wheels, sensor_qos(kQueue),
+                                 [this](const msg::Odometry& message) {
+                                   wheel_frame_ = message.child_frame_id;
+                                   const WheelSample sample = sample_of(message);
+                                   if (sample.T_odom_base.is_finite()) add_sample(wheels_, sample);
+                                   advance();
+                                 });
 }
 
 void Ros2Source::subscribe_transforms() {
   const auto add = [this](const msg::Transforms& message) {
     // Those of a moving robot would fill the memory; mountings do not change.
-    if (!is_placed() || !mounting_) transforms_.add(message);
+    if (!is_placed() || !is_mounted()) transforms_.add(message);
     advance();
   };
-  node_.subscribe<msg::Transforms>("/tf_static", {TopicQos::Reliability::kReliable, true, 100},
-                                   add);
-  node_.subscribe<msg::Transforms>("/tf", sensor_qos(100), add);
+  node_.subscribe<msg::Transforms>(inputs_.transforms + "_static",
+                                   {TopicQos::Reliability::kReliable, true, 100}, add);
+  node_.subscribe<msg::Transforms>(inputs_.transforms, sensor_qos(100), add);
 }
 
 /// The pose is taken as that of the sensor, x forward and z up.
@@ -242,25 +240,43 @@ bool Ros2Source::find_extrinsics() {
   return T.has_value();
 }
 
+/// Searches what is not known yet: a driver may start after the first frame.
+void Ros2Source::find_mounting(Timestamp stamp) {
+  const std::string& sensor = is_camera() ? color_frame_ : cloud_frame_;
+  const auto find = [&](const std::string& frame, auto& T_sensor_frame) {
+    if (T_sensor_frame || frame.empty()) return;
+    const auto found = transforms_.lookup(sensor, frame, stamp);
+    if (!found) return;
+    T_sensor_frame.emplace(*found);
+    received_.reset();  // the calibration of the frames from here on has it
+  };
+  if (!inputs_.wheels.empty()) find(wheel_frame_, mounting_.T_sensor_base);
+  if (!inputs_.imu.empty()) find(imu_frame_, mounting_.T_sensor_imu);
+}
+
+void Ros2Source::warn_of_mounting(const std::string& topic, const std::string& frame) {
+  if (frame.empty()) {
+    warn("no messages on " + topic + " yet: each frame waits 0.5 s for them");
+  } else {
+    warn("no transform on /tf_static or /tf from '" + frame + "' to '" +
+         (is_camera() ? color_frame_ : cloud_frame_) + "' yet: until it comes, the sensor of " +
+         topic + " is taken to be where the frames are");
+  }
+}
+
 /// Whether the frame's mask and motion have arrived, or will not.
 bool Ros2Source::is_complete(const Pending& pending) {
   const auto waited = Clock::now() - pending.since;
-  if (!mounting_) {
-    const std::string& sensor = is_camera() ? color_frame_ : cloud_frame_;
-    const auto lookup = [&](const std::string& frame) {
-      return frame.empty() ? std::nullopt : transforms_.lookup(sensor, frame, pending.frame.stamp);
-    };
-    const auto T_wheels = lookup(wheel_frame_);
-    const auto T_imu = lookup(imu_frame_);
-    const bool found = (inputs_.wheels.empty() || T_wheels) && (inputs_.imu.empty() || T_imu);
-    if (!found && waited < kMountingWait) return false;
-    if (!found) {
-      warn("no transform on /tf_static or /tf to '" + sensor +
-           "' from the frame of the wheels or gyroscope: it is estimated");
+  find_mounting(pending.frame.stamp);
+  if (!has_waited_) {
+    if (!is_mounted() && waited < kMountingWait) return false;
+    has_waited_ = true;
+    if (!inputs_.wheels.empty() && !mounting_.T_sensor_base) {
+      warn_of_mounting(inputs_.wheels, wheel_frame_);
     }
-    mounting_.emplace();
-    if (T_wheels) mounting_->T_sensor_base = Transform<Sensor, Base>(*T_wheels);
-    if (T_imu) mounting_->T_sensor_imu = Transform<Sensor, Imu>(*T_imu);
+    if (!inputs_.imu.empty() && !mounting_.T_sensor_imu) {
+      warn_of_mounting(inputs_.imu, imu_frame_);
+    }
   }
   const Timestamp end = motion_end(pending.frame);
   const bool mask = inputs_.mask.empty() || !pending.color_stamp ||
@@ -279,6 +295,7 @@ void Ros2Source::release(Pending pending) {
   {
     const std::scoped_lock lock(mutex_);
     sensor_frame_ = is_camera() ? color_frame_ : cloud_frame_;
+    if (sensor_frame_.empty()) sensor_frame_ = "mms_sensor";  // tf2 refuses an empty frame_id
     ++counts_.frames;
   }
   push(std::move(pending.frame));
@@ -301,10 +318,10 @@ void Ros2Source::complete(Pending& pending) {
 }
 
 std::shared_ptr<const Calibration> Ros2Source::calibration_of(const Frame& frame) {
-  if (mounting_->empty()) return frame.calibration;
+  if (mounting_.empty()) return frame.calibration;
   if (received_ != frame.calibration) {
     Calibration calibration = *frame.calibration;
-    calibration.motion = *mounting_;
+    calibration.motion = mounting_;
     received_ = frame.calibration;
     completed_ = std::make_shared<const Calibration>(std::move(calibration));
   }
@@ -332,6 +349,14 @@ void Ros2Source::count_damaged(const std::string& fault) {
     const std::scoped_lock lock(mutex_);
     ++counts_.damaged;
   }
+  // As with every image of a wrong encoding.
+  constexpr auto kRepeat = std::chrono::seconds(5);
+  constexpr std::size_t kMaxFaults = 100;
+  const Clock::time_point now = Clock::now();
+  const auto [last, is_new] = warned_.try_emplace(fault, now);
+  if (!is_new && now - last->second < kRepeat) return;
+  last->second = now;
+  if (warned_.size() > kMaxFaults) warned_.clear();
   warn(fault);
 }
 
@@ -340,7 +365,11 @@ std::string Ros2Source::report() {
   const std::chrono::duration<double> passed = now - reported_;
   reported_ = now;
   std::string text = assembler_.report(passed.count());
-  if (!depth_known_ && !depth_frame_.empty() && !color_frame_.empty()) {
+  if (!is_camera()) return text;
+  if (!depth_known_ && (depth_frame_.empty() || color_frame_.empty())) {
+    text +=
+        "; no frame_id of color or depth images, if they are registered give --depth-registered";
+  } else if (!depth_known_) {
     if (!depth_camera_) text += "; camera_info of the depth images: none on " + inputs_.depth_info;
     if (!transforms_.lookup(color_frame_, depth_frame_, Timestamp())) {
       text += "; no transform from '" + depth_frame_ + "' to '" + color_frame_ +

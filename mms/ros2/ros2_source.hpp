@@ -3,6 +3,7 @@
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -30,7 +31,8 @@ struct Ros2Inputs {
   std::string mask{};    ///< label images: 0 static, 1 person, 2 vehicle
   std::string initial_pose =
       "/initialpose";  ///< PoseWithCovarianceStamped: where a user says that the sensor is
-  std::string map_frame = "map";  ///< frame of the initial pose: x forward, z up
+  std::string transforms = "/tf";  ///< static ones come on the same name with _static
+  std::string map_frame = "map";   ///< frame of the initial pose: x forward, z up
 };
 
 /// Counts since the start.
@@ -75,7 +77,7 @@ class Ros2Source final : public LiveSource {
   using Clock = std::chrono::steady_clock;
   struct Pending {
     Frame frame;
-    std::optional<Timestamp> color_stamp;  ///< of its color image, as of its mask
+    std::optional<Timestamp> color_stamp;  ///< of its color image, as for its mask
     Clock::time_point since;
   };
 
@@ -89,7 +91,12 @@ class Ros2Source final : public LiveSource {
   void take_frames();
   bool find_extrinsics();
   bool find_depth_camera();
-  bool needs_mounting() const { return !inputs_.imu.empty() || !inputs_.wheels.empty(); }
+  bool is_mounted() const {
+    return (inputs_.wheels.empty() || mounting_.T_sensor_base) &&
+           (inputs_.imu.empty() || mounting_.T_sensor_imu);
+  }
+  void find_mounting(Timestamp stamp);
+  void warn_of_mounting(const std::string& topic, const std::string& frame);
   bool is_placed() const;
   bool is_complete(const Pending& pending);
   void release(Pending pending);
@@ -103,7 +110,8 @@ class Ros2Source final : public LiveSource {
 
   // Of the node's thread:
   FrameAssembler assembler_;
-  TransformTree transforms_;
+  TransformTree transforms_{
+      1000};  ///< so many of each frame: those of a robot would fill the memory
   std::string color_frame_, depth_frame_, cloud_frame_, wheel_frame_, imu_frame_;
   std::optional<CameraIntrinsics> depth_camera_;  ///< as received
   bool depth_known_ = false;     ///< how to register depth images, or that they are
@@ -115,8 +123,11 @@ class Ros2Source final : public LiveSource {
   std::optional<Timestamp> last_stamp_;
   std::shared_ptr<const Calibration> received_;   ///< that of the last frame
   std::shared_ptr<const Calibration> completed_;  ///< the same with the mounting of the motion
-  std::optional<MotionCalibration> mounting_;     ///< as of the first frame
+  MotionCalibration mounting_;                    ///< as far as it is known
+  bool has_waited_ = false;                       ///< the first frame, for the mounting
   Clock::time_point reported_ = Clock::now();
+  std::map<std::string, Clock::time_point>
+      warned_;  ///< faults of messages, and when they were warned of
 
   mutable std::mutex mutex_;  ///< guards all below
   std::string sensor_frame_;

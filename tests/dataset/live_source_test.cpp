@@ -35,7 +35,9 @@ TEST(LiveSource, CountsDroppedFramesAndWarnsOnce) {
   source.end();
   EXPECT_EQ(source.dropped(), 2U);
   EXPECT_EQ(warnings,
-            std::vector<std::string>{"frames are dropped: the run is slower than the sensor"});
+            std::vector<std::string>{
+                "frames are dropped: the run is slower than the sensor (--realtime keeps the "
+                "latency small)"});
   for (const int i : {0, 3, 4}) EXPECT_EQ(source.next()->index, i);
   EXPECT_FALSE(source.next());
 }

@@ -60,5 +60,11 @@ TEST(CameraMessages, RejectsUncalibratedCameras) {
   expect_in("binning 2x0", message_of<DataError>([&] { intrinsics_of(message, false, "test"); }));
 }
 
+TEST(CameraMessages, KnowsNamesOfRectifiedImages) {
+  EXPECT_TRUE(is_named_rectified("/camera/rgb/image_rect_color/compressed"));
+  EXPECT_TRUE(is_named_rectified("/zed/zed_node/rgb/color/rect/image"));
+  EXPECT_FALSE(is_named_rectified("/camera/color/image_raw"));
+}
+
 }  // namespace
 }  // namespace mms

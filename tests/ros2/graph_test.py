@@ -61,7 +61,7 @@ def run_mms(*words):
 def start_node(folder, *words):
     log = open(folder + ".log", "w")
     return subprocess.Popen(
-        [MMS, "ros2", "--mask", "/camera/mask/image_raw", "-o", folder, *words],
+        [MMS, "ros2", "--mask", "/camera/mask/image_raw", "-o", folder, "--queue", "1000", *words],
         stdout=log, stderr=log)
 
 
@@ -259,7 +259,7 @@ def check_settings():
 
 def check_restart():
     """A partner is killed and another one starts; the service works; Ctrl-C writes the results."""
-    node = start_node("restarted", "--save-folder", "saved")
+    node = start_node("restarted", "--realtime", "--save-folder", "saved")
     odometry = "/mms_slam/odometry=nav_msgs/Odometry"
     first = start_partner("play", "x.mcap", "receive", "first", "topics", odometry)
     wait_for(lambda: len(list(Path("first").glob("*.cdr"))) >= 5, "frames of the first partner")

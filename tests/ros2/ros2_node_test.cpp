@@ -2,6 +2,8 @@
 
 #include <dds/dds.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -283,9 +285,31 @@ TEST_F(Ros2NodeTest, SettingsAreParametersThatCanBeRead) {
   EXPECT_FALSE(result.successful);
 }
 
+TEST_F(Ros2NodeTest, DoesNotLeaveThisMachineWhereNoNumberIsFree) {
+  constexpr int kDomain = 101;  // of no other test
+  setenv("ROS_DOMAIN_ID", std::to_string(kDomain).c_str(), 1);
+  std::vector<int> sockets;
+  const auto occupy = [&](int first, int end) {  // numbers of participants
+    for (int i = first; i < end; ++i) {
+      sockets.push_back(::socket(AF_INET, SOCK_DGRAM, 0));
+      sockaddr_in address{};
+      address.sin_family = AF_INET;
+      address.sin_port = htons(static_cast<std::uint16_t>(7400 + 250 * kDomain + 10 + 2 * i));
+      ::bind(sockets.back(), reinterpret_cast<sockaddr*>(&address), sizeof address);
+    }
+  };
+  occupy(0, 12);
+  EXPECT_NO_THROW(Ros2Node(named("a"), fail_on_error()));
+  occupy(12, 100);
+  EXPECT_THROW(Ros2Node(named("b"), fail_on_error()), Error);
+  for (const int socket : sockets) ::close(socket);
+}
+
 TEST_F(Ros2NodeTest, RejectsWrongSettings) {
   EXPECT_THROW(Ros2Node(named("a b"), fail_on_error()), ConfigError);
   Ros2NodeOptions options;
+  options.distro = "lyrical";
+  EXPECT_NO_THROW(Ros2Node(options, fail_on_error()));
   options.distro = "noetic";
   EXPECT_THROW(Ros2Node(options, fail_on_error()), ConfigError);
   for (const char* domain : {"233", "-1", "x"}) {

@@ -287,7 +287,7 @@ TEST_F(Ros2SourceTest, SkipsFramesOfAnEarlierTimeAndDamagedMessages) {
         {&color_, &depth_, &camera_info_});
   publish_images(1.0);
   ASSERT_TRUE(source_->wait(ignore));
-  publish_images(0.0);  // as of a bag that starts again
+  publish_images(0.0);  // as from a bag that starts again
   msg::Image damaged = image_message(header_at(1.5, "camera"), Image<float>(kWidth, kHeight, 2.0F));
   damaged.data.resize(3);
   depth_.publish(damaged);
@@ -420,6 +420,33 @@ TEST_F(Ros2SourceTest, EndsWhenAsked) {
   start({.color = "color", .depth = "depth", .camera_info = "camera_info"}, {&color_});
   stop_ = true;
   EXPECT_FALSE(source_->wait(ignore));
+}
+
+TEST_F(Ros2SourceTest, MountingOfAGyroscopeThatStartsLaterIsFound) {
+  start({.color = "color", .depth = "depth", .camera_info = "camera_info", .imu = "imu"},
+        {&color_, &depth_, &camera_info_, &imu_});
+  tf_static_.publish(msg::Transforms{{{{0, at(0.0), "camera"}, "imu_link", {}}}});
+  publish_images(0.0);
+  std::string said;
+  ASSERT_TRUE(source_->wait([&](const std::string& message) { said += message; }));  // after 2 s
+  EXPECT_NE(said.find("no messages on imu"), std::string::npos);
+  ASSERT_TRUE(source_->next());
+  for (int i = 0; i < 20; ++i) publish_imu(0.01 * i);
+  publish_images(0.1);
+  const auto frame = source_->next();
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(frame->calibration->motion.T_sensor_imu);
+}
+
+TEST_F(Ros2SourceTest, ReportsImagesWithoutFrame) {
+  start({.color = "color",
+         .depth = "depth",
+         .depth_info = "depth_info",
+         .camera_info = "camera_info"},
+        {&color_, &depth_, &camera_info_});
+  color_.publish(image_message(header_at(0.0, ""), Image<Rgb>(kWidth, kHeight, Rgb{1, 2, 3})));
+  depth_.publish(image_message(header_at(0.0, ""), Image<float>(kWidth, kHeight, 2.0F)));
+  EXPECT_TRUE(reports("give --depth-registered"));
 }
 
 }  // namespace

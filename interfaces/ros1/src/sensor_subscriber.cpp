@@ -62,9 +62,10 @@ void SensorSubscriber::subscribe_color(ros::NodeHandle& node) {
   } else {
     subscribers_.push_back(subscribe_to<msg::Image>(node, "color/image_raw", add));
   }
-  subscribers_.push_back(
-      subscribe_to<msg::CameraInfo>(node, "color/camera_info", [this](const auto& message) {
-        take([&] { assembler_.set_camera(intrinsics_of(message, false, "camera_info")); });
+  const bool rectified = is_named_rectified(subscribers_.back().getTopic());  // as remapped
+  subscribers_.push_back(subscribe_to<msg::CameraInfo>(
+      node, "color/camera_info", [this, rectified](const auto& message) {
+        take([&] { assembler_.set_camera(intrinsics_of(message, rectified, "camera_info")); });
       }));
 }
 

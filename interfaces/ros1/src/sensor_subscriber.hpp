@@ -43,7 +43,8 @@ class SensorSubscriber {
   Sink sink_;
   std::mutex mutex_;  ///< guards all below: topics have concurrent callbacks
   FrameAssembler assembler_;
-  TransformTree transforms_;
+  TransformTree transforms_{
+      1000};  ///< so many of each frame: those of a robot would fill the memory
   std::string frame_id_;
   std::string color_frame_;
   std::size_t damaged_ = 0;

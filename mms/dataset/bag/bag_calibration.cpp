@@ -41,7 +41,7 @@ void read_camera(BagRecording& recording, const std::string& topic, Calibration&
                     "name its topic with --topic-camera-info, or add the camera to " +
                         calibration_file(where).filename().string());
   }
-  const bool rectified = recording.color.topic.find("rect") != std::string::npos;
+  const bool rectified = is_named_rectified(recording.color.topic);
   calibration.camera = intrinsics_of(recording.bag->first<msg::CameraInfo>(topic), rectified,
                                      recording.bag->where(topic, 0));
   recording.facts.push_back("calibration: " + topic);
@@ -125,7 +125,7 @@ void read_depth_camera(BagRecording& recording, const TransformTree& transforms,
         "; if it is not registered, add depth_camera to a calibration file");
     return;
   }
-  const bool rectified = depth.topic.find("rect") != std::string::npos;
+  const bool rectified = is_named_rectified(depth.topic);
   const CameraIntrinsics camera = intrinsics_of(recording.bag->read<msg::CameraInfo>(info, 0),
                                                 rectified, recording.bag->where(info, 0));
   calibration.depth_camera = DepthCamera{camera, Transform<Camera, Depth>(*T)};

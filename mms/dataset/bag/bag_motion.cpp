@@ -1,19 +1,10 @@
 #include "mms/dataset/bag/bag_motion.hpp"
 
 #include "mms/core/error.hpp"
-#include "mms/ros/transform_tree.hpp"
+#include "mms/ros/motion_messages.hpp"
 
 namespace mms {
 namespace {
-
-WheelSample sample_of(const msg::Odometry& message) {
-  return {message.header.stamp, Transform<Odometer, Base>(isometry_of(message.pose))};
-}
-
-ImuSample sample_of(const msg::Imu& message) {
-  return {message.header.stamp, Eigen::Map<const Eigen::Vector3d>(message.angular_velocity.data()),
-          Eigen::Map<const Eigen::Vector3d>(message.linear_acceleration.data())};
-}
 
 bool is_finite(const WheelSample& sample) {
   return sample.T_odom_base.is_finite();

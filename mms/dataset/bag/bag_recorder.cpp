@@ -95,7 +95,7 @@ class BagRecorder final : public FrameRecorder {
   void add_motion(const Frame& frame) {
     const MotionCalibration& motion = frame.calibration->motion;
     for (const WheelSample& sample : frame.motion.wheels) {
-      const Timestamp stamp = sample.stamp + -motion.wheel_delay;
+      const Timestamp stamp = sample.stamp - motion.wheel_delay;
       if (stamp < Timestamp()) continue;
       msg::Odometry message;
       message.header = header_of(stamp, "odom");
@@ -104,7 +104,7 @@ class BagRecorder final : public FrameRecorder {
       bag_->write(kWheelTopic, stamp, message);
     }
     for (const ImuSample& sample : frame.motion.imu) {
-      const Timestamp stamp = sample.stamp + -motion.imu_delay;
+      const Timestamp stamp = sample.stamp - motion.imu_delay;
       if (stamp < Timestamp()) continue;
       msg::Imu message;
       message.header = header_of(stamp, kImuFrame);

@@ -4,6 +4,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/bag/bag_recording.hpp"
+#include "mms/dataset/source/image_size.hpp"
 #include "mms/dataset/source/recorded_source.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/ros/cloud_messages.hpp"
@@ -27,17 +28,6 @@ Image<float> read_depth(const BagReader& bag, const BagStream& stream, std::size
     return depth_of(bag.read<msg::CompressedImage>(stream.topic, index), where, scale);
   }
   return depth_of(bag.read<msg::Image>(stream.topic, index), where, scale);
-}
-
-template <class T>
-void check_size(const Image<T>& image, const CameraIntrinsics& camera, const std::string& where,
-                const std::string& hint = "") {
-  if (image.width() == camera.width && image.height() == camera.height) return;
-  throw DataError(where,
-                  "is " + std::to_string(image.width()) + "x" + std::to_string(image.height()) +
-                      " pixels, its camera_info says " + std::to_string(camera.width) + "x" +
-                      std::to_string(camera.height),
-                  hint);
 }
 
 class BagSource final : public RecordedSource {
@@ -78,16 +68,17 @@ class BagSource final : public RecordedSource {
 
  private:
   void read_images(Frame& frame, const BagFrame& at) const {
+    constexpr const char* kInfo = "its camera_info says";
     const BagReader& bag = *recording_.bag;
     const CameraIntrinsics& camera = *recording_.calibration->camera;
     frame.color = read_color(bag, recording_.color, at.color);
-    check_size(frame.color, camera, bag.where(recording_.color.topic, at.color));
+    check_size(frame.color, camera, bag.where(recording_.color.topic, at.color), kInfo);
     if (at.depth != BagFrame::kNone) {
       const auto& registration = recording_.registration;
       frame.depth =
           read_depth(bag, recording_.depth, at.depth, recording_.calibration->depth_scale);
       check_size(frame.depth, registration ? registration->depth_camera() : camera,
-                 bag.where(recording_.depth.topic, at.depth),
+                 bag.where(recording_.depth.topic, at.depth), kInfo,
                  registration ? "" : "it must be registered to the color image");
       if (registration) frame.depth = registration->apply(frame.depth);
       frame.depth_offset = recording_.depth.stamps[at.depth] - at.stamp;
@@ -95,10 +86,10 @@ class BagSource final : public RecordedSource {
     if (at.mask != BagFrame::kNone) {
       const std::string& topic = recording_.mask.topic;
       frame.mask = mask_of(bag.read<msg::Image>(topic, at.mask), bag.where(topic, at.mask));
-      check_size(frame.mask, camera, bag.where(topic, at.mask));
+      check_size(frame.mask, camera, bag.where(topic, at.mask), kInfo);
     } else if (!at.mask_file.empty()) {
       frame.mask = read_mask(at.mask_file);
-      check_size(frame.mask, camera, at.mask_file.string());
+      check_size(frame.mask, camera, at.mask_file.string(), kInfo);
     }
   }
 

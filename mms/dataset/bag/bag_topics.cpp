@@ -1,10 +1,10 @@
 #include "mms/dataset/bag/bag_topics.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <initializer_list>
 
 #include "mms/core/error.hpp"
+#include "mms/io/text/lower_case.hpp"
 #include "mms/ros/image_messages.hpp"
 #include "mms/ros/raw_colors.hpp"
 
@@ -17,9 +17,7 @@ constexpr const char* kImage = "sensor_msgs/Image";
 constexpr const char* kCompressed = "sensor_msgs/CompressedImage";
 
 bool has_word(const std::string& name, Words words) {
-  std::string lower = name;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(name);
   return std::any_of(words.begin(), words.end(),
                      [&](const char* word) { return lower.find(word) != std::string::npos; });
 }
@@ -89,7 +87,19 @@ class Choice {
     return "";
   }
 
-  /// @throws DataError if the topic is missing or has none of the types.
+  /// The topic of a name that is given by an option, else the one that `find()` returns.
+  /// @throws DataError if the given topic is missing or has none of the types.
+  template <class Find>
+  std::string pick(const std::string& name, const char* option, Words types,
+                   const Find& find) const {
+    return name.empty() ? find() : given(name, option, types);
+  }
+
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
+    throw DataError(where_, what + "; it has " + listed(topics_), hint);
+  }
+
+ private:
   std::string given(const std::string& name, const char* option, Words types) const {
     const auto found = std::find_if(topics_.begin(), topics_.end(),
                                     [&](const BagTopic& topic) { return topic.name == name; });
@@ -102,11 +112,6 @@ class Choice {
     return name;
   }
 
-  [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
-    throw DataError(where_, what + "; it has " + listed(topics_), hint);
-  }
-
- private:
   static std::string listed_types(Words types) {
     std::string text;
     for (const char* type : types) text += (text.empty() ? "" : " or ") + std::string(type);
@@ -242,19 +247,15 @@ std::string find_truth(const Choice& choice) {
 /// Topics of color, depth and clouds, see `choose_topics`.
 BagTopicNames choose_frames(const Choice& choice, const std::vector<BagTopic>& topics,
                             const BagTopicNames& given, const EncodingOf& encoding_of) {
-  const auto pick = [&](const std::string& name, const char* option, Words types,
-                        const auto& find) {
-    return name.empty() ? find() : choice.given(name, option, types);
-  };
   const auto rank_color = [&](const BagTopic& topic) { return color_rank(topic, encoding_of); };
   const auto rank_depth = [&](const BagTopic& topic) { return depth_rank(topic, encoding_of); };
   BagTopicNames chosen;
-  chosen.color = pick(given.color, "--topic-color", {kImage, kCompressed}, [&] {
+  chosen.color = choice.pick(given.color, "--topic-color", {kImage, kCompressed}, [&] {
     return choice.best(
         [&](const BagTopic& topic) { return beside(rank_color(topic), topic.name, given.depth); });
   });
   const bool wants_cloud = !given.cloud.empty();
-  chosen.depth = pick(given.depth, "--topic-depth", {kImage, kCompressed}, [&] {
+  chosen.depth = choice.pick(given.depth, "--topic-depth", {kImage, kCompressed}, [&] {
     if (wants_cloud || chosen.color.empty()) return std::string();
     return choice.best(
         [&](const BagTopic& topic) { return beside(rank_depth(topic), topic.name, chosen.color); });
@@ -267,7 +268,7 @@ BagTopicNames choose_frames(const Choice& choice, const std::vector<BagTopic>& t
     }
   }
   const std::string unread = chosen.color.empty() ? unread_colors(topics, encoding_of) : "";
-  chosen.cloud = pick(given.cloud, "--topic-cloud", {"sensor_msgs/PointCloud2"}, [&] {
+  chosen.cloud = choice.pick(given.cloud, "--topic-cloud", {"sensor_msgs/PointCloud2"}, [&] {
     if (!chosen.depth.empty()) return std::string();
     return find_cloud(choice, choice.best(rank_depth), unread);
   });
@@ -298,15 +299,12 @@ bool is_named_registered(const std::string& depth_topic) {
 BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicNames& given,
                             const EncodingOf& encoding_of, const std::string& where) {
   const Choice choice(topics, where);
-  const auto pick = [&](const std::string& name, const char* option, Words types,
-                        const auto& find) {
-    return name.empty() ? find() : choice.given(name, option, types);
-  };
   BagTopicNames chosen = choose_frames(choice, topics, given, encoding_of);
   if (!chosen.color.empty()) {
-    chosen.camera_info = pick(given.camera_info, "--topic-camera-info", {"sensor_msgs/CameraInfo"},
-                              [&] { return find_camera_info(choice, chosen.color); });
-    chosen.mask = pick(given.mask, "--topic-mask", {kImage}, [&] {
+    chosen.camera_info =
+        choice.pick(given.camera_info, "--topic-camera-info", {"sensor_msgs/CameraInfo"},
+                    [&] { return find_camera_info(choice, chosen.color); });
+    chosen.mask = choice.pick(given.mask, "--topic-mask", {kImage}, [&] {
       return choice.best([&](const BagTopic& topic) {
         if (topic.type != kImage || !is_mask_name(topic.name)) return 0;
         // Others are pictures of masks, or numbers of objects.
@@ -314,14 +312,14 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
       });
     });
   }
-  chosen.truth = pick(given.truth, "--topic-truth",
-                      {"geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped",
-                       "nav_msgs/Odometry", "tf2_msgs/TFMessage", "tf/tfMessage"},
-                      [&] { return find_truth(choice); });
-  chosen.wheels = pick(given.wheels, "--topic-wheels", {"nav_msgs/Odometry"},
-                       [&] { return find_wheels(choice, chosen.truth); });
+  chosen.truth = choice.pick(given.truth, "--topic-truth",
+                             {"geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped",
+                              "nav_msgs/Odometry", "tf2_msgs/TFMessage", "tf/tfMessage"},
+                             [&] { return find_truth(choice); });
+  chosen.wheels = choice.pick(given.wheels, "--topic-wheels", {"nav_msgs/Odometry"},
+                              [&] { return find_wheels(choice, chosen.truth); });
   chosen.imu =
-      pick(given.imu, "--topic-imu", {"sensor_msgs/Imu"}, [&] { return find_imu(choice); });
+      choice.pick(given.imu, "--topic-imu", {"sensor_msgs/Imu"}, [&] { return find_imu(choice); });
   return chosen;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "mms/core/error.hpp"
+#include "mms/dataset/source/image_size.hpp"
 
 namespace mms {
 namespace {
@@ -19,12 +19,8 @@ Duration time_between(Timestamp a, Timestamp b) {
 
 template <class T>
 void check_live_size(const Image<T>& image, const CameraIntrinsics& camera, const char* what) {
-  if (image.width() == camera.width && image.height() == camera.height) return;
-  throw DataError(what,
-                  "is " + std::to_string(image.width()) + "x" + std::to_string(image.height()) +
-                      " pixels, the camera_info says " + std::to_string(camera.width) + "x" +
-                      std::to_string(camera.height),
-                  "depth must be registered to the color image");
+  check_size(image, camera, what, "the camera_info says",
+             "depth must be registered to the color image");
 }
 
 std::string rate_text(const char* what, std::size_t arrived, double seconds) {

@@ -49,7 +49,8 @@ void LiveSource::push(Frame frame) {
   queue_.push(std::move(frame));
   if (said_dropped_ || queue_.dropped() == 0) return;
   said_dropped_ = true;
-  warn("frames are dropped: the run is slower than the sensor");
+  warn(
+      "frames are dropped: the run is slower than the sensor (--realtime keeps the latency small)");
 }
 
 }  // namespace mms

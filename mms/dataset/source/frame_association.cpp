@@ -47,7 +47,7 @@ std::vector<Candidate> candidates_of(std::span<const Timestamp> first,
   std::vector<Candidate> candidates;
   for (const EqualStamps& group : by_stamp(first)) {
     const auto begin =
-        std::lower_bound(others.begin(), others.end(), group.stamp + -max_difference,
+        std::lower_bound(others.begin(), others.end(), group.stamp - max_difference,
                          [](const EqualStamps& o, Timestamp stamp) { return o.stamp < stamp; });
     for (auto o = begin; o != others.end() && o->stamp - group.stamp <= max_difference; ++o) {
       const Duration difference = std::chrono::abs(o->stamp - group.stamp);

@@ -24,7 +24,7 @@ class FrameSource {
   /// Receives one line with file and fault.
   using WarningHandler = std::function<void(const std::string&)>;
 
-  /// Size of a source without end, as of a sensor.
+  /// Size of a source without end, as for a sensor.
   static constexpr std::size_t kEndless = std::numeric_limits<std::size_t>::max();
 
   virtual ~FrameSource() = default;

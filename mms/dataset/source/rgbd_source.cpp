@@ -5,6 +5,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/depth_file.hpp"
+#include "mms/dataset/source/image_size.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/text/files.hpp"
 #include "mms/io/text/numbers.hpp"
@@ -12,18 +13,6 @@
 namespace mms {
 namespace fs = std::filesystem;
 namespace {
-
-std::string size_text(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
-template <class T>
-void check_size(const Image<T>& image, const CameraIntrinsics& camera, const fs::path& path) {
-  if (image.width() == camera.width && image.height() == camera.height) return;
-  throw DataError(path.string(), "is " + size_text(image.width(), image.height()) +
-                                     " pixels, the calibration has " +
-                                     size_text(camera.width, camera.height));
-}
 
 /// The pixels of `from` that see the same points as those of `to`, nearest ones; T() beyond the
 /// image. Distortion is ignored.
@@ -103,14 +92,15 @@ Frame RgbdSource::read(std::size_t index) const {
   frame.depth_offset = files.depth_offset;
   const CameraIntrinsics color_camera = recording_.color_camera.value_or(camera);
   frame.color = read_color_of(recording_, files);
-  check_size(frame.color, color_camera, files.color);
+  check_size(frame.color, color_camera, files.color.string());
   frame.depth = read_depth(files.depth, recording_.calibration->depth_scale,
                            recording_.invalid_depth, recording_.float_depth_scale);
-  check_size(frame.depth, registration_ ? registration_->depth_camera() : camera, files.depth);
+  check_size(frame.depth, registration_ ? registration_->depth_camera() : camera,
+             files.depth.string());
   if (registration_) frame.depth = registration_->apply(frame.depth);
   if (!files.mask.empty()) {
     frame.mask = read_mask(files.mask);
-    check_size(frame.mask, color_camera, files.mask);
+    check_size(frame.mask, color_camera, files.mask.string());
   }
   if (recording_.color_camera) {
     frame.color = sampled(frame.color, color_camera, camera);

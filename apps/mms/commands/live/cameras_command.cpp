@@ -36,7 +36,7 @@ void print_cameras(const std::vector<CameraInfo>& cameras) {
   }
   if (!cameras.empty()) return;
   fmt::print(
-      "no camera was found (is it plugged in? Drivers of other makers belong into "
+      "no camera was found (is it plugged in? Drivers of other manufacturers go into "
       "OpenNI2/Drivers: docs/cameras.md)\n");
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -30,7 +31,7 @@ struct Ros2CommandOptions {
   Ros2Inputs inputs;
   bool depth_registered = false;
   Ros2ResultOptions results;
-  std::size_t queue = 100;
+  std::size_t queue = 10;
   std::filesystem::path save_folder = ".";
   RunOptions run;
   ConsoleOptions console;
@@ -137,8 +138,12 @@ void add_input_options(CLI::App& command, Ros2Inputs& inputs, bool& depth_regist
   add("--imu", inputs.imu, "gyroscope, Imu");
   add("--odometry", inputs.wheels, "wheel odometry, Odometry");
   add("--mask", inputs.mask, "label images: 0 static, 1 person, 2 vehicle");
+  add("--tf", inputs.transforms,
+      "transforms, TFMessage; the static ones on the same name with _static. Of robots with a "
+      "namespace: tf")
+      ->capture_default_str();
   add("--initial-pose", inputs.initial_pose,
-      "initial pose of the sensor in the map, as of RViz, PoseWithCovarianceStamped")
+      "initial pose of the sensor in the map, as from RViz, PoseWithCovarianceStamped")
       ->capture_default_str();
 }
 
@@ -149,10 +154,9 @@ void add_node_options(CLI::App& command, Ros2CommandOptions& options) {
   group(command.add_option("--namespace", options.node.name_space, "namespace of the node"))
       ->capture_default_str();
   group(command.add_option("--ros-distro", options.node.distro,
-                           "distribution of the other nodes: Humble has another discovery"))
-      ->check(CLI::IsMember({"humble", "iron", "jazzy", "kilted", "rolling"}))
-      ->envname("ROS_DISTRO")
-      ->capture_default_str();
+                           "distribution of the other nodes (default: ROS_DISTRO, or jazzy): "
+                           "Humble has another discovery"))
+      ->check(CLI::IsMember({"humble", "iron", "jazzy", "kilted", "lyrical", "rolling"}));
   group(command.add_option("--map-frame", options.results.map_frame, "frame with z up"))
       ->capture_default_str();
   group(command.add_option("--world-frame", options.results.world_frame,
@@ -214,6 +218,8 @@ void add_ros2_command(CLI::App& app) {
       "an ONNX model with YOLO-seg outputs");
   add_mapping_options(*command, run);
   add_frames_option(*command, run.frames, "end after N frames");
+  command->add_flag("--realtime", run.realtime,
+                    "keep the latency small: drop frames that find the pipeline busy");
   add_recording_options(*command, run);
   add_console_options(*command, options->console, options->view);
   command->callback([options, command] {
@@ -227,11 +233,17 @@ void add_ros2_command(CLI::App& app) {
     }
     complete_inputs(options->inputs, options->depth_registered, run_options.segmenter);
     options->inputs.map_frame = options->results.map_frame;
+    options->results.transforms_topic = options->inputs.transforms;
     if (command->count("--view") > 0) {
       run_options.view = options->view.place;
       if (!options->view.word.empty()) {
         run_options.view->port = checked_port("--view", options->view.word);
       }
+    }
+    // CLI11 would check a variable given by `envname` for every command.
+    const char* distro = std::getenv("ROS_DISTRO");
+    if (distro != nullptr && *distro != '\0' && command->count("--ros-distro") == 0) {
+      options->node.distro = distro;
     }
     run_node(*options);
   });

@@ -23,7 +23,9 @@ void Ros2MapSaver::refuse_late() {
   const std::scoped_lock lock(mutex_);
   if (waiting_.empty() || Clock::now() - waiting_.front().since < kMaxWait) return;
   for (const Request& request : waiting_) {
-    request.reply({false, "no frame arrives: the map is saved with the next one"});
+    request.reply(
+        {false,
+         "no frame arrives, with which the map would be saved: call again when frames come"});
   }
   waiting_.clear();
 }

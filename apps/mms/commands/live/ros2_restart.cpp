@@ -45,7 +45,7 @@ msg::LoadMapReply Ros2Restart::load(const std::string& url) {
   if (requested_) return refuse(Reply::kUndefinedFailure, "the run ends already");
   if (!closes_loops_) return refuse(Reply::kUndefinedFailure, "needs loop closure, but it is off");
   const fs::path path = path_of(url);
-  std::error_code fault;  // as of a name that is too long
+  std::error_code fault;  // as for a name that is too long
   if (!fs::exists(path, fault)) {
     return refuse(Reply::kDoesNotExist, "'" + path.string() + "': no such file");
   }
