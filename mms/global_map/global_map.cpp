@@ -9,6 +9,7 @@
 #include "mms/geometry/se3.hpp"
 #include "mms/global_map/keyframes/keypoint_extraction.hpp"
 #include "mms/global_map/keyframes/scan_keypoints.hpp"
+#include "mms/global_map/places/best_apart.hpp"
 #include "mms/mapping/ground/floor.hpp"
 
 namespace mms {
@@ -252,7 +253,8 @@ std::vector<std::size_t> GlobalMap::nearby(std::size_t end) const {
 
 /// Keyframes of the map around a place that a user gives, whose height is not known.
 std::vector<std::size_t> GlobalMap::around(const Transform<Global, Sensor>& expected) const {
-  std::vector<std::pair<double, std::size_t>> near;
+  using Near = std::pair<double, std::size_t>;  // how far, and the keyframe
+  std::vector<Near> near;
   for (std::size_t i = 0; i < records_.size(); ++i) {
     if (!is_joined(records_[i].session) || !may_match(i)) continue;
     const Eigen::Vector3d up =
@@ -266,12 +268,8 @@ std::vector<std::size_t> GlobalMap::around(const Transform<Global, Sensor>& expe
   }
   std::sort(near.begin(), near.end());
   std::vector<std::size_t> keyframes;
-  for (const auto& [unused, keyframe] : near) {
-    if (keyframes.size() == kMaxExpected) break;
-    const bool is_beside = std::any_of(keyframes.begin(), keyframes.end(), [&](std::size_t other) {
-      return keyframe <= other + kExpectedSpacing && other <= keyframe + kExpectedSpacing;
-    });
-    if (!is_beside) keyframes.push_back(keyframe);
+  for (const Near& best : best_apart(near, kMaxExpected, kExpectedSpacing, &Near::second)) {
+    keyframes.push_back(best.second);
   }
   return keyframes;
 }
@@ -290,12 +288,16 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record,
     return graph_.add_check(std::move(loop));
   };
   std::vector<Loop> accepted;
+  const auto confirm = [&] {
+    const std::vector<Loop> loops = confirmation_.confirm(graph_, min_inliers);
+    accepted.insert(accepted.end(), loops.begin(), loops.end());
+  };
   bool is_found = false;
   for (const std::size_t candidate : nearby(end)) {
     const Eigen::Isometry3d by_odometry = poses[candidate].inverse() * poses.back();
     is_found = passes(verifier_.verify_nearby(records_, poses, candidate, record, by_odometry));
     if (!is_found) continue;
-    accepted = confirmation_.confirm(graph_, min_inliers);
+    confirm();
     break;
   }
   // A session that is not in the map is compared with it at known places of its own, too.
@@ -317,8 +319,7 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record,
                                !run_sessions_.empty() && records_[i].session >= earlier_sessions_;
     if (passes(is_after_loss ? lost_verifier_.verify(records_, poses, i, record)
                              : verifier_.verify(records_, poses, i, record))) {
-      const std::vector<Loop> others = confirmation_.confirm(graph_, min_inliers);
-      accepted.insert(accepted.end(), others.begin(), others.end());
+      confirm();
       return accepted;
     }
   }
@@ -329,9 +330,7 @@ std::vector<Loop> GlobalMap::find_loop(const KeyframeRecord& record,
   if (!loop) return accepted;
   // Two scans join the session, since a whole scan fits no other place.
   loop->inliers = 2 * min_inliers;
-  if (!passes(*std::move(loop))) return accepted;
-  const std::vector<Loop> others = confirmation_.confirm(graph_, min_inliers);
-  accepted.insert(accepted.end(), others.begin(), others.end());
+  if (passes(*std::move(loop))) confirm();
   return accepted;
 }
 

@@ -107,6 +107,9 @@ class GlobalMap {
                         const std::optional<Transform<Global, Sensor>>& expected = std::nullopt,
                         const std::vector<Loop>& known = {});
 
+  /// Takes loops that another map has found between keyframes that were added.
+  void join(const std::vector<Loop>& known) { graph_.solve_if_needed(take(known)); }
+
   /// Brings the poses up to date with all loops. After the last keyframe.
   void finish() { graph_.finish(); }
 

@@ -274,11 +274,9 @@ std::string encode_surfaces(const StampedMap& surfaces, double voxel_size,
     grid.origin = grid.origin.cwiseMin(cloud.points[i]);
     begin = std::min(begin, surfaces.stamps[i]);
   }
-  std::vector<std::uint64_t> keys(cloud.size());
-  for (const std::uint32_t i : indices) keys[i] = grid.key_of(cloud.points[i]);
-  std::sort(indices.begin(), indices.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(keys[a], a) < std::pair(keys[b], b);
-  });
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // by place
+  for (const std::uint32_t i : indices) order.emplace_back(grid.key_of(cloud.points[i]), i);
+  std::sort(order.begin(), order.end());
   std::vector<std::uint64_t> steps;
   std::vector<std::array<std::int8_t, 2>> normals;
   std::vector<std::array<std::uint8_t, 3>> colors;
@@ -286,8 +284,8 @@ std::string encode_surfaces(const StampedMap& surfaces, double voxel_size,
   std::vector<std::uint32_t> stamps;
   std::uint64_t key = 0;
   Rgb color{};
-  for (const std::uint32_t i : indices) {
-    steps.push_back(keys[i] - std::exchange(key, keys[i]));
+  for (const auto& [place, i] : order) {
+    steps.push_back(place - std::exchange(key, place));
     normals.push_back(octahedral(cloud.normals[i]));
     const Rgb before = std::exchange(color, cloud.colors[i]);
     colors.push_back({static_cast<std::uint8_t>(color.r - before.r),
@@ -331,6 +329,9 @@ void decode_surfaces(std::string_view compressed, const std::string& where, Stam
   if (!steps.empty() && std::abs(begin.seconds()) > kMaxStamp) {
     throw DataError(where, "is damaged: its stamps are out of range");
   }
+  if (std::find(views.begin(), views.end(), 0) != views.end()) {
+    throw DataError(where, "is damaged: a point has no observation");
+  }
   std::uint64_t key = 0;
   Rgb color{};
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -343,7 +344,6 @@ void decode_surfaces(std::string_view compressed, const std::string& where, Stam
     surfaces.cloud.colors.push_back(color);
     surfaces.cloud.observations.push_back(views[i]);
     surfaces.stamps.push_back(begin + stamps[i] * kStampUnit);
-    if (views[i] == 0) throw DataError(where, "is damaged: a point has no observation");
   }
 }
 

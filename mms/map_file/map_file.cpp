@@ -242,6 +242,8 @@ MapFile::~MapFile() = default;
 /// Prepares a new file beside the place of the map. A map that is there stays as it is until then.
 void MapFile::write_partial() {
   check_target(path_);
+  std::error_code error;
+  if (fs::exists(path_, error)) path_ = fs::canonical(path_);  // a link stays one
   // Last: closing any other descriptor of the file ends the lock (POSIX).
   if (fs::exists(path_)) {
     try {

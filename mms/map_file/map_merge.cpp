@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,30 +17,49 @@ namespace {
 constexpr const char* kScans = "LiDAR scans";
 constexpr const char* kImages = "depth images";
 
-/// FNV-1a over stamps and descriptors, which differ from map to map.
-std::uint64_t digest_of(const GlobalMapContent& content) {
+constexpr std::uint64_t kDigestBasis = 14695981039346656037U;
+
+/// FNV-1a.
+void add_to(std::uint64_t& digest, std::uint64_t value) {
   constexpr std::uint64_t kPrime = 1099511628211U;
-  std::uint64_t digest = 14695981039346656037U;
-  const auto add = [&](std::uint64_t value) { digest = (digest ^ value) * kPrime; };
+  digest = (digest ^ value) * kPrime;
+}
+
+/// Over stamps and descriptors, which differ from map to map.
+std::uint64_t digest_of(const GlobalMapContent& content) {
+  std::uint64_t digest = kDigestBasis;
   for (const KeyframeRecord& record : content.records) {
-    add(static_cast<std::uint64_t>(record.stamp.nanoseconds()));
+    add_to(digest, static_cast<std::uint64_t>(record.stamp.nanoseconds()));
     for (const BinaryDescriptor& descriptor : record.keypoints.descriptors) {
-      for (const std::uint64_t word : descriptor.words) add(word);
+      for (const std::uint64_t word : descriptor.words) add_to(digest, word);
     }
   }
   return digest;
 }
 
-/// Accepted loops of the keyframes of which only the pose is kept, by keyframe.
-/// @param offset  number of the first keyframe in the joined map
-std::vector<std::vector<Loop>> loops_of_poses(const GlobalMapContent& content, std::size_t offset) {
+/// FNV-1a over the stamps of each session, and over the features of its first keyframe: maps that
+/// continue one map have its sessions, with fewer views.
+std::vector<std::uint64_t> session_digests(const GlobalMapContent& content) {
+  std::vector<std::uint64_t> digests;
+  for (const KeyframeRecord& record : content.records) {
+    const bool is_first = record.session == digests.size();
+    if (is_first) digests.push_back(kDigestBasis);
+    add_to(digests.back(), static_cast<std::uint64_t>(record.stamp.nanoseconds()));
+    if (!is_first) continue;
+    add_to(digests.back(), record.features.edges.size());
+    add_to(digests.back(), record.features.planes.size());
+    for (const BinaryDescriptor& descriptor : record.keypoints.descriptors) {
+      for (const std::uint64_t word : descriptor.words) add_to(digests.back(), word);
+    }
+  }
+  return digests;
+}
+
+/// Accepted loops of a map, by keyframe, with its numbers.
+std::vector<std::vector<Loop>> accepted_loops(const GlobalMapContent& content) {
   std::vector<std::vector<Loop>> loops(content.records.size());
-  for (Loop loop : content.loops) {
-    const std::size_t query = loop.query;
-    if (loop.outcome != LoopOutcome::kAccepted || !content.records[query].is_pose_only()) continue;
-    loop.candidate += offset;
-    loop.query += offset;
-    loops[query].push_back(std::move(loop));
+  for (const Loop& loop : content.loops) {
+    if (loop.outcome == LoopOutcome::kAccepted) loops[loop.query].push_back(loop);
   }
   return loops;
 }
@@ -68,7 +88,6 @@ MapMerge::MapMerge(const std::vector<std::filesystem::path>& maps,
                       *has_scans(part.content, 0) ? kImages : kScans),
           "merge maps of the same sensor");
     }
-    sessions_ += part.file->sessions().size();
     parts_.push_back(std::move(part));
   }
   std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
@@ -77,29 +96,73 @@ MapMerge::MapMerge(const std::vector<std::filesystem::path>& maps,
     };
     return key(a) < key(b);
   });
+  std::vector<std::uint64_t> known;
+  for (Part& part : parts_) {
+    const bool is_first = known.empty();
+    for (const std::uint64_t digest : session_digests(part.content)) {
+      const auto found = is_first ? known.end() : std::find(known.begin(), known.end(), digest);
+      part.numbers.push_back(static_cast<std::uint32_t>(found - known.begin()));
+      if (found == known.end()) known.push_back(digest);
+    }
+  }
+  sessions_ = known.size();
 }
 
 std::size_t MapMerge::join(GlobalMap& map, const ProgressHandler& progress) {
   std::size_t all = 0;
   for (const Part& part : parts_) all += part.content.records.size();
   std::size_t done = parts_.front().content.records.size();
-  auto session = static_cast<std::uint32_t>(parts_.front().file->sessions().size());
   map.restore(std::move(parts_.front().content), MapUse::kExtend);
   for (std::size_t i = 1; i < parts_.size(); ++i) {
-    const std::uint32_t first = session;
-    session += static_cast<std::uint32_t>(parts_[i].file->sessions().size());
-    GlobalMapContent& content = parts_[i].content;
-    std::vector<std::vector<Loop>> known = loops_of_poses(content, map.records().size());
-    for (std::size_t k = 0; k < content.records.size(); ++k) {
-      content.records[k].session += first;
-      map.add(std::move(content.records[k]), std::nullopt, known[k]);
-      progress(++done, all);
-    }
+    add(parts_[i], map, [&] { progress(++done, all); });
   }
   map.finish();
   std::size_t joined = 0;
-  for (std::uint32_t i = 0; i < session; ++i) joined += map.is_joined(i) ? 1 : 0;
+  for (std::uint32_t i = 0; i < sessions_; ++i) joined += map.is_joined(i) ? 1 : 0;
   return joined;
+}
+
+/// Adds the sessions that no map before has. Loops to and between them are searched; those that
+/// alone relate sessions, as after a loss of the sensor, are taken.
+void MapMerge::add(Part& part, GlobalMap& map, const std::function<void()>& progress) const {
+  std::deque<KeyframeRecord>& records = part.content.records;
+  const std::vector<std::vector<Loop>> loops = accepted_loops(part.content);
+  const std::uint32_t taken = map.records().back().session + 1U;
+  std::vector<std::size_t> places;  // of its keyframes in the joined map
+  const auto placed = [&](Loop loop) {
+    loop.candidate = places[loop.candidate];
+    loop.query = places[loop.query];
+    return loop;
+  };
+  std::size_t begin = 0;  // of the keyframe's session in this part
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    if (k > 0 && records[k].session != records[k - 1].session) begin = k;
+    const std::uint32_t number = part.numbers[records[k].session];
+    if (number < taken) {
+      const auto first =
+          std::find_if(map.records().begin(), map.records().end(),
+                       [number](const KeyframeRecord& known) { return known.session == number; });
+      places.push_back(static_cast<std::size_t>(first - map.records().begin()) + k - begin);
+    } else {
+      places.push_back(map.records().size());
+      KeyframeRecord record = records[k];  // its session is compared with that of the next one
+      record.session = number;
+      std::vector<Loop> known;
+      if (record.is_pose_only())
+        std::transform(loops[k].begin(), loops[k].end(), std::back_inserter(known), placed);
+      map.add(std::move(record), std::nullopt, known);
+    }
+    progress();
+  }
+  for (const std::vector<Loop>& of_keyframe : loops) {
+    for (const Loop& loop : of_keyframe) {
+      const Loop own = placed(loop);
+      if (!map.share_frame(map.records()[own.candidate].session,
+                           map.records()[own.query].session)) {
+        map.join({own});
+      }
+    }
+  }
 }
 
 void MapMerge::write(const std::filesystem::path& path, const GlobalMap& map,
@@ -107,6 +170,7 @@ void MapMerge::write(const std::filesystem::path& path, const GlobalMap& map,
   MapFile file(path, MapFile::Mode::kCreate);
   for (const Part& part : parts_) {
     for (std::uint32_t i = 0; i < part.file->sessions().size(); ++i) {
+      if (part.numbers[i] < file.sessions().size()) continue;  // of a map before
       file.add_session(part.file->sessions()[i], part.file->surfaces(i, warn), map.records());
     }
   }

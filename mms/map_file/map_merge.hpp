@@ -12,7 +12,8 @@
 
 namespace mms {
 
-/// Joins maps at the places that they share. The order of the maps does not matter.
+/// Joins maps at the places that they share. The order of the maps does not matter. Sessions that
+/// several maps have, as those that continue one map, are taken from the earliest.
 class MapMerge {
  public:
   /// Called for each keyframe: done, all.
@@ -43,8 +44,11 @@ class MapMerge {
     std::filesystem::path path;
     std::unique_ptr<MapFile> file;
     GlobalMapContent content;
-    std::uint64_t digest = 0;  // of the keyframes
+    std::uint64_t digest = 0;            // of the keyframes
+    std::vector<std::uint32_t> numbers;  // of its sessions in the joined map
   };
+
+  void add(Part& part, GlobalMap& map, const std::function<void()>& progress) const;
 
   std::vector<Part> parts_;  // in an order that their content alone decides
   std::size_t sessions_ = 0;

@@ -24,14 +24,14 @@ constexpr double kScanMargin = 0.2;
 /// directions are a degree wide, 35 cm there.
 constexpr float kScanRange = 20.0F;
 
+/// [s]: stamps above are dates, those below times since a start. Source: 2001.
+constexpr double kFirstDate = 1e9;
+
 /// [-]: keyframes that must see through a point.
 constexpr int kMinViews = 2;
 
 /// [m]: side of the cubes of points that are compared with a view together.
 constexpr double kCubeSide = 1.0;
-
-/// [-]: radius of the ball around a cube over its side.
-constexpr float kHalfDiagonal = 0.8660254F;
 
 /// What the keyframes of one session saw at a point.
 struct Evidence {
@@ -84,8 +84,9 @@ class PointCubes {
     }
   }
 
+  /// @param statics  the space by static returns alone: people are no surfaces of a map
   template <class Space>
-  void compare(const Space& space, const Eigen::Isometry3f& T_view_map,
+  void compare(const Space& space, const Space& statics, const Eigen::Isometry3f& T_view_map,
                std::vector<Evidence>& evidence) const {
     constexpr auto kSide = static_cast<float>(kCubeSide);
     for (const Cube& cube : cubes_) {
@@ -96,9 +97,11 @@ class PointCubes {
       const float radius = kHalfDiagonal * kSide + 3.0F * static_cast<float>(kMargin);
       if (!may_see_into(space, T_view_map * center, radius)) continue;
       for (const std::uint32_t i : cube.points) {
-        const SpaceState state = space.state_at(T_view_map * points_[i]);
+        const Eigen::Vector3f point = T_view_map * points_[i];
+        const SpaceState state = space.state_at(point);
         evidence[i].through += state == SpaceState::kFree;
-        evidence[i].surface += state == SpaceState::kSurface;
+        evidence[i].surface +=
+            state == SpaceState::kSurface && statics.state_at(point) == SpaceState::kSurface;
       }
     }
   }
@@ -113,6 +116,13 @@ class PointCubes {
   std::vector<Cube> cubes_;
 };
 
+LabeledCloud statics_of(LabeledCloud cloud) {
+  for (PointLabel& label : cloud.labels) {
+    if (label == PointLabel::kDynamic) label = PointLabel::kInvalid;
+  }
+  return cloud;
+}
+
 /// Compares points of the map with the keyframes of a session.
 std::vector<Evidence> evidence_of(std::uint32_t session, const GlobalMapContent& content,
                                   const PointCubes& cubes, std::size_t points,
@@ -123,12 +133,29 @@ std::vector<Evidence> evidence_of(std::uint32_t session, const GlobalMapContent&
     if (record.session != session || record.is_pose_only()) continue;
     const Eigen::Isometry3f T_view_map = content.poses[i].inverse().cast<float>();
     if (record.is_scan()) {
-      cubes.compare(ScanFreeSpace(record.scan.cloud(), kScanMargin), T_view_map, evidence);
+      const LabeledCloud cloud = record.scan.cloud();
+      cubes.compare(ScanFreeSpace(cloud, kScanMargin),
+                    ScanFreeSpace(statics_of(cloud), kScanMargin), T_view_map, evidence);
     } else {
-      cubes.compare(FreeSpace(record.view.cloud(), kMargin, noise), T_view_map, evidence);
+      const LabeledCloud cloud = record.view.cloud();
+      cubes.compare(FreeSpace(cloud, kMargin, noise), FreeSpace(statics_of(cloud), kMargin, noise),
+                    T_view_map, evidence);
     }
   }
   return evidence;
+}
+
+/// Sessions in the order of time; in that of the file where their stamps have no common zero.
+std::vector<std::uint32_t> in_time(std::vector<std::uint32_t> sessions, const MapFile& file) {
+  const auto begin = [&](std::uint32_t session) { return file.sessions()[session].begin; };
+  const bool has_dates = std::all_of(sessions.begin(), sessions.end(), [&](std::uint32_t session) {
+    return begin(session).seconds() > kFirstDate;
+  });
+  if (has_dates) {
+    std::stable_sort(sessions.begin(), sessions.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return begin(a) < begin(b); });
+  }
+  return sessions;
 }
 
 }  // namespace
@@ -148,18 +175,17 @@ MapCloud points_of(const MapChangeCloud& cloud, std::initializer_list<Change> ch
 MapChangeCloud find_changes(const MapFile& file, const GlobalMapContent& content,
                             const DepthNoise& noise, const MapFile::WarningHandler& warn) {
   MapChangeCloud result;
-  const std::vector<std::uint32_t> sessions = joined_sessions(content);
-  for (const std::uint32_t session : sessions) {
+  const std::vector<std::uint32_t> sessions = in_time(joined_sessions(content), file);
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    const std::uint32_t session = sessions[i];
     const StampedMap surfaces = corrected_surfaces(file, content, session, warn);
     const PointCubes cubes(surfaces.cloud.points);
     std::vector<PointHistory> histories(surfaces.cloud.size());
-    for (const std::uint32_t other : sessions) {
-      if (other == session) continue;
+    for (std::size_t k = 0; k < sessions.size(); ++k) {
+      if (k == i) continue;
       const std::vector<Evidence> evidence =
-          evidence_of(other, content, cubes, histories.size(), noise);
-      for (std::size_t i = 0; i < histories.size(); ++i) {
-        histories[i].add(evidence[i], other > session);
-      }
+          evidence_of(sessions[k], content, cubes, histories.size(), noise);
+      for (std::size_t p = 0; p < histories.size(); ++p) histories[p].add(evidence[p], k > i);
     }
     for (const PointHistory& history : histories) result.changes.push_back(history.change());
     append(result.map, surfaces.cloud);

@@ -294,7 +294,10 @@ void SlamRun::warn_of_losses(const Processed& processed, RunObserver& observer) 
 void SlamRun::warn_if_not_localized(RunObserver& observer) {
   const auto& loops = log_->metrics().loops;
   if (!loops || !loops->earlier_map || loops->earlier_map->localized_s) return;
-  warn(fmt::format("no place of {} was recognized: the results are in a frame of their own",
+  const char* what = loops->earlier_map->closed == 0
+                         ? "no place of {} was recognized"
+                         : "no place of {} was recognized that is joined to its first session";
+  warn(fmt::format(fmt::runtime(std::string(what) + ": the results are in a frame of their own"),
                    options_.map.string()),
        observer);
 }

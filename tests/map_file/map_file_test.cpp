@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "mms/core/error.hpp"
+#include "mms/map_file/map_coding.hpp"
 #include "mms/map_file/map_composition.hpp"
 #include "tests/map_file/stored_visit.hpp"
 
@@ -426,6 +427,30 @@ TEST(MapFile, TheMapOfOneSessionIsItsStaticMap) {
   const MapFile file(folder.path() / "a", Mode::kRead);
   EXPECT_EQ(composed_map(file, file.content(refuse), refuse).points,
             file.surfaces(0, refuse).cloud.points);
+}
+
+TEST(MapFile, CompactingKeepsALink) {
+  const TempFolder folder;
+  write_first_session(folder.path() / "a");
+  extend(folder.path() / "a");
+  std::filesystem::create_symlink(folder.path() / "a", folder.path() / "link");
+  const auto before = std::filesystem::file_size(folder.path() / "a");
+  compact_map_file(folder.path() / "link");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
+  EXPECT_LE(std::filesystem::file_size(folder.path() / "a"), before);
+  EXPECT_TRUE(MapFile(folder.path() / "a", Mode::kRead).check().empty());
+}
+
+TEST(MapFile, APointWithoutObservationsIsDamage) {
+  StampedMap map;
+  map.cloud.points = {{1.0F, 2.0F, 3.0F}};
+  map.cloud.normals = {{0.0F, 0.0F, 1.0F}};
+  map.cloud.colors = {{}};
+  map.cloud.observations = {0};
+  map.stamps = {Timestamp(1)};
+  StampedMap read;
+  EXPECT_THROW(decode_surfaces(encode_surfaces(map, 0.02, {0}), "a", read), DataError);
+  EXPECT_EQ(read.cloud.size(), 0U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -107,8 +108,12 @@ KeyframeRecord seen_room(std::uint32_t session, double x, bool with_box, Timesta
 
 /// Sessions of a room with or without a box, which comes first in their spatial order.
 /// @param joined  number of the sessions that loops join
+/// @param edit    changes each keyframe
+/// @param begins  of the sessions [s]
 std::vector<Change> changes_of(const std::vector<bool>& boxes, const std::string& name,
-                               std::size_t joined) {
+                               std::size_t joined,
+                               const std::function<void(KeyframeRecord&)>& edit = {},
+                               const std::vector<std::int64_t>& begins = {}) {
   const TempFolder folder;
   GlobalMapContent content;
   const auto surfaces = [&](bool with_box) {
@@ -130,9 +135,12 @@ std::vector<Change> changes_of(const std::vector<bool>& boxes, const std::string
     const bool with_box = boxes[session];
     for (const double x : {0.0, 0.1, 0.2}) {
       content.records.push_back(seen_room(session, x, with_box, Timestamp(1)));
+      if (edit) edit(content.records.back());
       content.poses.push_back(content.records.back().T_world_sensor.isometry());
     }
-    file.add_session(some_session(name), surfaces(with_box), content.records);
+    MapSession described = some_session(name);
+    if (!begins.empty()) described.begin = Timestamp(begins[session] * 1'000'000'000);
+    file.add_session(described, surfaces(with_box), content.records);
   }
   for (std::size_t session = 1; session < joined; ++session) {
     Loop loop;
@@ -163,6 +171,30 @@ TEST(MapChanges, TheLastSessionTellsWhatIsGone) {
   EXPECT_EQ(changes_of({true, false, true}, "back", 3),
             (std::vector{kUnchanged, kUnchanged, kUnknown, kUnchanged, kUnknown, kNew, kUnchanged,
                          kUnknown}));
+}
+
+TEST(MapChanges, PeopleAreNoSurfaces) {
+  using enum Change;
+  const auto person = [](KeyframeRecord& record) {  // where the box was, in one view
+    if (record.session != 1 || record.T_world_sensor.translation().x() != 0.0) return;
+    for (int v = 0; v < 60; ++v) {
+      for (int u = 0; u < 80; ++u) {
+        if (std::abs(u - 39.5) > 20.0 || std::abs(v - 29.5) > 20.0) continue;
+        record.view.depth_mm(u, v) = 2000;
+        record.view.is_static(u, v) = 0;
+      }
+    }
+  };
+  EXPECT_EQ(changes_of({true, false}, "person", 2, person),
+            (std::vector{kGone, kUnchanged, kUnknown, kUnchanged, kUnknown}));
+}
+
+TEST(MapChanges, SessionsAreComparedInTime) {  // written: Monday, Wednesday, Tuesday
+  using enum Change;
+  EXPECT_EQ(
+      changes_of({true, false, true}, "time", 3, {}, {1'700'000'000, 1'700'172'800, 1'700'086'400}),
+      (std::vector{kGone, kUnchanged, kUnknown, kGone, kUnchanged, kUnknown, kUnchanged,
+                   kUnknown}));
 }
 
 TEST(MapChanges, SessionsInAnotherFrameSayNothing) {
@@ -312,6 +344,58 @@ TEST(MapMerge, KeepsTheLoopsOfKeyframesOfWhichOnlyThePoseIsKept) {
   GlobalMap map = empty_map();
   merge.join(map, [](std::size_t, std::size_t) {});
   EXPECT_LT(distance(map.poses()[12 + 11], map.poses()[12 + 23]), 0.03);  // 0.12 by odometry
+}
+
+TEST(MapMerge, TakesASharedSessionOnce) {
+  const TempFolder folder;
+  write_first_session(folder.path() / "a");
+  std::filesystem::copy_file(folder.path() / "a", folder.path() / "b");
+  {
+    MapFile file(folder.path() / "b", MapFile::Mode::kExtend);
+    GlobalMap map = empty_map();
+    map.restore(file.content(refuse), MapUse::kExtend);
+    drive(map, 4, 12, other_world());
+    file.add_session(some_session("second"), some_surfaces(map, 3000, 2), map.records());
+    file.set_graph(map.poses(), map.loops());
+    file.commit();
+  }
+  MapMerge merge({folder.path() / "a", folder.path() / "b"}, refuse);
+  EXPECT_EQ(merge.sessions(), 2U);
+  GlobalMap map = empty_map();
+  EXPECT_EQ(merge.join(map, [](std::size_t, std::size_t) {}), 2U);
+  EXPECT_EQ(map.records().size(), kSteps + 8U);
+  merge.write(folder.path() / "ab", map, refuse);
+  EXPECT_EQ(MapFile(folder.path() / "ab", MapFile::Mode::kRead).sessions().size(), 2U);
+}
+
+TEST(MapMerge, KeepsSessionsOfAMapJoined) {
+  const TempFolder folder;
+  write_part(folder.path() / "a", 0, 12, 1, Eigen::Isometry3d::Identity());
+  GlobalMap two = empty_map();
+  drive(two, 6, 18, other_world());
+  for (GlobalKeyframe view : views_of(2)) {  // places that nothing recognizes
+    view.session = 1;
+    view.cloud.stamp = Timestamp(static_cast<std::int64_t>(two.records().size() + 1) * 500'000'000);
+    two.add(view);
+  }
+  std::vector<Loop> loops = two.loops();
+  Loop& joins = loops.emplace_back();  // as after a loss
+  joins.query = 12;
+  joins.outcome = LoopOutcome::kAccepted;
+  joins.information = 1e6 * Matrix6d::Identity();
+  {
+    MapFile file(folder.path() / "b", MapFile::Mode::kCreate);
+    MapSession session = some_session("b");
+    session.begin = Timestamp(600'000'000);
+    for (int i = 0; i < 2; ++i) {
+      file.add_session(session, some_surfaces(two, 100, 2), two.records());
+    }
+    file.set_graph(two.poses(), loops);
+    file.commit();
+  }
+  MapMerge merge({folder.path() / "a", folder.path() / "b"}, refuse);
+  GlobalMap map = empty_map();
+  EXPECT_EQ(merge.join(map, [](std::size_t, std::size_t) {}), 3U);
 }
 
 }  // namespace

@@ -73,6 +73,13 @@ TEST(AddOccupied, MarksTheVoxelsOfPoints) {
   EXPECT_EQ(voxels.free, (std::vector<VoxelKey>{{4, 4, 4}}));
 }
 
+TEST(RemoveOccupied, PointsThatAreGoneAreFree) {
+  OccupancyVoxels voxels{0.1, {{1, 2, 3}, {4, 5, 6}}, {{0, 0, 0}}};
+  remove_occupied({{0.15F, 0.25F, 0.35F}, {0.75F, 0.05F, 0.05F}}, Transform<World, Map>(), voxels);
+  EXPECT_EQ(voxels.occupied, (std::vector<VoxelKey>{{4, 5, 6}}));
+  EXPECT_EQ(voxels.free, (std::vector<VoxelKey>{{0, 0, 0}, {1, 2, 3}}));
+}
+
 /// A camera pitched down by 25 degrees maps a room with a crate, a door sill and a lamp.
 class TiltedCamera : public ::testing::Test {
  protected:

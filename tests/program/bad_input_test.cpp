@@ -17,9 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 using namespace testing;  // NOLINT: helpers of the tests
 
-Outcome run_data(const TempFolder& folder) {
+Outcome run_data(const TempFolder& folder, const std::vector<std::string>& more = {}) {
   const std::string masks = segmenter_of(folder.path() / "data");
-  return run_mms(folder.path(), {"run", "data", "--segmenter", masks, "-o", "out", "--overwrite"});
+  std::vector<std::string> words = {"run", "data", "--segmenter", masks,
+                                    "-o",  "out",  "--overwrite"};
+  words.insert(words.end(), more.begin(), more.end());
+  return run_mms(folder.path(), words);
 }
 
 /// Expects a run of data/ with skipped frames and one warning with the reason for each.
@@ -132,9 +135,11 @@ TEST(BadInput, EndsRunWhoseFramesAreLost) {
   }
   folder.write("data/rgb.txt", color);
   folder.write("data/depth.txt", depth);
-  const Outcome outcome = run_data(folder);
+  const Outcome outcome = run_data(folder, {"--save-map", "a.mmsmap"});
   EXPECT_EQ(outcome.exit_code, 1);
   expect_in("frames were lost, so the run ended there", outcome.err);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.mmsmap"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.mmsmap.partial"));
   EXPECT_LT(json_file(folder.path() / "out/metrics.json")["frames"], 150);
 }
 

@@ -45,6 +45,7 @@ TEST(Map, IsSavedLocalizedInExtendedAndExported) {
   expect_success(first);
   EXPECT_NE(first.out.find("saved:  a.mmsmap"), std::string::npos) << first.out;
   const std::string map = read_file(folder.path() / "a.mmsmap");
+  folder.write("one.mmsmap", map);
 
   expect_success(run_day(folder, kSecondDay, "second", {"--map", "a.mmsmap", "--localize"}));
   EXPECT_EQ(read_file(folder.path() / "a.mmsmap"), map);
@@ -82,6 +83,23 @@ TEST(Map, IsSavedLocalizedInExtendedAndExported) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "export" / name)) << name;
   }
   EXPECT_GT(read_trajectory_tum(folder.path() / "export/session_1.tum").size(), 3U);
+  expect_success(
+      run_mms(folder.path(), {"map", "export", "one.mmsmap", "-o", "export", "--overwrite"}));
+  for (const char* name : {"changes.ply", "session_1.tum"}) {  // of the other map
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "export" / name)) << name;
+  }
+}
+
+TEST(Map, APlaceOfASessionOutsideTheMapIsNoPlaceOfTheMap) {
+  const TempFolder folder;
+  expect_success(
+      run_day(folder, "sim:static?width=320&hz=3&frames=6", "other", {"--save-map", "a.mmsmap"}));
+  expect_success(run_day(folder, kFirstDay, "first", {"--map", "a.mmsmap"}));
+  const Outcome second = run_day(folder, kSecondDay, "second", {"--map", "a.mmsmap"});
+  expect_success(second);
+  EXPECT_GT(loops_of(folder, "second")["earlier_map"]["closed"], 0);
+  EXPECT_TRUE(loops_of(folder, "second")["earlier_map"]["localized_s"].is_null());
+  EXPECT_NE(second.err.find("frame of their own"), std::string::npos) << second.err;
 }
 
 TEST(Map, ExportHasTheSettingsOfTheRun) {

@@ -83,22 +83,30 @@ void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
   const fs::path pcd = check("static_map.pcd");
   for (const char* name : {"map.yaml", "map.pgm", "map.bt"}) check(name);
   const std::vector<std::uint32_t> joined = joined_sessions(content);
+  const fs::path picture = check("changes.ply");
+  const auto name_of = [](std::uint32_t session) { return fmt::format("session_{}.tum", session); };
+  for (const std::uint32_t session : joined) check(name_of(session));
+  if (overwrite) {  // what this map may not have
+    fs::remove(picture, ignored);
+    constexpr std::uint32_t kMaxSessions = 1000;
+    for (std::uint32_t i = 0; i < kMaxSessions; ++i) fs::remove(folder / name_of(i), ignored);
+  }
   for (const std::uint32_t session : joined) {
-    write_trajectory_tum(check(fmt::format("session_{}.tum", session)),
-                         session_trajectory(content, session));
+    write_trajectory_tum(folder / name_of(session), session_trajectory(content, session));
   }
   const MapFrame frame =
       has_scans(content, 0).value_or(false) ? MapFrame::kLidar : MapFrame::kCamera;
   MapCloud map;
+  MapCloud gone;
   if (joined.size() == 1) {
     map = composed_map(file, content, warn);
   } else {
-    const fs::path picture = check("changes.ply");
     const MapChangeCloud changes = find_changes(file, content, config.noise.depth, warn);
     map = points_of(changes, {Change::kUnchanged, Change::kNew, Change::kUnknown});
     write_ply(picture, file_of(picture_of(changes), frame), ply_comments(frame));
+    gone = points_of(changes, {Change::kGone});
     fmt::print("{}: {} new, {} gone\n", picture.string(), points_of(changes, {Change::kNew}).size(),
-               points_of(changes, {Change::kGone}).size());
+               gone.size());
   }
   write_ply(ply, file_of(map, frame), ply_comments(frame));
   write_pcd(pcd, file_of(map, frame));
@@ -108,7 +116,8 @@ void export_map(const fs::path& path, const fs::path& folder, bool overwrite) {
   const OccupancyMap occupancy =
       corrected_occupancy(content.records, content.poses, is_joined, config.occupancy,
                           with_noise(config.static_map.surface, config.noise));
-  write_robot_maps(folder, occupancy, map, frame == MapFrame::kCamera, MapMarking::kObstacles);
+  write_robot_maps(folder, occupancy, map, frame == MapFrame::kCamera, MapMarking::kObstacles,
+                   gone.points);
   fmt::print("{}: {} points of {} sessions\n", ply.string(), map.size(), joined.size());
   if (joined.size() == file.sessions().size()) return;
   warn(fmt::format("{} sessions are left out, since no loop joins them to the first one",

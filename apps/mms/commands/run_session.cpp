@@ -116,7 +116,8 @@ void play_and_write(SlamRun& run, const ConsoleOptions& console) {
   run.write(folder.path());
   folder.make_latest();
   print_summary(folder.path(), run.log().metrics(), console);
-  if (run.save_map(progress) && !console.json && !console.quiet) {
+  const bool is_saved = run.failure().empty() && run.save_map(progress);  // no map of lost frames
+  if (is_saved && !console.json && !console.quiet) {
     fmt::print("saved:  {}\n",
                (options.save_map.empty() ? options.map : options.save_map).string());
   }

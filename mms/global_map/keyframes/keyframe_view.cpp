@@ -97,8 +97,7 @@ KeyframeView make_keyframe_view(const Image<Rgb>& color, const LabeledCloud& clo
     for (int x = 0; x < view.camera.width; ++x) {
       const int column = x * stride + stride / 2;
       const int row = y * stride + stride / 2;
-      const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(cloud.width) +
-                     static_cast<std::size_t>(column);
+      const std::size_t i = cloud.index(column, row);
       const float z = 1000.0F * cloud.points[i].z();
       if (cloud.labels[i] == PointLabel::kInvalid || !(z > 0.0F && z < kMaxDepth)) continue;
       view.depth_mm(x, y) = static_cast<std::uint16_t>(z);
@@ -148,8 +147,7 @@ ViewAgreement compare_views(const KeyframeView& a, const KeyframeView& b,
   for (int y = 0; y < points.height; ++y) {
     for (int x = 0; x < points.width; ++x) {
       if (b.is_static(x, y) == 0 || !is_smooth(b.depth_mm, x, y)) continue;
-      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(points.width) +
-                     static_cast<std::size_t>(x);
+      const std::size_t i = points.index(x, y);
       const Eigen::Vector3f point = T * points.points[i];
       ++all;
       if (is_hidden(a, camera, point)) {

@@ -80,12 +80,12 @@ class CloudGrid {
     const auto x = static_cast<int>(std::lround(at.x()));
     const auto y = static_cast<int>(std::lround(at.y()));
     if (x < 1 || y < 1 || x + 1 >= cloud_.width || y + 1 >= cloud_.height) return std::nullopt;
-    const float z = cloud_.points[index(x, y)].z();
+    const float z = cloud_.points[cloud_.index(x, y)].z();
     const float step = std::max(kMaxStep * z, 3.0F * noise_.sigma(z));
     float sum = 0.0F;
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        const std::size_t i = index(x + dx, y + dy);
+        const std::size_t i = cloud_.index(x + dx, y + dy);
         const bool masked = !cloud_.dynamic_pixels.empty() && cloud_.dynamic_pixels[i] != 0;
         if (cloud_.labels[i] != PointLabel::kStatic || masked) return std::nullopt;
         if (!(std::abs(cloud_.points[i].z() - z) <= step)) return std::nullopt;
@@ -96,11 +96,6 @@ class CloudGrid {
   }
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud_.width) +
-           static_cast<std::size_t>(x);
-  }
-
   const LabeledCloud& cloud_;
   CameraModel camera_;
   DepthNoise noise_;

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "mms/global_map/places/best_apart.hpp"
+
 namespace mms {
 namespace {
 
@@ -112,16 +114,7 @@ std::vector<SimilarScan> ScanPlaces::find(const ScanView& scan, const IsUsable& 
   std::stable_sort(all.begin(), all.end(), [](const SimilarScan& a, const SimilarScan& b) {
     return a.similarity > b.similarity;
   });
-  std::vector<SimilarScan> best;
-  for (const SimilarScan& candidate : all) {
-    if (best.size() == max_count) break;
-    const bool is_near = std::any_of(best.begin(), best.end(), [&](const SimilarScan& other) {
-      return candidate.keyframe <= other.keyframe + kGroup &&
-             other.keyframe <= candidate.keyframe + kGroup;
-    });
-    if (!is_near) best.push_back(candidate);
-  }
-  return best;
+  return best_apart(all, max_count, kGroup, &SimilarScan::keyframe);
 }
 
 }  // namespace mms

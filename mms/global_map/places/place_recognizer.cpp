@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mms/global_map/places/best_apart.hpp"
+
 namespace mms {
 namespace {
 
@@ -54,16 +56,7 @@ std::vector<PlaceCandidate> PlaceRecognizer::find(const std::vector<BinaryDescri
   std::stable_sort(all.begin(), all.end(), [](const PlaceCandidate& a, const PlaceCandidate& b) {
     return a.score > b.score;
   });
-  std::vector<PlaceCandidate> best;
-  for (const PlaceCandidate& candidate : all) {
-    if (best.size() == max_count) break;
-    const bool is_near = std::any_of(best.begin(), best.end(), [&](const PlaceCandidate& other) {
-      return candidate.keyframe <= other.keyframe + kGroup &&
-             other.keyframe <= candidate.keyframe + kGroup;
-    });
-    if (!is_near) best.push_back(candidate);
-  }
-  return best;
+  return best_apart(all, max_count, kGroup, &PlaceCandidate::keyframe);
 }
 
 }  // namespace mms

@@ -140,22 +140,49 @@ OccupancyVoxels voxels_in_map_frame(const OccupancyMap& map,
   return voxels;
 }
 
-void add_occupied(const std::vector<Eigen::Vector3f>& points,
-                  const Transform<World, Map>& T_world_map, OccupancyVoxels& voxels) {
+namespace {
+
+/// Voxels of points, sorted.
+std::vector<VoxelKey> voxels_of(const std::vector<Eigen::Vector3f>& points,
+                                const Transform<World, Map>& T_world_map, double voxel_size) {
   const Eigen::Isometry3f T_map_world = T_world_map.isometry().inverse().cast<float>();
-  const auto inverse_size = static_cast<float>(1.0 / voxels.voxel_size);
-  std::vector<VoxelKey>& occupied = voxels.occupied;
+  const auto inverse_size = static_cast<float>(1.0 / voxel_size);
+  std::vector<VoxelKey> keys;
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3f in_map = T_map_world * point;
     if (!in_map.allFinite() || inverse_size * in_map.cwiseAbs().maxCoeff() > kMaxVoxels) continue;
-    occupied.push_back(voxel_key(in_map, inverse_size));
+    keys.push_back(voxel_key(in_map, inverse_size));
   }
-  std::sort(occupied.begin(), occupied.end());
-  occupied.erase(std::unique(occupied.begin(), occupied.end()), occupied.end());
-  std::vector<VoxelKey> free;
-  std::set_difference(voxels.free.begin(), voxels.free.end(), occupied.begin(), occupied.end(),
-                      std::back_inserter(free));
-  voxels.free = std::move(free);
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
+/// Moves what is in `keys` from one sorted set to another.
+void move_voxels(const std::vector<VoxelKey>& keys, std::vector<VoxelKey>& from,
+                 std::vector<VoxelKey>& to) {
+  std::vector<VoxelKey> kept;
+  std::vector<VoxelKey> joined;
+  std::set_difference(from.begin(), from.end(), keys.begin(), keys.end(), std::back_inserter(kept));
+  std::set_union(to.begin(), to.end(), keys.begin(), keys.end(), std::back_inserter(joined));
+  from = std::move(kept);
+  to = std::move(joined);
+}
+
+}  // namespace
+
+void add_occupied(const std::vector<Eigen::Vector3f>& points,
+                  const Transform<World, Map>& T_world_map, OccupancyVoxels& voxels) {
+  move_voxels(voxels_of(points, T_world_map, voxels.voxel_size), voxels.free, voxels.occupied);
+}
+
+void remove_occupied(const std::vector<Eigen::Vector3f>& points,
+                     const Transform<World, Map>& T_world_map, OccupancyVoxels& voxels) {
+  std::vector<VoxelKey> keys = voxels_of(points, T_world_map, voxels.voxel_size);
+  std::erase_if(keys, [&](const VoxelKey& key) {
+    return !std::binary_search(voxels.occupied.begin(), voxels.occupied.end(), key);
+  });
+  move_voxels(keys, voxels.occupied, voxels.free);
 }
 
 OccupancyGrid floor_grid(const OccupancyVoxels& voxels, const Transform<World, Map>& T_world_map,

@@ -19,6 +19,10 @@ OccupancyVoxels voxels_in_map_frame(const OccupancyMap& map,
 void add_occupied(const std::vector<Eigen::Vector3f>& points,
                   const Transform<World, Map>& T_world_map, OccupancyVoxels& voxels);
 
+/// Marks the occupied voxels of points as free.
+void remove_occupied(const std::vector<Eigen::Vector3f>& points,
+                     const Transform<World, Map>& T_world_map, OccupancyVoxels& voxels);
+
 /// The 2D grid of the floor. A cell is occupied if any voxel between `min_height` and `max_height`
 /// above it is, isolated voxels excepted; else free if the floor, or empty space below
 /// `free_height`, was seen; else unknown. Empty if nothing is known. Very large maps get cells of

@@ -185,7 +185,9 @@ void RunLog::sum_up_loops(const GlobalMap& map) {
   for (const Loop& loop : loops_) {
     if (loop.outcome != LoopOutcome::kAccepted) continue;
     ++(is_own(loop.candidate) ? loops.closed : earlier.closed);
-    if (is_own(loop.candidate) || earlier.localized_s) continue;
+    const bool is_in_map =
+        !is_own(loop.candidate) && map.is_joined(map.records()[loop.candidate].session);
+    if (!is_in_map || earlier.localized_s) continue;
     earlier.localized_s = to_seconds(loop_stamps_[loop.query] - frames_.front().stamp);
   }
   if (map.earlier_sessions() > 0) loops.earlier_map = earlier;
@@ -220,14 +222,7 @@ void RunLog::compare_objects(const ObjectHistory& truth) {
 
 void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map) {
   const auto T = align_truth(truth_, corrected_trajectory());
-  if (!T) return;
-  const Eigen::Isometry3f T_map_truth = T->cast<float>();
-  std::vector<Eigen::Vector3f> fixed;
-  std::vector<Eigen::Vector3f> dynamic;
-  for (std::size_t i = 0; i < truth.points.size(); ++i) {
-    (truth.labels[i] == 0 ? fixed : dynamic).push_back(T_map_truth * truth.points[i]);
-  }
-  metrics_.map = evaluate_map(fixed, dynamic, map);
+  if (T) metrics_.map = evaluate_labeled_map(truth.points, truth.labels, T->cast<float>(), map);
 }
 
 Trajectory RunLog::trajectory() const {

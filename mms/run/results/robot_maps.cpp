@@ -12,7 +12,8 @@
 namespace mms {
 
 void write_robot_maps(const std::filesystem::path& folder, const OccupancyMap& occupancy,
-                      const MapCloud& map, bool is_depth, MapMarking marking) {
+                      const MapCloud& map, bool is_depth, MapMarking marking,
+                      const std::vector<Eigen::Vector3f>& gone) {
   const OccupancyConfig& config = occupancy.config();
   if (!config.enabled) return;
   const SensorAxes axes = is_depth ? SensorAxes::camera() : SensorAxes::lidar();
@@ -26,6 +27,7 @@ void write_robot_maps(const std::filesystem::path& folder, const OccupancyMap& o
   }
   const Transform<World, Map> T_world_map = map_frame(floor, axes.forward);
   OccupancyVoxels voxels = voxels_in_map_frame(occupancy, T_world_map);
+  remove_occupied(gone, T_world_map, voxels);
   if (marking == MapMarking::kObstacles) add_occupied(map.points, T_world_map, voxels);
   write_occupancy_grid(folder / "map.yaml", floor_grid(voxels, T_world_map, config.grid));
   const std::size_t left_out = write_octomap(folder / "map.bt", voxels);

@@ -13,7 +13,7 @@
 
 namespace mms {
 
-/// Map files of a run, as of the options of `mms run`.
+/// Map files of a run, by the options of `mms run`.
 struct MapFileOptions {
   std::filesystem::path map{};       ///< earlier map to start from; empty: none
   std::filesystem::path save_map{};  ///< where the map is written; empty: in `map`, if any
