@@ -53,8 +53,15 @@ constexpr double kSigmaUpdate = 0.1;
 /// Source: a person 3 m away covers a tenth of the view.
 constexpr double kAllFit = 0.9;
 
-bool is_scan(const FeatureCloud& features) {
+/// Whether points of a scan were measured at different times.
+bool is_skewed(const FeatureCloud& features) {
   return features.intensity.empty() && features.half_duration > Duration::zero();
+}
+
+/// Of the points at the ends of a scan, by a velocity or its error [m].
+double displacement(const FeatureCloud& scan, const Vector6d& velocity) {
+  return to_seconds(scan.half_duration) *
+         (velocity.head<3>().norm() + velocity.tail<3>().norm() * median_range(scan));
 }
 
 }  // namespace
@@ -68,8 +75,8 @@ Odometry::Odometry(const OdometryConfig& config, const DepthNoise& noise)
 
 Odometry::Alignment Odometry::align(FeatureCloud measured) const {
   const Timestamp stamp = measured.stamp;
-  Alignment alignment = is_scan(measured) ? align_scan(measured)
-                                          : align_at_pose_time(at_pose_time(std::move(measured)));
+  Alignment alignment = is_skewed(measured) ? align_scan(measured)
+                                            : align_at_pose_time(at_pose_time(std::move(measured)));
   alignment.stamp = stamp;
   return alignment;
 }
@@ -105,10 +112,7 @@ std::optional<Vector6d> Odometry::changed_velocity(const Alignment& alignment) c
   if (!pose.matrix().allFinite() || motion_.predict(features.stamp).is_sensed) return std::nullopt;
   const Vector6d velocity = motion_.velocity_at(features.stamp, pose);
   const Vector6d change = velocity - alignment.velocity.value_or(motion_.velocity());
-  const double displacement =
-      to_seconds(features.half_duration) *
-      (change.head<3>().norm() + change.tail<3>().norm() * median_range(features));
-  if (displacement < kMinDisplacement) return std::nullopt;
+  if (displacement(features, change) < kMinDisplacement) return std::nullopt;
   return velocity;
 }
 
@@ -139,6 +143,8 @@ OdometryEstimate Odometry::accept(Alignment alignment) {
   const std::optional<FeatureCloud> first = std::exchange(first_scan_, std::nullopt);
   OdometryEstimate estimate =
       alignment.registration ? track(alignment) : initialize(alignment.features);
+  begins_anew_ = first && !lost_ && displacement(*first, motion_.velocity()) >= kMinDisplacement;
+  if (begins_anew_) alignment.velocity = motion_.velocity();
   if (first && !lost_) estimate = begin_in_motion(*first, alignment.features);
   estimate.stamp = alignment.stamp;
   estimate.T_world_sensor =
@@ -196,7 +202,7 @@ FeatureCloud Odometry::at_pose_time(FeatureCloud features) const {
   // The first two scans give the velocity themselves, see `begin_in_motion`.
   const bool begins = !maps_ || first_scan_;
   deskew(features, begins ? motion_.velocity()
-                          : motion_.velocity(center + -features.half_duration,
+                          : motion_.velocity(center - features.half_duration,
                                              center + features.half_duration));
   features.stamp = center;
   return features;
@@ -207,13 +213,8 @@ OdometryEstimate Odometry::track(const Alignment& alignment) {
   const RegistrationResult& result = *alignment.registration;
   OdometryEstimate estimate;
   estimate.information = result.information;
-  estimate.edge_inliers = result.geometric.edges.inliers;
-  estimate.plane_inliers = result.geometric.planes.inliers;
   estimate.intensity_inliers = result.intensity_inliers;
-  estimate.iterations = result.iterations;
   estimate.degenerate_directions = result.degenerate_directions;
-  estimate.plane_rms =
-      std::sqrt(result.geometric.plane_square_sum / std::max(1, result.geometric.planes.inliers));
   if (alignment.is_valid) {
     estimate.status = lost_                              ? Status::kRecovered
                       : result.degenerate_directions > 0 ? Status::kDegenerate
@@ -261,13 +262,14 @@ OdometryEstimate Odometry::initialize(const FeatureCloud& features) {
   make_maps(features);
   update_maps(features);
   still_camera_.follow(features.intensity, motion_.pose());
-  if (is_scan(features)) first_scan_ = features;
+  if (is_skewed(features)) first_scan_ = features;
   return estimate;
 }
 
 /// A LiDAR that leaves a small room measures points farther apart than its voxels.
 void Odometry::coarsen_maps(const FeatureCloud& features) {
-  if (config_.voxel_size > 0.0 || !is_scan(features)) return;
+  const bool is_scan = !features.planes.empty() && features.planes.front().index >= 0;
+  if (config_.voxel_size > 0.0 || !is_scan) return;
   const double voxel = automatic_voxel_size(median_range(features));
   const bool is_far = voxel >= kVoxelGrowth * static_cast<double>(maps_->voxel_size());
   far_scans_ = is_far ? far_scans_ + 1 : 0;
@@ -301,7 +303,10 @@ OdometryEstimate Odometry::begin_in_motion(FeatureCloud first, FeatureCloud seco
 
 OdometryEstimate Odometry::relocate(Timestamp stamp, const Transform<World, Sensor>& T_world_sensor,
                                     const std::vector<PlacedFeatures>& surroundings) {
-  motion_.rest(stamp, T_world_sensor.isometry());
+  // The features of a scan are at the center of its time.
+  const double since = to_seconds(last_features_.stamp - stamp);
+  motion_.rest(last_features_.stamp,
+               T_world_sensor.isometry() * se3::exp(motion_.velocity() * since));
   still_camera_.forget();
   const bool is_new = !maps_;
   if (is_new) make_maps(last_features_);
@@ -320,7 +325,14 @@ OdometryEstimate Odometry::relocate(Timestamp stamp, const Transform<World, Sens
 
 std::optional<Transform<World, Sensor>> Odometry::expected(const FeatureCloud& features) const {
   const auto predicted = expected(features.stamp);
-  if (!predicted || features.intensity.empty()) return predicted;
+  if (!predicted) return predicted;
+  if (features.intensity.empty()) {
+    // A scan of a vehicle may be meters from the first one.
+    const bool is_known =
+        motion_.knows_velocity() ||
+        motion_.predict(features.stamp).translation_sigma < PosePrediction::kUnknown;
+    return is_known ? predicted : std::nullopt;
+  }
   const double uncertain = turn_change_ * static_cast<double>(median_range(features));
   if (uncertain < kMaxExpectedSigma) return predicted;
   const Alignment alignment = align_at_pose_time(at_pose_time(features));

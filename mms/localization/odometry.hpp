@@ -93,6 +93,10 @@ class Odometry {
   /// Of the sensor during the last scan, where it was not the expected one; see `Alignment`.
   const std::optional<Vector6d>& unexpected_velocity() const { return unexpected_velocity_; }
 
+  /// Whether the last scan gave the velocity that skewed the first one, so that a map made of the
+  /// first one is wrong.
+  bool begins_anew() const { return begins_anew_; }
+
   /// Of the sensor, between the last two poses [rad/s].
   double turn_rate() const { return motion_.velocity().tail<3>().norm(); }
 
@@ -138,6 +142,7 @@ class Odometry {
   bool lost_ = false;
   bool looks_right_ = true;
   std::optional<Vector6d> unexpected_velocity_;
+  bool begins_anew_ = false;
 };
 
 }  // namespace mms

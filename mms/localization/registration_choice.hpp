@@ -46,6 +46,7 @@ class RegistrationChoice {
  private:
   RegistrationResult register_sensed(const PosePrediction& prediction) const;
   RegistrationResult register_predicted(const PosePrediction& prediction) const;
+  RegistrationResult register_far(RegistrationResult best, const PosePrediction& prediction) const;
   RegistrationResult register_turned(RegistrationResult best) const;
   RegistrationResult register_stopped(RegistrationResult best,
                                       const PosePrediction& prediction) const;

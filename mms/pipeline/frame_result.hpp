@@ -35,6 +35,7 @@ struct FrameResult {
   OdometryEstimate odometry;
   LabeledCloud cloud;
   std::uint32_t session = 0;          ///< of the run; one that begins after a loss has the next
+  bool begins_anew = false;           ///< the first scan was skewed: maps begin with this one
   bool keyframe = false;              ///< of the static map
   bool global_keyframe = false;       ///< of the global map
   bool after_lost = false;            ///< frames since the last global keyframe were lost

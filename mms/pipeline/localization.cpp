@@ -63,7 +63,7 @@ bool agree(const OdometryEstimate& odometry, const Relocalization& place) {
 std::pair<Timestamp, Timestamp> times_of(const LabeledCloud& cloud, const FeatureCloud& features) {
   if (cloud.organised()) return {cloud.stamp, cloud.stamp};
   const Timestamp center = cloud.stamp + features.points_offset;
-  return {center + -features.half_duration, center + features.half_duration};
+  return {center - features.half_duration, center + features.half_duration};
 }
 
 /// The modes without the method's geometry are baselines: they get none of the steps beyond it.
@@ -119,6 +119,8 @@ FrameResult Localization::localize(PerceivedFrame frame) {
     search_robot_body(seen, result, estimate);
     const std::optional<Vector6d>& velocity = odometry_.unexpected_velocity();
     if (velocity) deskew(result.cloud, Vector6d(*velocity - expected));
+    result.begins_anew = odometry_.begins_anew();
+    if (result.begins_anew) session_ = Session(config_);
     return estimate;
   });
   result.correction = corrections_.at(result.odometry.stamp);

@@ -26,11 +26,13 @@ Mapping::Mapping(const SystemConfig& config)
     : config_(config),
       static_map_(static_map_config(config)),
       occupancy_map_(config.occupancy, static_map_config(config).surface),
-      dynamic_map_(config.dynamic_map) {}
+      // The least area is meant for the whole map, not for a view.
+      dynamic_map_(config.dynamic_map, {.max_tilt = config.occupancy.floor.max_tilt}) {}
 
 FrameResult Mapping::map(FrameResult result) {
   assert(thread_.is_owner());
   if (result.session != earlier_maps_.size()) begin_session();
+  if (result.begins_anew) clear_maps();
   result.objects = timed(result.stage_ms, Stage::kMapping, [&] {
     const Transform<World, Sensor>& T_world_sensor = result.odometry.T_world_sensor;
     dynamic_map_.update(result.cloud, result.odometry);  // III-D
@@ -51,8 +53,13 @@ FrameResult Mapping::map(FrameResult result) {
 void Mapping::begin_session() {
   static_map_.finalize();
   earlier_maps_.push_back(stamped(static_map_));
+  clear_maps();
+}
+
+void Mapping::clear_maps() {
   static_map_ = StaticMap(static_map_config(config_));
   occupancy_map_ = OccupancyMap(config_.occupancy, static_map_config(config_).surface);
+  is_cleared_ = true;
 }
 
 std::optional<MapChanges> Mapping::finalize() {
@@ -64,7 +71,7 @@ std::optional<MapChanges> Mapping::finalize() {
 MapChanges Mapping::changes() const {
   assert(thread_.is_owner());
   MapChanges changes = static_map_.changes();
-  if (!earlier_maps_.empty() && static_map_.views() == 1) changes.whole = true;
+  if (is_cleared_ && static_map_.views() == 1) changes.whole = true;
   return changes;
 }
 

@@ -45,12 +45,14 @@ class Mapping {
 
  private:
   void begin_session();
+  void clear_maps();
 
   SystemConfig config_;
   std::vector<StampedMap> earlier_maps_;  // of the sessions before, by their number
   StaticMap static_map_;
   OccupancyMap occupancy_map_;
   DynamicMap dynamic_map_;
+  bool is_cleared_ = false;  ///< the maps, at least once
   ThreadConfinement thread_;
 };
 

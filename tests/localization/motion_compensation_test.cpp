@@ -126,5 +126,37 @@ TEST(MotionCompensation, TracksFromStartInMotion) {
   EXPECT_LT(max_position_error(pose_in_motion_at, true, -0.5 * kPeriod), 0.03);  // at its center
 }
 
+TEST(MotionCompensation, GivesTheVelocityThatSkewedTheFirstTwoScans) {
+  for (const bool moves : {false, true}) {
+    Odometry odometry({}, {});
+    for (int i = 0; i < 2; ++i) {
+      LabeledCloud scan =
+          scan_at(kPeriod * (i - (moves ? 0 : 10)), 0.0, moves ? pose_in_motion_at : pose_at);
+      scan.stamp = Timestamp::from_seconds(1.0 + kPeriod * i);
+      odometry.estimate(FeatureExtractor({}).extract(scan));
+    }
+    EXPECT_EQ(odometry.begins_anew(), moves);
+    ASSERT_EQ(odometry.unexpected_velocity().has_value(), moves);
+    if (moves) {
+      EXPECT_LT((*odometry.unexpected_velocity() - velocity()).norm(), 0.15);
+    }
+  }
+}
+
+TEST(MotionCompensation, RelocatesAScanAtItsStamp) {
+  Odometry odometry({}, {});
+  const auto next = [&](int i) {
+    LabeledCloud scan = scan_at(kPeriod * i, 0.0, pose_in_motion_at);
+    scan.stamp = Timestamp::from_seconds(1.0 + kPeriod * i);
+    return odometry.estimate(FeatureExtractor({}).extract(scan));
+  };
+  for (int i = 0; i < 5; ++i) next(i);
+  const auto before = next(5);
+  odometry.relocate(before.stamp, before.T_world_sensor, {});  // where it is
+  EXPECT_LT(
+      testing::position_error(next(6).T_world_sensor.isometry(), pose_in_motion_at(6 * kPeriod)),
+      0.02);
+}
+
 }  // namespace
 }  // namespace mms

@@ -265,5 +265,55 @@ TEST(Odometry, AcceptsEqualStamps) {
   EXPECT_LT(error_of(odometry.estimate(features_at(50))), 2e-3);
 }
 
+/// A street with posts, as seen from x [m] along it: exact planes.
+FeatureCloud street_from(double x) {
+  FeatureCloud features;
+  const auto add = [&](double px, double py, double pz, double nx, double ny, double nz) {
+    features.planes.push_back({Eigen::Vector3d(px - x, py, pz).cast<float>(),
+                               Eigen::Vector3d(nx, ny, nz).cast<float>(), 0.01F});
+  };
+  for (int i = 0; i < 8; ++i) {
+    for (const int side : {-1, 1}) {
+      const double px = -21 + 6 * i;
+      const double py = side * (5 + i % 3);
+      const double front = px > x ? -1.0 : 1.0;
+      for (int k = 0; k < 12; ++k) {
+        add(px + 0.15 * front, py, -1.5 + 0.3 * k, front, 0, 0);
+        add(px, py - 0.15 * side, -1.5 + 0.3 * k, 0, -side, 0);
+      }
+    }
+  }
+  for (int i = -30; i <= 30; ++i) {
+    for (const int side : {-1, 1}) {
+      for (int z = -1; z <= 2; ++z) add(i, 10 * side, z, 0, -side, 0);
+    }
+  }
+  for (int i = -8; i <= 8; ++i) {
+    for (int j = 0; j < 6; ++j) add(1.5 * i, -4 + 1.5 * j, -1.7, 0, 0, 1);
+  }
+  return features;
+}
+
+TEST(Odometry, FindsTheSecondScanOfAFastVehicle) {
+  for (const double speed : {0.0, 10.0, 14.0, 20.0}) {
+    Odometry odometry({}, {});
+    for (int i = 0; i < 4; ++i) {
+      FeatureCloud features = street_from(0.1 * speed * i);
+      features.stamp = Timestamp(100 * i * kMillisecond);
+      const auto estimate = odometry.estimate(features);
+      EXPECT_EQ(estimate.status, i == 0 ? Status::kInitialized : Status::kTracking) << speed;
+      EXPECT_NEAR(estimate.T_world_sensor.translation().x(), 0.1 * speed * i, 0.01) << speed;
+    }
+  }
+}
+
+TEST(Odometry, ExpectsNoPoseOfAScanBeforeTheVelocityIsKnown) {
+  Odometry odometry({}, {});
+  odometry.estimate(features_at(0));
+  EXPECT_FALSE(odometry.expected(features_at(50)));
+  odometry.estimate(features_at(50));
+  EXPECT_TRUE(odometry.expected(features_at(100)));
+}
+
 }  // namespace
 }  // namespace mms

@@ -71,13 +71,13 @@ class StaticGrid {
 
   /// The static point at a pixel, or null.
   const Eigen::Vector3f* at(int x, int y) const {
-    return label(x, y) == PointLabel::kStatic ? &cloud_.points[index(x, y)] : nullptr;
+    return label(x, y) == PointLabel::kStatic ? &cloud_.points[cloud_.index(x, y)] : nullptr;
   }
 
   /// Label of a pixel; invalid outside the image.
   PointLabel label(int x, int y) const {
     const bool inside = x >= 0 && y >= 0 && x < cloud_.width && y < cloud_.height;
-    return inside ? cloud_.labels[index(x, y)] : PointLabel::kInvalid;
+    return inside ? cloud_.labels[cloud_.index(x, y)] : PointLabel::kInvalid;
   }
 
   /// Largest difference in depth [m] between points of one surface `pixels` apart.
@@ -87,11 +87,6 @@ class StaticGrid {
   }
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud_.width) +
-           static_cast<std::size_t>(x);
-  }
-
   const LabeledCloud& cloud_;
   DepthNoise noise_;
 };

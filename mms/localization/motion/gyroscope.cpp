@@ -39,7 +39,7 @@ Gyroscope::Gyroscope() : bias_sigma_(kFirstBiasSigma) {}
 
 void Gyroscope::add(const std::vector<ImuSample>& samples, Duration delay) {
   for (const ImuSample& sample : samples) {
-    const Timestamp stamp = sample.stamp + (-delay);
+    const Timestamp stamp = sample.stamp - delay;
     if (!sample.rate.allFinite()) continue;
     if (samples_.empty() || stamp > samples_.back().stamp) {
       samples_.push_back({stamp, sample.rate, sample.acceleration});

@@ -79,6 +79,8 @@ class MotionModel {
   /// What was found about the sensors since the last call, one line each.
   std::vector<std::string> take_warnings() { return sensors_.take_warnings(); }
 
+  /// Whether two poses gave a velocity.
+  bool knows_velocity() const { return interval_.has_value(); }
   const Eigen::Isometry3d& pose() const { return pose_; }
   const Eigen::Isometry3d& measured() const { return measured_; }  ///< the last measured pose
   Timestamp stamp() const { return stamp_; }                       ///< of `pose`

@@ -10,7 +10,7 @@ namespace mms {
 
 void WheelOdometry::add(const std::vector<WheelSample>& samples, Duration delay) {
   for (const WheelSample& sample : samples) {
-    const Timestamp stamp = sample.stamp + (-delay);
+    const Timestamp stamp = sample.stamp - delay;
     if (!sample.T_odom_base.is_finite()) continue;
     if (samples_.empty() || stamp > samples_.back().stamp) {
       samples_.push_back({stamp, sample.T_odom_base});

@@ -35,10 +35,7 @@ class Linearizer {
     const double sigma = std::hypot(match.sigma, common_sigma_);
     const double normalized = std::abs(r.value) / sigma;
     sum.planes.add(r.value, r.jacobian, weight(normalized, sigma));
-    if (normalized < kInlierSigmas) {
-      ++sum.planes.inliers;
-      sum.plane_square_sum += r.value * r.value;
-    }
+    if (normalized < kInlierSigmas) ++sum.planes.inliers;
   }
 
  private:
@@ -88,7 +85,6 @@ void GeometricConfig::visit(ConfigVisitor& v) {
 GeometricEquations& GeometricEquations::operator+=(const GeometricEquations& other) {
   edges += other.edges;
   planes += other.planes;
-  plane_square_sum += other.plane_square_sum;
   return *this;
 }
 

@@ -22,7 +22,6 @@ struct GeometricConfig {
 struct GeometricEquations {
   NormalEquations edges;
   NormalEquations planes;
-  double plane_square_sum = 0.0;  ///< of the inlying point-to-plane distances [m^2]
 
   int inliers() const { return edges.inliers + planes.inliers; }
   GeometricEquations& operator+=(const GeometricEquations& other);

@@ -40,8 +40,7 @@ DepthView::DepthView(const LabeledCloud& cloud, const DepthNoise& noise)
     for (int x = 0; x < nodes_.width(); ++x) {
       const int u = kNodeStep * x + kNodeStep / 2;
       const int v = kNodeStep * y + kNodeStep / 2;
-      const auto i = static_cast<std::size_t>(v) * static_cast<std::size_t>(cloud.width) +
-                     static_cast<std::size_t>(u);
+      const std::size_t i = cloud.index(u, v);
       nodes_(x, y).is_masked = cloud.labels[i] == PointLabel::kDynamic;
       if (depth_(u, v) <= 0.0F) continue;
       nodes_(x, y).point = cloud.points[i];

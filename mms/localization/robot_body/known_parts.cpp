@@ -17,11 +17,6 @@ constexpr int kMaxMisses = 5;
 /// vibrations and mixed pixels.
 constexpr float kDepthMargin = 0.05F;
 
-std::size_t index_of(const LabeledCloud& cloud, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
-         static_cast<std::size_t>(x);
-}
-
 }  // namespace
 
 void KnownParts::exclude(LabeledCloud& cloud, FeatureCloud& features) {
@@ -34,7 +29,7 @@ void KnownParts::exclude(LabeledCloud& cloud, FeatureCloud& features) {
     for (int u = 0; u < cloud.width; ++u) {
       const int x = std::min(u / kNodeStep, limits_.width() - 1);
       const int y = std::min(v / kNodeStep, limits_.height() - 1);
-      const std::size_t i = index_of(cloud, u, v);
+      const std::size_t i = cloud.index(u, v);
       // Not so for NaN.
       if (!(cloud.points[i].z() <= limits_(x, y))) continue;
       cloud.labels[i] = PointLabel::kInvalid;
@@ -53,7 +48,7 @@ void KnownParts::forget_uncovered(const LabeledCloud& cloud) {
       if (parts_(x, y) <= 0.0F) continue;
       const int u = kNodeStep * x + kNodeStep / 2;
       const int v = kNodeStep * y + kNodeStep / 2;
-      const float z = cloud.points[index_of(cloud, u, v)].z();
+      const float z = cloud.points[cloud.index(u, v)].z();
       misses_(x, y) = z > parts_(x, y) + kDepthMargin ? misses_(x, y) + 1 : 0;
       if (misses_(x, y) < kMaxMisses) continue;
       parts_(x, y) = 0.0F;
