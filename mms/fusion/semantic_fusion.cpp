@@ -42,21 +42,26 @@ void mark_dynamic_pixels(const Image<std::uint16_t>& mask, LabeledCloud& cloud) 
   }
 }
 
-/// Clears the masks that cannot be objects, and counts them.
-/// @param covering  of every point: 0 or 1 + index of the instance over it
-std::vector<Plausibility> drop_impossible_masks(const std::vector<std::uint16_t>& covering,
-                                                const std::vector<Instance>& instances,
-                                                const FusionConfig& config, MaskImage& mask,
-                                                LabeledCloud& cloud) {
-  if (!config.plausibility) return {};
-  std::vector<Plausibility> judged = judge_masks(cloud, covering, instances, config);
-  const auto count = std::count(judged.begin(), judged.end(), Plausibility::kImpossible);
-  cloud.implausible_masks = static_cast<int>(count);
-  if (count > 0) {
-    clear_impossible_masks(judged, mask.raw.pixels());
-    clear_impossible_masks(judged, mask.dilated.pixels());
+/// Draws the masks that can be objects, and counts the others. What an impossible mask covers is
+/// judged without it.
+/// @param draw  draws masks, and returns for every point 0 or 1 + index of the instance over it
+/// @param left  of impossible masks, an empty image remains
+template <class Draw>
+std::vector<Plausibility> draw_possible_masks(const Draw& draw, const FusionConfig& config,
+                                              Segmentation& left, LabeledCloud& cloud) {
+  while (true) {
+    const std::vector<std::uint16_t>& covering = draw(left);
+    if (!config.plausibility) return {};
+    const std::vector<Plausibility> judged = judge_masks(cloud, covering, left.instances, config);
+    int dropped = 0;
+    for (std::size_t k = 0; k < judged.size(); ++k) {
+      if (judged[k] != Plausibility::kImpossible) continue;
+      left.instances[k].mask = {};
+      ++dropped;
+    }
+    if (dropped == 0) return judged;
+    cloud.implausible_masks += dropped;
   }
-  return judged;
 }
 
 }  // namespace
@@ -73,16 +78,21 @@ LabeledCloud SemanticFusion::fuse(const Frame& frame, const Segmentation& segmen
 LabeledCloud SemanticFusion::fuse_depth(const Frame& frame, const Segmentation& segmentation) {
   LabeledCloud cloud = depth_cloud_.build(frame);
   if (present_.mode == FusionMode::kNone) return cloud;
-  MaskImage mask = make_mask_image(segmentation, frame.depth.width(), frame.depth.height(),
-                                   present_.stride, present_.dilation);
+  MaskImage mask;
+  Segmentation left = segmentation;
+  const auto draw = [&](const Segmentation& masks) -> const std::vector<std::uint16_t>& {
+    mask = make_mask_image(masks, frame.depth.width(), frame.depth.height(), present_.stride,
+                           present_.dilation);
+    return mask.raw.pixels();
+  };
   if (present_.mode == FusionMode::kVision) {
-    label_by_mask(mask.dilated.pixels(), segmentation.instances, cloud);
+    draw(left);
+    label_by_mask(mask.dilated.pixels(), left.instances, cloud);
     mark_dynamic_pixels(mask.dilated, cloud);
     return cloud;
   }
-  const std::vector<Plausibility> judged =
-      drop_impossible_masks(mask.raw.pixels(), segmentation.instances, present_, mask, cloud);
-  std::vector<Instance> instances = segmentation.instances;
+  const std::vector<Plausibility> judged = draw_possible_masks(draw, present_, left, cloud);
+  std::vector<Instance>& instances = left.instances;
   memory_.recall(cloud, mask, instances, is_computed(segmentation));
   std::vector<DynamicObjects::Object> objects;
   if (!instances.empty()) {
@@ -100,17 +110,21 @@ LabeledCloud SemanticFusion::fuse_scan(const Frame& frame, const Segmentation& s
   const Calibration& calibration = *frame.calibration;
   const bool has_masks = calibration.camera && !segmentation.instances.empty();
   if (present_.mode == FusionMode::kNone || !has_masks) return cloud;
-  MaskImage mask = make_mask_image(segmentation, calibration.camera->width,
-                                   calibration.camera->height, present_.stride, present_.dilation);
-  PointMask covering = project_masks(cloud.points, mask, calibration, present_.stride);
+  MaskImage mask;
+  PointMask covering;
+  Segmentation left = segmentation;
+  const auto draw = [&](const Segmentation& masks) -> const std::vector<std::uint16_t>& {
+    mask = make_mask_image(masks, calibration.camera->width, calibration.camera->height,
+                           present_.stride, present_.dilation);
+    covering = project_masks(cloud.points, mask, calibration, present_.stride);
+    return covering.raw;
+  };
   if (present_.mode == FusionMode::kVision) {
-    label_by_mask(covering.dilated, segmentation.instances, cloud);
+    draw(left);
+    label_by_mask(covering.dilated, left.instances, cloud);
   } else {
-    drop_impossible_masks(covering.raw, segmentation.instances, present_, mask, cloud);
-    if (cloud.implausible_masks > 0) {
-      covering = project_masks(cloud.points, mask, calibration, present_.stride);
-    }
-    fuse_scan_geometry(mask, covering, segmentation.instances, calibration, present_, cloud);
+    draw_possible_masks(draw, present_, left, cloud);
+    fuse_scan_geometry(mask, covering, left.instances, calibration, present_, cloud);
   }
   return cloud;
 }

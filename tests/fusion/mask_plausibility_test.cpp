@@ -206,5 +206,18 @@ TEST(MaskPlausibility, ClearsOnlyTheImplausibleMask) {
   EXPECT_NEAR(cloud.clusters[0].centroid.x(), 0.85F, 0.1F);
 }
 
+TEST(MaskPlausibility, KeepsAPersonUnderAnImplausibleMask) {
+  const View view =
+      render(room(3.0F).add(Surface::kPerson, {-0.25F, -0.5F, 2.7F}, {0.25F, 0.9F, 2.85F}));
+  Instance person = mask_of(view, Surface::kPerson);
+  person.score = 0.5F;  // the wall has 1
+  const Instance wall = rectangle(0, 0, view.frame.depth.width(), 452);
+  const LabeledCloud cloud =
+      SemanticFusion(FusionConfig{}).fuse(view.frame, segmentation_of(view, {wall, person}));
+  EXPECT_EQ(cloud.implausible_masks, 1);
+  ASSERT_EQ(cloud.clusters.size(), 1U);
+  EXPECT_EQ(cloud.clusters[0].instance, 1);
+}
+
 }  // namespace
 }  // namespace mms

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "tests/mapping/synthetic_room.hpp"
+
 namespace mms {
 namespace {
 
@@ -364,6 +366,36 @@ TEST(DynamicMap, IgnoresFramesOutOfOrder) {
   DynamicMap map;
   for (const int index : {3, 3, 1, 3}) update(map, index, {cluster_at({0.0F, 0.0F, 2.0F})});
   EXPECT_EQ(map.confirmed(), 0);
+}
+
+TEST(DynamicMap, FindsTheFloorUpToTheTiltOfTheSettings) {
+  test::Room room;
+  room.boxes.push_back({{-0.9, -0.25, 0.0}, {-0.5, 0.25, 1.7}, PointLabel::kDynamic});
+  const auto camera = test::camera_in_room({-2.0, 0.0, 1.4}, 0.0, 0.9);  // 52 degrees down
+  LabeledCloud cloud = test::view(room, camera);
+  cloud.cluster.assign(cloud.points.size(), -1);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.labels[i] == PointLabel::kDynamic) cloud.cluster[i] = 0;
+  }
+  cloud.clusters.emplace_back();
+  DynamicMap map({}, FloorConfig{.max_tilt = 60.0});
+  for (int i = 0; i < 6; ++i) {
+    cloud.stamp = Timestamp::from_seconds(1.0 + kPeriod * i);
+    OdometryEstimate odometry;
+    odometry.stamp = cloud.stamp;
+    map.update(cloud, odometry);
+  }
+  ASSERT_EQ(map.objects().size(), 1U);
+  const Eigen::Vector3d up = camera.rotation().transpose() * Eigen::Vector3d::UnitZ();
+  EXPECT_GT(map.objects()[0].box.T_world_box.linear().col(2).dot(up), 0.99);
+}
+
+TEST(DynamicMap, AnEmptyFirstFrameDoesNotTellUp) {
+  DynamicMap map;
+  map.update(LabeledCloud{}, OdometryEstimate{});
+  for (int i = 0; i < 6; ++i) update(map, i, {cluster_at({0.0F, 0.0F, 2.0F})});
+  ASSERT_EQ(map.objects().size(), 1U);
+  EXPECT_NEAR(map.objects()[0].box.T_world_box.linear().col(2).y(), -1.0, 1e-9);
 }
 
 }  // namespace

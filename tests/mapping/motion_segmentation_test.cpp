@@ -9,6 +9,7 @@
 namespace mms {
 namespace {
 
+using test::dynamic_points;
 using test::organised_cloud;
 using test::pose;
 
@@ -25,11 +26,6 @@ LabeledCloud wall_with_box(double seconds, int left = -1000, float depth = 2.0F)
   });
   cloud.stamp = at(seconds);
   return cloud;
-}
-
-std::size_t dynamic_points(const LabeledCloud& cloud) {
-  return static_cast<std::size_t>(
-      std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kDynamic));
 }
 
 const Transform<World, Sensor> kHere = pose({0, 0, 0});

@@ -10,6 +10,7 @@
 namespace mms {
 namespace {
 
+using test::dynamic_points;
 using test::hall_scan;
 using test::pose;
 using test::StandingBox;
@@ -26,11 +27,6 @@ LabeledCloud scan_at(double seconds, const std::vector<StandingBox>& boxes,
   LabeledCloud cloud = hall_scan(boxes, T_world_sensor);
   cloud.stamp = Timestamp::from_seconds(seconds);
   return cloud;
-}
-
-std::size_t dynamic_points(const LabeledCloud& cloud) {
-  return static_cast<std::size_t>(
-      std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kDynamic));
 }
 
 /// Whether a point is within 15 cm of the box, the size of a voxel at its boundary included.

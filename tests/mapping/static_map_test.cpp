@@ -239,8 +239,9 @@ TEST(StaticMap, DoesNotCarveWhenDisabled) {
 
 TEST(StaticMap, ScansCarveOnlyDepartedPerson) {
   const test::StandingBox person{{3.8, -0.25, -1.0}, {4.2, 0.25, 0.75}};
-  StaticMap map({.scan_voxel = 0.0, .min_observations = 1});
-  StaticMap uncarved({.scan_voxel = 0.0, .min_observations = 1, .carving = {.enabled = false}});
+  StaticMap map({.scan_voxel_share = 0.0, .min_observations = 1});
+  StaticMap uncarved(
+      {.scan_voxel_share = 0.0, .min_observations = 1, .carving = {.enabled = false}});
   for (int i = 0; i < 12; ++i) {
     const auto T = pose({0.05 * i, 0.02 * i, 0.0}, 0.01 * i);
     const auto boxes = i < 2 ? std::vector{person} : std::vector<test::StandingBox>{};
@@ -318,7 +319,7 @@ TEST(StaticMap, IgnoresNonFinitePose) {
 TEST(StaticMap, VoxelsOfScansFollowMedianRange) {
   StaticMapConfig config;
   config.voxel_size = 0.02;
-  config.scan_voxel = 0.01;
+  config.scan_voxel_share = 0.01;
   StaticMap map(config);
   map.integrate(small_scan(9), pose({0, 0, 0}));  // median range: 7 m
   EXPECT_NEAR(map.voxel_size(), 0.07, 1e-6);
@@ -326,7 +327,7 @@ TEST(StaticMap, VoxelsOfScansFollowMedianRange) {
   map.integrate(small_scan(3), pose({0, 0, 0}));
   EXPECT_NEAR(map.voxel_size(), 0.07, 1e-6);
   EXPECT_FALSE(map.changes().whole);
-  config.scan_voxel = 0.0;
+  config.scan_voxel_share = 0.0;
   StaticMap fine(config);
   fine.integrate(small_scan(9), pose({0, 0, 0}));
   EXPECT_EQ(fine.voxel_size(), 0.02);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 
 #include "mms/core/labeled_cloud.hpp"
@@ -50,6 +52,11 @@ inline LabeledCloud plane_cloud(const Eigen::Vector3d& normal, double offset,
   return organised_cloud([&](int, int, const Eigen::Vector3f& ray) {
     return static_cast<float>(d / n.dot(ray.cast<double>()));
   });
+}
+
+inline std::size_t dynamic_points(const LabeledCloud& cloud) {
+  return static_cast<std::size_t>(
+      std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kDynamic));
 }
 
 inline Transform<World, Sensor> pose(const Eigen::Vector3d& translation, double yaw = 0.0) {

@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/mapping/synthetic_cloud.hpp"
 
 namespace mms {
 namespace {
 
+using test::dynamic_points;
 using test::organised_cloud;
 using test::pose;
 
@@ -30,11 +29,6 @@ LabeledCloud room() {
     const float depth = is_person ? 2.0F : 3.0F;
     return ray.y() * depth > 1.0F ? 1.0F / ray.y() : depth;
   });
-}
-
-std::size_t dynamic_points(const LabeledCloud& cloud) {
-  return static_cast<std::size_t>(
-      std::count(cloud.labels.begin(), cloud.labels.end(), PointLabel::kDynamic));
 }
 
 TEST(UnseenObjects, MaskPointsAtPredictedBox) {

@@ -87,6 +87,10 @@ MaskImage make_mask_image(const Segmentation& segmentation, int width, int heigh
     throw DataError("segmentation", std::to_string(segmentation.instances.size()) +
                                         " instances, allowed: up to 32767");
   }
+  for (const Instance& instance : segmentation.instances) {
+    if (static_cast<int>(instance.object_class) < kObjectClassCount) continue;
+    throw DataError("segmentation", "an instance is of unknown class", "give person or agv");
+  }
   MaskImage image;
   image.raw = Image<std::uint16_t>(width / stride, height / stride);
   for (const std::size_t i : drawing_order(segmentation.instances)) {

@@ -69,8 +69,7 @@ std::vector<Samples> sample(const LabeledCloud& cloud, std::size_t instances,
   const int step = cloud.organised() ? kStep : 1;
   for (int y = 0; y < cloud.height; y += step) {
     for (int x = 0; x < cloud.width; x += step) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
-                            static_cast<std::size_t>(x);
+      const std::size_t i = cloud.index(x, y);
       if (covering[i] == 0) continue;
       Samples& of_mask = samples[covering[i] - std::size_t{1}];
       if (cloud.labels[i] == PointLabel::kInvalid) {
@@ -177,13 +176,6 @@ std::vector<Plausibility> judge_masks(const LabeledCloud& cloud,
                            config.sizes[static_cast<std::size_t>(object_class)], tolerance));
   }
   return judged;
-}
-
-void clear_impossible_masks(const std::vector<Plausibility>& judged,
-                            std::vector<std::uint16_t>& covering) {
-  for (std::uint16_t& value : covering) {
-    if (value != 0 && judged[value - std::size_t{1}] == Plausibility::kImpossible) value = 0;
-  }
 }
 
 }  // namespace mms

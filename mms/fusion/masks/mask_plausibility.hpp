@@ -25,8 +25,4 @@ std::vector<Plausibility> judge_masks(const LabeledCloud& cloud,
                                       const std::vector<Instance>& instances,
                                       const FusionConfig& config);
 
-/// Clears the values of the impossible masks.
-void clear_impossible_masks(const std::vector<Plausibility>& judged,
-                            std::vector<std::uint16_t>& covering);
-
 }  // namespace mms

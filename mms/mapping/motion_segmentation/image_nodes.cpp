@@ -96,8 +96,7 @@ void ImageNodes::relabel(const Component& component, int cluster, LabeledCloud& 
   for (const std::size_t node : component) {
     for (int y = kStep * row(node); y < kStep * (row(node) + 1); ++y) {
       for (int x = kStep * column(node); x < kStep * (column(node) + 1); ++x) {
-        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
-                       static_cast<std::size_t>(x);
+        const std::size_t i = cloud.index(x, y);
         if (cloud.labels[i] != PointLabel::kStatic) continue;
         make_dynamic(i, cluster, cloud);
         cloud.dynamic_pixels[i] = 1;

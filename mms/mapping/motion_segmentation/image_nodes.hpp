@@ -73,8 +73,7 @@ class ImageNodes {
   static constexpr int kContactReach = 2;
 
   std::size_t point(std::size_t node) const {
-    return static_cast<std::size_t>(kStep * row(node)) * static_cast<std::size_t>(cloud_.width) +
-           static_cast<std::size_t>(kStep * column(node));
+    return cloud_.index(kStep * column(node), kStep * row(node));
   }
   int column(std::size_t node) const { return static_cast<int>(node) % width_; }
   int row(std::size_t node) const { return static_cast<int>(node) / width_; }

@@ -73,8 +73,7 @@ struct Votes {
 };
 
 std::size_t point_of(const LabeledCloud& cloud, int node_x, int node_y) {
-  return static_cast<std::size_t>(kStep * node_y) * static_cast<std::size_t>(cloud.width) +
-         static_cast<std::size_t>(kStep * node_x);
+  return cloud.index(kStep * node_x, kStep * node_y);
 }
 
 /// Non-zero at the nodes that decide on a masked one: those within `kReach` of it.
@@ -88,9 +87,7 @@ Image<std::uint8_t> nodes_around_masks(const LabeledCloud& cloud) {
         for (int dx = 0; dx <= kStep && !is_masked; ++dx) {
           const int px = std::min(kStep * x + dx, cloud.width - 1);
           const int py = std::min(kStep * y + dy, cloud.height - 1);
-          const auto i = static_cast<std::size_t>(py) * static_cast<std::size_t>(cloud.width) +
-                         static_cast<std::size_t>(px);
-          is_masked = cloud.labels[i] == PointLabel::kDynamic;
+          is_masked = cloud.labels[cloud.index(px, py)] == PointLabel::kDynamic;
         }
       }
       if (!is_masked) continue;
@@ -207,8 +204,7 @@ void for_each_dynamic_point(const LabeledCloud& cloud, const SeenNodes& nodes, i
   const int bottom = v + 1 == nodes.height() ? cloud.height : kStep * (v + 1);
   for (int y = kStep * v; y < bottom; ++y) {
     for (int x = kStep * u; x < right; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
-                            static_cast<std::size_t>(x);
+      const std::size_t i = cloud.index(x, y);
       if (cloud.labels[i] == PointLabel::kDynamic) body(i);
     }
   }

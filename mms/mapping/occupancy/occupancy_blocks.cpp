@@ -1,7 +1,8 @@
 #include "mms/mapping/occupancy/occupancy_blocks.hpp"
 
 #include <algorithm>
-#include <utility>
+
+#include "mms/geometry/voxels/index_bytes.hpp"
 
 namespace mms {
 
@@ -31,10 +32,7 @@ OccupancyBlocks OccupancyBlocks::coarsened() const {
 }
 
 std::size_t OccupancyBlocks::memory_bytes() const {
-  using Entry = std::pair<VoxelKey, std::uint32_t>;
-  // [-]: bytes of a bucket. Source: robin_map stores a distance and a hash of 4 bytes each.
-  constexpr std::size_t kBucketSize = sizeof(Entry) + 8;
-  return blocks_.size() * sizeof(OccupancyBlock) + index_.bucket_count() * kBucketSize;
+  return blocks_.size() * sizeof(OccupancyBlock) + index_bytes(index_);
 }
 
 }  // namespace mms

@@ -98,8 +98,7 @@ void OccupancyMap::mark_rays(const LabeledCloud& cloud, const Eigen::Isometry3f&
   const auto inverse_size = static_cast<float>(1.0 / voxel_size());
   for (int y = 0; y < cloud.height; y += step) {
     for (int x = 0; x < cloud.width; x += step) {
-      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
-                     static_cast<std::size_t>(x);
+      const std::size_t i = cloud.index(x, y);
       const Eigen::Vector3f& point = cloud.points[i];
       if (cloud.labels[i] == PointLabel::kInvalid || !std::isfinite(point.norm())) continue;
       if (!(point.z() > 0.0F)) continue;

@@ -110,7 +110,8 @@ void StaticMap::choose_voxel_size(const LabeledCloud& first_scan) {
     if (first_scan.labels[i] == PointLabel::kStatic) ranges.push_back(first_scan.points[i].norm());
   }
   if (ranges.empty()) return;
-  const double least = config_.scan_voxel * static_cast<double>(upper_median(std::move(ranges)));
+  const double least =
+      config_.scan_voxel_share * static_cast<double>(upper_median(std::move(ranges)));
   if (!(least > grid_.voxel_size())) return;
   grid_ = VoxelGrid(least);
   is_resized_ = true;
@@ -178,7 +179,7 @@ std::size_t StaticMap::carve(const Space& free_space, double views_per_hit, std:
     const Eigen::Vector3f corner(static_cast<float>(block.key.x), static_cast<float>(block.key.y),
                                  static_cast<float>(block.key.z));
     const Eigen::Vector3f center = (corner.array() + 0.5F).matrix() * side;
-    if (!may_see_into(center, VoxelGrid::kHalfDiagonal * side)) return;
+    if (!may_see_into(center, kHalfDiagonal * side)) return;
     grid_.erase_if(block, [&](Voxel& voxel) {
       if (!gone(voxel)) return false;
       carved_.push_back(block.voxel_key(voxel));

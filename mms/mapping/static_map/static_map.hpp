@@ -17,7 +17,7 @@ namespace mms {
 
 struct StaticMapConfig {
   double voxel_size = 0.02;  ///< [m]
-  double scan_voxel = 0.005;
+  double scan_voxel_share = 0.005;
   double memory = 200.0;  ///< [MB]
   int min_observations = 2;
   SurfaceConfig surface{};
@@ -26,9 +26,10 @@ struct StaticMapConfig {
   void visit(ConfigVisitor& v) {
     v.number({"voxel_size", "m", "side of a voxel, doubled whenever the memory is used up"},
              voxel_size, {0.001, 10.0});
-    v.number({"scan_voxel", "",
-              "least side of a voxel of a LiDAR's map, over the median range of the first scan"},
-             scan_voxel, {0.0, 0.1});
+    v.number({"scan_voxel_share", "",
+              "least side of a voxel of a LiDAR's map, over the median range of the first scan",
+              "scan_voxel"},
+             scan_voxel_share, {0.0, 0.1});
     v.number({"memory", "MB", "budget of the map"}, memory, {1.0, 1e6});
     v.integer({"min_observations", "",
                "views, from keyframe to keyframe, that must measure a voxel before it is shown"},

@@ -68,10 +68,7 @@ class Grid {
   }
 
  private:
-  const Eigen::Vector3f& point(int x, int y) const {
-    return cloud_.points[static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud_.width) +
-                         static_cast<std::size_t>(x)];
-  }
+  const Eigen::Vector3f& point(int x, int y) const { return cloud_.points[cloud_.index(x, y)]; }
 
   bool is_missing(int x, int y) const { return inverse_.contains(x, y) && inverse_(x, y) <= 0.0F; }
 
@@ -142,8 +139,7 @@ std::vector<SurfacePoint> organised_points(const LabeledCloud& cloud, const Surf
   result.reserve(cloud.points.size() / static_cast<std::size_t>(step * step));
   for (int y = 0; y < cloud.height; y += step) {
     for (int x = 0; x < cloud.width; x += step) {
-      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(cloud.width) +
-                     static_cast<std::size_t>(x);
+      const std::size_t i = cloud.index(x, y);
       const float z = cloud.points[i].z();
       if (cloud.labels[i] != PointLabel::kStatic || !(z > 0.0F)) continue;
       if (z > static_cast<float>(config.max_depth)) continue;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mms/geometry/voxels/index_bytes.hpp"
+
 namespace mms {
 namespace {
 
@@ -117,12 +119,8 @@ VoxelGrid VoxelGrid::coarsened(bool keeps_views) const {
 }
 
 std::size_t VoxelGrid::memory_bytes() const {
-  using Entry = std::pair<VoxelKey, std::uint32_t>;
-  // [-]: bytes of a bucket. Source: robin_map stores a distance and a hash of 4 bytes each.
-  constexpr std::size_t kBucketSize = sizeof(Entry) + 8;
   return blocks_.size() * (sizeof(VoxelBlock) + sizeof(std::uint32_t)) +
-         slots_ * sizeof(VoxelBlock::Slots) + capacity_ * sizeof(Voxel) +
-         index_.bucket_count() * kBucketSize;
+         slots_ * sizeof(VoxelBlock::Slots) + capacity_ * sizeof(Voxel) + index_bytes(index_);
 }
 
 }  // namespace mms

@@ -133,9 +133,6 @@ class VoxelGrid {
   std::deque<VoxelBlock>& blocks() { return blocks_; }
   const std::deque<VoxelBlock>& blocks() const { return blocks_; }
 
-  /// [-]: radius of the ball around a cube over the cube's side. Source: half of sqrt(3).
-  static constexpr float kHalfDiagonal = 0.8660254F;
-
   double voxel_size() const { return voxel_size_; }
   double block_size() const { return voxel_size_ * BlockCells::kSide; }
   std::size_t size() const { return size_; }

@@ -70,7 +70,8 @@ Eigen::MatrixXd costs_of_sure_pairs(const std::vector<Track>& tracks,
                                     Eigen::MatrixXd cost) {
   for (Eigen::Index i = 0; i < cost.rows(); ++i) {
     for (Eigen::Index j = 0; j < cost.cols(); ++j) {
-      if (!is_sure(tracks[static_cast<std::size_t>(j)], objects[static_cast<std::size_t>(i)])) {
+      if (std::isfinite(cost(i, j)) &&
+          !is_sure(tracks[static_cast<std::size_t>(j)], objects[static_cast<std::size_t>(i)])) {
         cost(i, j) = kInfeasible;
       }
     }

@@ -57,7 +57,8 @@ bool DynamicMap::is_over(const Track& track) const {
 
 void DynamicMap::update_ground(const LabeledCloud& cloud,
                                const Transform<World, Sensor>& T_world_sensor) {
-  if (!ground_) ground_.emplace(nominal_up(cloud));
+  // An empty cloud does not tell the sensor.
+  if (!ground_ || !cloud.points.empty()) ground_.emplace(nominal_up(cloud));
   floor_tracker_.update(cloud, T_world_sensor, ground_->up());
   const std::optional<Floor>& floor = floor_tracker_.floor();
   if (floor) ground_.emplace(floor->up, floor->height);

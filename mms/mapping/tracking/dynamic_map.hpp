@@ -59,8 +59,9 @@ struct TrackedObject {
 /// its size and cost do not grow with the length of a run.
 class DynamicMap {
  public:
-  explicit DynamicMap(const DynamicMapConfig& config = {})
-      : config_(config), lost_(config.reidentification) {}
+  /// @param floor  how the floor below the objects is found
+  explicit DynamicMap(const DynamicMapConfig& config = {}, const FloorConfig& floor = {})
+      : config_(config), floor_tracker_(floor), lost_(config.reidentification) {}
 
   /// Adds a frame, keyframe or not. A frame that is not later than the last one or has no finite
   /// pose changes nothing.

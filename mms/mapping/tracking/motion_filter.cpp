@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// [m^2/s]: spectral density of the height's drift. Source: 0.1 m after one second, as of a person
+/// [m^2/s]: spectral density of the height's drift. Source: 0.1 m after one second, as for a person
 /// who bends or a box of which more comes into view.
 constexpr double kHeightNoise = 0.01;
 

@@ -43,7 +43,7 @@ class BoundaryCounter {
   void scan_line(int x, int y, int dx, int dy, int length, Side low, Side high) {
     ends_.assign(boundaries_.size(), {-1, -1});
     for (int i = 0; i < length; ++i) {
-      const int c = part_[index(x + i * dx, y + i * dy)];
+      const int c = part_[cloud_.index(x + i * dx, y + i * dy)];
       if (c < 0) continue;
       auto& [first, last] = ends_[static_cast<std::size_t>(c)];
       if (first < 0) first = i;
@@ -63,18 +63,16 @@ class BoundaryCounter {
   }
 
   bool ends_at_border_or_occluder(int x, int y, int dx, int dy) const {
-    const float z = cloud_.points[index(x, y)].z();
+    const float z = cloud_.points[cloud_.index(x, y)].z();
     for (int step = 1; step <= kMaxGap; ++step) {
       const int nx = x + step * dx;
       const int ny = y + step * dy;
       if (nx < 0 || ny < 0 || nx >= cloud_.width || ny >= cloud_.height) return true;
-      const float beside = cloud_.points[index(nx, ny)].z();
+      const float beside = cloud_.points[cloud_.index(nx, ny)].z();
       if (std::isfinite(beside)) return beside < z - kMinOccluderDistance;
     }
     return false;
   }
-
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * cloud_.width + x); }
 
   const LabeledCloud& cloud_;
   const std::vector<std::int16_t>& part_;
