@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Effect of false masks of people that cover 10 to 60 % of the image in a fifth of the frames, the
 # first five among them, compared to the exact masks alone.
-# Demanded: no frame lost because of them; ATE <= 1.1 x exact + 1 mm; DA at most 1 point lower.
+# Required: no frame lost because of them; ATE <= 1.1 x exact + 1 mm; DA at most 1 point lower.
 # usage: benchmarks/false_masks.sh [SEEDS] [DATA/rgbd] [FOLDER] [FLAGS FOR mms run]
 #   SEEDS   of scenes and false masks, as "1 2 3"
 #   FOLDER  keeps the recordings, for another call; default: a temporary one

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Every scene and recording with the filter and without it (--segmenter none --fusion none).
-# Demanded: ATE with the filter <= 1.05 x without + 1 mm, and no more frames lost.
+# Required: ATE with the filter <= 1.05 x without + 1 mm, and no more frames lost.
 # usage: benchmarks/filter_gain.sh [SEEDS] [DATA/rgbd] [FLAGS FOR mms run WITH FILTER]
 #   SEEDS   of the scenes, as "1 2 3"
 #   SCENES  environment: the scenes; default: all of depth cameras

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fuzzes each reader of foreign bytes (tests/fuzz) with libFuzzer under the address and undefined
+# Fuzzes each reader of untrusted input (tests/fuzz) with libFuzzer under the address and undefined
 # behavior sanitizers, one after the other, and prints a row each. Inputs that find something are in
-# build/fuzz/findings; put them into tests/fuzz/corpus/TARGET when they are mended. What was learned
+# build/fuzz/findings; put them into tests/fuzz/corpus/TARGET when they are fixed. What was learned
 # stays in build/fuzz/corpus for the next time.
 # A finding is a crash, a sanitizer's report, an exception other than an error message, more than 5 s
 # for one input, or an allocation of more than 512 MiB.

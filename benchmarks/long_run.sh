@@ -57,4 +57,4 @@ for stage in read segmentation fusion features odometry mapping; do
         sum[0] / quarter, sum[1] / quarter, sum[2] / quarter, sum[3] / quarter
     }' "$out/sorted" "$out/column"
 done
-grep -E "^(frames|rate|time per frame|peak memory|lost)" "$out/log"
+grep -E "^ +(frames|rate|time per frame|peak memory)" "$out/log"

@@ -27,8 +27,8 @@ cm() { awk -v meters="$(value "$1" "$2")" 'BEGIN { print 100 * meters }'; }
 # ms FILE STATISTIC: mean, p50 or p99 of the time per frame, in milliseconds.
 ms() { awk -v seconds="$(value "$1" "$2" time_per_frame_s)" 'BEGIN { print 1000 * seconds }'; }
 
-# quietly COMMAND...: prints its output only if it fails.
-quietly() { "$@" > "$out/log" 2>&1 || { cat "$out/log"; return 1; }; }
+# quietly COMMAND...: prints its output only if it fails. Without a terminal, so that --view ends.
+quietly() { "$@" < /dev/null > "$out/log" 2>&1 || { cat "$out/log"; return 1; }; }
 
 # cpu_of COMMAND...: user and system time of all threads [s].
 cpu_of() {

@@ -23,8 +23,9 @@ LIMIT = 1.0  # [s]
 
 
 def start_viewer(program, folder):
-    run = [program, "run", "sim:still_walker?frames=5&width=160", "--segmenter", "none", "-o", folder]
+    run = [program, "run", "sim:crowd?frames=6&width=320", "--segmenter", "masks", "-o", folder]
     subprocess.run(run, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    assert os.path.getsize(folder + "/static_map.ply") > 500_000, "the map is too small to fill buffers"
     server = subprocess.Popen([program, "view", folder, "--port", "8479"], stderr=subprocess.PIPE,
                               stdout=subprocess.PIPE, text=True)
     for _ in range(200):

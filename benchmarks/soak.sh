@@ -32,13 +32,13 @@ sample() {
 while sample >> "$out/samples"; do sleep 2; done
 wait "$run" || { grep '^mms: ' "$out/log" >&2; exit 1; }
 
-echo "| tenth of the run | memory [MB] | open files | threads | time per frame [ms] |"
+echo "| tenth of the run | memory [MB] | open files | threads | all stages [ms/frame] |"
 echo "| --- | --- | --- | --- | --- |"
 for tenth in 1 2 3 4 5 6 7 8 9 10; do
   # The least number of files and threads: without viewers.
   awk -v tenth="$tenth" '
     FILENAME ~ /samples$/ { line[++n] = $0; next }
-    { ++rows; split($0, part, ","); total[rows] = 0; for (i = 2; i in part; ++i) total[rows] += part[i] }
+    { ++rows; columns = split($0, part, ","); total[rows] = part[columns - 1] }  # all stages
     END {
       from = int(n * (tenth - 1) / 10) + 1; to = int(n * tenth / 10)
       for (i = from; i <= to; ++i) {

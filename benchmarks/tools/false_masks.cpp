@@ -1,4 +1,4 @@
-// Adds false masks to a recording: person-shaped and blob-shaped ones in bursts, as of a network
+// Adds false masks to a recording: person-shaped and blob-shaped ones in bursts, as from a network
 // that is wrong. usage: mms_false_masks RECORDING [SEED]
 // Reads rgb/ and masks/ of the recording and writes masks/ anew; the same seed gives the same ones.
 #include <algorithm>

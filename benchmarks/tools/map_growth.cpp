@@ -1,7 +1,7 @@
 // Time and memory of the global map as it grows: keyframes of one building on many days.
 // usage: mms_map_growth COUNT RECORDING...
 //   Adds the keyframes of one recording after another, each as a session, until there are COUNT.
-//   RECORDING: as of mms run, with masks and ground truth, which gives the poses, with drift.
+//   RECORDING: as for mms run, with masks and ground truth, which gives the poses, with drift.
 // Prints a row per 1,000 keyframes. "add": a keyframe with its search for loops, without a solution
 // of the pose graph in the median.
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Relocalization at random places: how often, how fast, and how often wrong.
 // usage: mms_relocalize MAP_RECORDING FRAMES QUERY_RECORDING FIRST COUNT
 //   Maps the first FRAMES frames, then takes COUNT times up to ten successive frames, evenly spread
-//   from frame FIRST on, as of a lost sensor. With two different recordings, every answer is wrong.
+//   from frame FIRST on, like a lost sensor. With two different recordings, every answer is wrong.
 // Recordings need masks/ and ground truth. Prints one line, and wrong answers on stderr; exit
 // status 1 if an answer is wrong.
 #include <algorithm>
