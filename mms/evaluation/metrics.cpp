@@ -109,7 +109,9 @@ MetricSection trajectory_section(const RunMetrics& metrics) {
   add_if_any("frames degenerate", frames_of(Status::kDegenerate));
   add_if_any("frames lost, poses predicted", frames_of(Status::kLost));
   if (metrics.trajectory) {
-    section.rating = rating_of(*metrics.trajectory);
+    // The pose of a lost frame is a prediction, which is right where the sensor stands still.
+    const bool is_mostly_lost = 2 * frames_of(Status::kLost) > metrics.frames;
+    section.rating = is_mostly_lost ? "poor" : rating_of(*metrics.trajectory);
     add(section, metric_values(*metrics.trajectory), {"poses"});
   }
   if (metrics.drift && metrics.stood_still) add(section, metric_values(*metrics.drift), {"poses"});

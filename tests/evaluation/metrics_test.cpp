@@ -95,6 +95,15 @@ TEST(Metrics, GroundTruthAddsTrajectoryAndDrift) {
   EXPECT_FALSE(has(section_of(metrics, "Trajectory"), "atde_m"));
 }
 
+TEST(Metrics, TrajectoryOfLostFramesIsPoor) {
+  RunMetrics metrics = sample();
+  metrics.trajectory = TrajectoryError{.matched = 120, .poses = 120};
+  EXPECT_EQ(section_of(metrics, "Trajectory").rating, "good");
+  metrics.status[static_cast<std::size_t>(Status::kTracking)] = 40;
+  metrics.status[static_cast<std::size_t>(Status::kLost)] = 79;
+  EXPECT_EQ(section_of(metrics, "Trajectory").rating, "poor");
+}
+
 TEST(Metrics, GroundTruthMapAddsMapError) {
   RunMetrics metrics = sample();
   metrics.map = MapError{.SA = 99.0, .DA = 50.0, .AA = 70.4, .HA = 66.4};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/geometry/camera.hpp"
 
 namespace mms {
@@ -31,11 +32,10 @@ double far_mode_of(const std::vector<std::uint16_t>& sorted) {
 
 void RoomDepth::add(const Image<float>& depth) {
   if (!millimetres_.empty() && !millimetres_.front().same_size(depth)) {
-    throw DataError("depth image", "is " + std::to_string(depth.width()) + "x" +
-                                       std::to_string(depth.height()) +
-                                       " pixels, earlier images have " +
-                                       std::to_string(millimetres_.front().width()) + "x" +
-                                       std::to_string(millimetres_.front().height()));
+    throw DataError("depth image",
+                    "is " + size_text(depth.width(), depth.height()) +
+                        " pixels, earlier images have " +
+                        size_text(millimetres_.front().width(), millimetres_.front().height()));
   }
   if (added_++ % step_ != 0) return;
   Image<std::uint16_t> raw(depth.width(), depth.height());

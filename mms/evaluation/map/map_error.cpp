@@ -107,6 +107,16 @@ MapError evaluate_map(const Points& truth_static, const Points& truth_dynamic, c
   return error;
 }
 
+MapError evaluate_labeled_map(const Points& truth, const std::vector<std::int32_t>& labels,
+                              const Eigen::Isometry3f& T_map_truth, const Points& map) {
+  Points fixed;
+  Points dynamic;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    (labels[i] == 0 ? fixed : dynamic).push_back(T_map_truth * truth[i]);
+  }
+  return evaluate_map(fixed, dynamic, map);
+}
+
 std::vector<MetricValue> metric_values(const MapError& error) {
   return {{"sa_pct", "SA (static points kept)", error.SA, "%", 2},
           {"da_pct", "DA (dynamic points removed)", error.DA, "%", 2},

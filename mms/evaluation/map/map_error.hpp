@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "mms/evaluation/scores/metric_value.hpp"
@@ -28,6 +29,13 @@ struct MapError {
 MapError evaluate_map(const std::vector<Eigen::Vector3f>& truth_static,
                       const std::vector<Eigen::Vector3f>& truth_dynamic,
                       const std::vector<Eigen::Vector3f>& map, double radius = 0.05);
+
+/// The same with one cloud of ground truth in its own frame.
+/// @param labels  of its points: 0 static
+MapError evaluate_labeled_map(const std::vector<Eigen::Vector3f>& truth,
+                              const std::vector<std::int32_t>& labels,
+                              const Eigen::Isometry3f& T_map_truth,
+                              const std::vector<Eigen::Vector3f>& map);
 
 /// JSON keys: sa_pct, da_pct, aa_pct, ha_pct.
 std::vector<MetricValue> metric_values(const MapError& error);

@@ -10,7 +10,7 @@ void MaskAgreement::add(const Image<std::uint8_t>& mask, const LabeledCloud& clo
   if (stride < 1 || mask.height() / stride != cloud.height) return;
   for (int y = 0; y < cloud.height; ++y) {
     for (int x = 0; x < cloud.width; ++x) {
-      const PointLabel label = cloud.labels[static_cast<std::size_t>(y * cloud.width + x)];
+      const PointLabel label = cloud.labels[cloud.index(x, y)];
       if (label == PointLabel::kInvalid) continue;
       const bool dynamic = label == PointLabel::kDynamic;
       const bool masked = mask(stride * x + stride / 2, stride * y + stride / 2) != 0;

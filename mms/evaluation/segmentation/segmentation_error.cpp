@@ -16,7 +16,7 @@ std::string joined(const std::set<std::string>& words) {
   return text.empty() ? "none" : text;
 }
 
-std::string size_text(int width, int height) {
+std::string pixels_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " px";
 }
 
@@ -40,8 +40,8 @@ class ResultCheck {
     const Rle& mask = result.segmentation;
     if (mask.width == image.width && mask.height == image.height) return;
     fail(index, "segmentation",
-         "has " + size_text(mask.width, mask.height) + ", its image " + std::to_string(image.id) +
-             " has " + size_text(image.width, image.height),
+         "has " + pixels_text(mask.width, mask.height) + ", its image " + std::to_string(image.id) +
+             " has " + pixels_text(image.width, image.height),
          "masks must have the size of the image in " + options_.truth_name);
   }
 

@@ -18,7 +18,7 @@ enum class Matching {
 struct TrajectoryErrorOptions {
   Matching matching = Matching::kByStamp;
   Duration max_difference{20'000'000};  ///< of matched stamps [ns], inclusive
-  bool align = true;  ///< false: both are in one frame, as of a localization in a known map
+  bool align = true;  ///< false: both are in one frame, as after localization in a known map
   /// Of the relative pose error; by default 1 s (TUM) by stamp and 10 m of path (KITTI) by index.
   std::optional<RelativeDelta> rpe_delta{};
 };
