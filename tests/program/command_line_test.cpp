@@ -193,6 +193,13 @@ TEST(Info, PrintsJson) {
   expect_error(run_mms(folder.path(), {"info", weights, "--json"}), "is a weights file");
 }
 
+TEST(CommandLine, DistributionOfRosMattersToItsNodeOnly) {
+  const TempFolder folder;
+  const ScopedVariable variable("ROS_DISTRO", "noetic");
+  expect_success(run_mms(folder.path(), {"config", "dump"}));
+  expect_success(run_mms(folder.path(), {"run", "--help"}));
+}
+
 TEST(Info, DescribesLidarFolder) {
   const TempFolder folder;
   write_hall(folder.path() / "data", 2);

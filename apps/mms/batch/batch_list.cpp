@@ -56,7 +56,7 @@ std::optional<std::vector<std::string>> words_of(const std::string& line) {
   return words;
 }
 
-/// The words with what does not belong into the name of a file as underscores. Of long ones the
+/// The words with what does not belong in the name of a file as underscores. Of long ones the
 /// end, and a number that tells them apart.
 std::string name_of(const std::vector<std::string>& words) {
   std::string all;

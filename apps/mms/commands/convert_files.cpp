@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/results/occupancy_grid_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/lower_case.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/text_table.hpp"
 
@@ -26,15 +26,8 @@ bool is_cloud(Format format) {
   return format == Format::kPly || format == Format::kPcd;
 }
 
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 Format format_of(const fs::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_case(path.extension().string());
   if (extension == ".tum") return Format::kTum;
   if (extension == ".txt") return Format::kKitti;
   if (extension == ".ply") return Format::kPly;

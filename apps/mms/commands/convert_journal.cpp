@@ -22,9 +22,10 @@ fs::path journal_of(const fs::path& input) {
   fs::path journal = input / kJournalName;
   if (fs::exists(journal)) return journal;
   const bool done = fs::exists(input / "trajectory.tum");
-  throw DataError(input.string(), "has no journal.bin",
-                  done ? "the run was completed: trajectory and map exist"
-                       : "only the result folder of a killed run has one");
+  throw DataError(
+      input.string(), "has no journal.bin",
+      done ? "the run was completed: trajectory and map exist"
+           : "a recording becomes a bag by -o x.bag or x.mcap; only a killed run has a journal");
 }
 
 /// "2026-03-01 12:30:01.250 UTC".

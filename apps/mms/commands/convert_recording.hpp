@@ -11,7 +11,7 @@ namespace mms {
 
 /// Conversion of a recording.
 struct RecordingConversion {
-  std::string input;             ///< as of mms run
+  std::string input;             ///< as for mms run
   std::filesystem::path output;  ///< x.bag, x.mcap, or else a folder
   BagTopicNames topics;          ///< of an input bag
   CameraOptions camera;          ///< in place of the recording's

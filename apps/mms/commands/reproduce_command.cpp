@@ -82,6 +82,7 @@ class Reproducer {
     if (run.interrupted()) throw Error(data, "was interrupted", "the tables require all runs");
     last_trajectory_ = run.log().trajectory();
     last_truth_ = run.log().truth();
+    found_.up = run.log().has_image() ? UpAxis::kNegativeY : UpAxis::kPositiveZ;
     return {method.name, run.log().metrics()};
   }
 
@@ -101,6 +102,11 @@ class Reproducer {
       runs.push_back(play(options_.trajectory, "loop", method));
       add_path(method.name);
     }
+    for (NamedPath& path : found_.paths) {
+      for (StampedPose& pose : path.poses) {
+        pose.T_world_sensor = T_world_truth_ * pose.T_world_sensor;
+      }
+    }
     found_.tables.push_back(localization_table(options_.trajectory, runs));
     add_picture("The static map", "map.png");
     add_picture("The semantic map: people red, vehicles green", "objects.png");
@@ -117,6 +123,7 @@ class Reproducer {
       pose.T_world_sensor = T_truth_map * pose.T_world_sensor;
     }
     found_.paths.push_back({name, last_trajectory_});
+    T_world_truth_ = Transform<World, World>(*T);
   }
 
   void add_picture(const std::string& title, const std::string& file) {
@@ -129,6 +136,7 @@ class Reproducer {
   Reproduction found_;
   Trajectory last_trajectory_;
   Trajectory last_truth_;
+  Transform<World, World> T_world_truth_;  ///< of the last run: the axes of its world are known
 };
 
 void reproduce(const ReproduceOptions& options) {

@@ -1,6 +1,7 @@
 #include "apps/mms/console/status_line.hpp"
 
 #include <fmt/core.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kTerminalPeriod{200};
 constexpr std::chrono::seconds kPipePeriod{5};
+constexpr std::size_t kColumns = 79;  // of a terminal of unknown width
 
 }  // namespace
 
@@ -29,7 +31,10 @@ bool StatusLine::due(bool last) {
 void StatusLine::show(const std::string& text) {
   const std::scoped_lock lock(mutex_);
   if (terminal_) {
-    fmt::print(stderr, "\r\033[K{}", text);
+    winsize size{};
+    const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+    const std::size_t columns = is_known ? size.ws_col - 1U : kColumns;
+    fmt::print(stderr, "\r\033[K{}", text.substr(0, columns));  // a wrapped line stays
     open_line_ = true;
   } else {
     fmt::print(stderr, "{}\n", text);

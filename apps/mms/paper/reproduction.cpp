@@ -6,7 +6,6 @@
 #include "mms/report/html.hpp"
 #include "mms/report/report_style.hpp"
 #include "mms/report/svg_plot.hpp"
-#include "mms/report/view_axes.hpp"
 
 namespace mms {
 namespace {
@@ -19,14 +18,14 @@ std::string figure(const ReportPicture& picture) {
          base64(encode_png(picture.image)) + "\"></section>\n";
 }
 
-std::string paths_plot(const std::vector<NamedPath>& paths) {
+std::string paths_plot(const std::vector<NamedPath>& paths, UpAxis up) {
   if (paths.empty()) return "";
   SvgPlot plot({.title = "localization comparison",
                 .x_label = "x [m]",
-                .y_label = "z [m]",
+                .y_label = up == UpAxis::kNegativeY ? "z [m]" : "y [m]",
                 .height = 560,
                 .equal_aspect = true});
-  const ViewAxes axes = view_axes(Viewpoint::kTop, UpAxis::kNegativeY);
+  const ViewAxes axes = view_axes(Viewpoint::kTop, up);
   int color = 0;
   for (const NamedPath& path : paths) {
     std::vector<double> x;
@@ -52,7 +51,7 @@ std::string reproduction_html(const Reproduction& found) {
   page += kReportStyle;
   page += "</style></head><body>\n<h1>" + title + "</h1>\n";
   for (const PlainTable& table : found.tables) page += html_of(table);
-  page += paths_plot(found.paths);
+  page += paths_plot(found.paths, found.up);
   for (const ReportPicture& picture : found.pictures) {
     if (!picture.image.empty()) page += figure(picture);
   }

@@ -7,6 +7,7 @@
 #include "mms/core/trajectory.hpp"
 #include "mms/report/plain_table.hpp"
 #include "mms/report/report.hpp"
+#include "mms/report/view_axes.hpp"
 
 namespace mms {
 
@@ -20,7 +21,8 @@ struct NamedPath {
 struct Reproduction {
   std::string title;
   std::vector<PlainTable> tables;
-  std::vector<NamedPath> paths;  ///< ground truth first, if known; all in one frame
+  std::vector<NamedPath> paths;    ///< ground truth first, if known; all in one frame
+  UpAxis up = UpAxis::kNegativeY;  ///< of the frame of `paths`
   std::vector<ReportPicture> pictures;
 };
 

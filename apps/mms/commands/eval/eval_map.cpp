@@ -62,12 +62,8 @@ void evaluate_cleanness(const MapArguments& arguments) {
   const auto T = truth_alignment(arguments);
   if (T && !arguments.json) fmt::print("ground truth aligned by the poses beside both files\n");
   const Eigen::Isometry3f T_map_truth = T.value_or(Eigen::Isometry3d::Identity()).cast<float>();
-  std::vector<Eigen::Vector3f> fixed;
-  std::vector<Eigen::Vector3f> dynamic;
-  for (std::size_t i = 0; i < truth.points.size(); ++i) {
-    (truth.labels[i] == 0 ? fixed : dynamic).push_back(T_map_truth * truth.points[i]);
-  }
-  const MapError error = evaluate_map(fixed, dynamic, read_finite(arguments.map).points);
+  const MapError error = evaluate_labeled_map(truth.points, truth.labels, T_map_truth,
+                                              read_finite(arguments.map).points);
   if (!arguments.json) {
     fmt::print(
         "ground truth: {} static and {} dynamic points; {} dynamic ones within 5 cm of a static "

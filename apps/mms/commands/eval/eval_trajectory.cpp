@@ -124,7 +124,7 @@ void add_options(CLI::App& command, TrajectoryArguments& arguments) {
                      "calib.txt of a KITTI sequence: ESTIMATE has poses of its LiDAR, REFERENCE of "
                      "its camera 0");
   command.add_flag("--no-align", arguments.no_align,
-                   "compare in the frame of REFERENCE, as of a localization in a known map");
+                   "compare in the frame of REFERENCE, as after localization in a known map");
 }
 
 }  // namespace

@@ -199,7 +199,7 @@ void add_segment_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("segment", "Segment people and vehicles in images");
   command
       ->add_option("DATA", arguments->data,
-                   "an image, a folder of images, or a recording as of mms run")
+                   "an image, a folder of images, or a recording as for mms run")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
