@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of collect_data.py on miniature sources."""
+"""Tests of collect_data.py on small example sources."""
 
 import contextlib
 import io

@@ -59,6 +59,12 @@ struct LabeledCloud {
 
   /// Whether the points are a grid of an image.
   bool organised() const { return height > 1; }
+
+  /// Organized: index of the point in column `x` and row `y`.
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
 };
 
 /// Share of the valid points that are dynamic, in [0, 1]; 0 for an empty cloud.

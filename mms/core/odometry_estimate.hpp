@@ -35,12 +35,8 @@ struct OdometryEstimate {
   /// Gauss-Newton information matrix of a right perturbation (translation [1/m^2], rotation
   /// [1/rad^2]) in the sensor frame.
   Matrix6d information = Matrix6d::Zero();
-  int edge_inliers = 0;           ///< point-to-line residuals
-  int plane_inliers = 0;          ///< point-to-plane residuals
   int intensity_inliers = 0;      ///< residuals of the photometric term
-  int iterations = 0;             ///< of Gauss-Newton
   int degenerate_directions = 0;  ///< number of degenerate directions, of 6
-  double plane_rms = 0.0;         ///< RMS of the inlier point-to-plane residuals [m]
 };
 
 }  // namespace mms

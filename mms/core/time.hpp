@@ -52,4 +52,8 @@ constexpr Timestamp operator+(Timestamp stamp, Duration duration) {
   return Timestamp(stamp.nanoseconds() + duration.count());
 }
 
+constexpr Timestamp operator-(Timestamp stamp, Duration duration) {
+  return Timestamp(stamp.nanoseconds() - duration.count());
+}
+
 }  // namespace mms

@@ -95,7 +95,7 @@ void bind_recording(py::module_& module) {
       .def(py::init(&open_recording), py::arg("path"), py::kw_only(), py::arg("masks") = py::none(),
            py::arg("calibration") = py::none(), py::arg("intrinsics") = py::none(),
            py::arg("depth_scale") = py::none(), py::arg("rate") = py::none(),
-           "path: folder, bag, capture, or simulation such as 'sim:crowd', as of mms run.\n"
+           "path: folder, bag, capture, or simulation such as 'sim:crowd', as for mms run.\n"
            "masks: folder of label images in place of the recording's.\n"
            "calibration: file, intrinsics: fx fy cx cy [px], depth_scale: units per meter; these\n"
            "replace the recording's. rate: frames a second of a recording without time stamps\n"

@@ -217,7 +217,7 @@ class Slam {
   std::unique_ptr<LiveSlam> slam_;
 };
 
-void bind_results(py::module_& module) {
+void bind_tracked_object(py::module_& module) {
   py::class_<TrackedObject>(module, "TrackedObject", "An object of the dynamic map.")
       .def_readonly("box", &TrackedObject::box, "ObjectBox at the stamp of the frame.")
       .def_property_readonly(
@@ -227,6 +227,9 @@ void bind_results(py::module_& module) {
           "first_seen", [](const TrackedObject& o) { return o.first_seen.nanoseconds(); }, "[ns]")
       .def_property_readonly(
           "last_seen", [](const TrackedObject& o) { return o.last_seen.nanoseconds(); }, "[ns]");
+}
+
+void bind_result(py::module_& module) {
   py::class_<FrameResult>(module, "Result", "What a frame gave. Its arrays are views.")
       .def_property_readonly(
           "stamp", [](const FrameResult& r) { return r.odometry.stamp.nanoseconds(); }, "[ns]")
@@ -284,6 +287,9 @@ void bind_results(py::module_& module) {
             return times;
           },
           "Duration of each stage [ms].");
+}
+
+void bind_map_cloud(py::module_& module) {
   py::class_<MapCloud>(module, "MapCloud", "The static map as points. Its arrays are views.")
       .def("__len__", &MapCloud::size)
       .def_property_readonly(
@@ -304,7 +310,9 @@ void bind_results(py::module_& module) {
 }  // namespace
 
 void bind_slam(py::module_& module) {
-  bind_results(module);
+  bind_tracked_object(module);
+  bind_result(module);
+  bind_map_cloud(module);
   const py::call_guard<py::gil_scoped_release> no_gil;
   py::class_<Slam>(
       module, "Slam",
@@ -318,7 +326,7 @@ void bind_slam(py::module_& module) {
            py::arg("weights") = py::none(), py::arg("map") = py::none(),
            py::arg("save_map") = py::none(), py::arg("localize") = false,
            py::arg("overwrite") = false,
-           "config: settings file, as of mms run --config; None: the defaults.\n"
+           "config: settings file, as for mms run --config; None: the defaults.\n"
            "calibration: Calibration of the sensor; frames of recordings bring their own.\n"
            "settings: single ones, as {'static_map.voxel_size': 0.05}.\n"
            "segmenter: where masks come from: 'masks' (given ones), 'network' or 'none'.\n"

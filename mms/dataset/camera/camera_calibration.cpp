@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/config/calibration_formats.hpp"
 
 namespace mms {
@@ -17,7 +18,7 @@ std::string intrinsics_text(const CameraIntrinsics& camera) {
 }
 
 std::string side_text(const CameraIntrinsics& camera) {
-  return std::to_string(camera.width) + "x" + std::to_string(camera.height);
+  return size_text(camera.width, camera.height);
 }
 
 }  // namespace

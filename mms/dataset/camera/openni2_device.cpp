@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/dataset/camera/camera_choice.hpp"
 #include "mms/dataset/camera/openni2_device.hpp"
 
@@ -73,8 +74,8 @@ std::string format_name(PixelFormat format) {
 }
 
 std::string mode_text(const VideoMode& mode) {
-  return std::to_string(mode.getResolutionX()) + "x" + std::to_string(mode.getResolutionY()) +
-         ", " + std::to_string(mode.getFps()) + " Hz, " + format_name(mode.getPixelFormat());
+  return size_text(mode.getResolutionX(), mode.getResolutionY()) + ", " +
+         std::to_string(mode.getFps()) + " Hz, " + format_name(mode.getPixelFormat());
 }
 
 /// Depth units per meter; 0 for another format.
@@ -109,7 +110,7 @@ std::string uri_of(const std::string& address, const std::string& which) {
   for (int i = 0; i < found.getSize(); ++i) uris.emplace_back(found[i].getUri());
   if (uris.empty()) {
     throw DataError(address, "no camera was found",
-                    "plug it in; drivers of other makers belong into OpenNI2/Drivers, see "
+                    "plug it in; drivers of other manufacturers go into OpenNI2/Drivers, see "
                     "docs/cameras.md");
   }
   return uris[chosen_camera(address, which, uris)];
@@ -311,8 +312,7 @@ class OpenNi2Device final : public CameraDevice, private OpenNI::DeviceDisconnec
         fits(height, static_cast<std::size_t>(row), frame.getDataSize())) {
       return;
     }
-    throw DataError(what_, "has an image of " + std::to_string(width) + "x" +
-                               std::to_string(height) + " pixels with " +
+    throw DataError(what_, "has an image of " + size_text(width, height) + " pixels with " +
                                std::to_string(frame.getDataSize()) + " bytes");
   }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/dataset/camera/camera_choice.hpp"
 #include "mms/dataset/camera/v4l2_node.hpp"
 #include "mms/io/image/image_io.hpp"
@@ -82,9 +83,8 @@ std::vector<std::string> mode_lines(const V4l2Node& node) {
   std::string rates;
   const auto end_line = [&] {
     if (last == nullptr) return;
-    lines.push_back((is_depth(*last) ? "depth " : "color ") + std::to_string(last->width) + "x" +
-                    std::to_string(last->height) + ", " + rates + " Hz, " +
-                    format_name(last->format) + ", " + node.path());
+    lines.push_back((is_depth(*last) ? "depth " : "color ") + size_text(last->width, last->height) +
+                    ", " + rates + " Hz, " + format_name(last->format) + ", " + node.path());
   };
   for (const V4l2Mode& mode : node.modes()) {
     if (!is_depth(mode) && !is_color(mode)) continue;
@@ -200,8 +200,7 @@ class V4l2Device final : public CameraDevice {
     if (!mode) {
       throw DataError(what_,
                       std::string("has no ") + stream.what + " images of " +
-                          std::to_string(size.width) + "x" + std::to_string(size.height) +
-                          " pixels in " + stream.formats,
+                          size_text(size.width, size.height) + " pixels in " + stream.formats,
                       "the size is that of the calibration; mms cameras lists the modes");
     }
     stream.mode = *mode;

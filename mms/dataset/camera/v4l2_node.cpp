@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 
 namespace mms {
 namespace {
@@ -93,7 +94,7 @@ std::string format_name(std::uint32_t format) {
 }
 
 std::string to_string(const V4l2Mode& mode) {
-  return std::to_string(mode.width) + "x" + std::to_string(mode.height) + ", " +
+  return size_text(mode.width, mode.height) + ", " +
          (mode.rate > 0 ? std::to_string(mode.rate) + " Hz, " : "") + format_name(mode.format);
 }
 
@@ -177,8 +178,7 @@ void V4l2Node::start(const V4l2Mode& mode) {
   layout_ = {static_cast<int>(pixels.width), static_cast<int>(pixels.height), pixels.bytesperline};
   if (layout_.width != mode.width || layout_.height != mode.height ||
       pixels.pixelformat != mode.format) {
-    throw DataError(path_, what + ", but of " + std::to_string(layout_.width) + "x" +
-                               std::to_string(layout_.height) + ", " +
+    throw DataError(path_, what + ", but of " + size_text(layout_.width, layout_.height) + ", " +
                                format_name(pixels.pixelformat));
   }
   if (mode.rate > 0) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 
 namespace mms {
 namespace {
@@ -60,8 +61,8 @@ class OusterDecoder final : public PacketDecoder {
 
   std::vector<std::string> facts() const override {
     return {"sensor: LiDAR, Ouster " + metadata_.product + ", " +
-            std::to_string(metadata_.pixels_per_column) + "x" +
-            std::to_string(metadata_.columns_per_frame) + ", " + profile_.name};
+            size_text(metadata_.pixels_per_column, metadata_.columns_per_frame) + ", " +
+            profile_.name};
   }
   bool is_data(std::string_view packet) const override { return packet.size() == packet_size_; }
   std::size_t columns() const override {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "mms/core/error.hpp"
+#include "mms/dataset/source/image_size.hpp"
 #include "mms/io/cloud/kitti_io.hpp"
 #include "mms/io/image/image_io.hpp"
 #include "mms/io/image/picture_files.hpp"
@@ -52,15 +53,6 @@ void find_masks(std::vector<ScanFiles>& scans, const fs::path& folder, const Sou
   add_fact(facts, "masks", found, scans.size());
 }
 
-template <class T>
-void check_size(const Image<T>& image, const CameraIntrinsics& camera, const fs::path& path) {
-  if (image.width() == camera.width && image.height() == camera.height) return;
-  throw DataError(path.string(),
-                  "is " + std::to_string(image.width()) + "x" + std::to_string(image.height()) +
-                      " pixels, the calibration has " + std::to_string(camera.width) + "x" +
-                      std::to_string(camera.height));
-}
-
 }  // namespace
 
 void find_companions(std::vector<ScanFiles>& scans, const fs::path& folder,
@@ -96,11 +88,11 @@ Frame read_scan_frame(const ScanFiles& files, const ScanFormat& format,
   }
   if (!files.color.empty()) {
     frame.color = read_color(files.color);
-    check_size(frame.color, *calibration->camera, files.color);
+    check_size(frame.color, *calibration->camera, files.color.string());
   }
   if (!files.mask.empty()) {
     frame.mask = read_mask(files.mask);
-    check_size(frame.mask, *calibration->camera, files.mask);
+    check_size(frame.mask, *calibration->camera, files.mask.string());
   }
   return frame;
 }

@@ -20,15 +20,12 @@ class ImageMotion {
   /// What is wrong, each in one sentence with figures and a remedy.
   std::vector<std::string> faults() const;
 
-  const std::vector<double>& shifts() const { return shifts_; }  ///< [image widths]
-  const std::vector<double>& blurs() const { return blurs_; }    ///< `image_blur` at half size
-
  private:
   Image<float> before_;  ///< brightness at a small size
   Timestamp stamp_;
-  std::vector<double> shifts_;
+  std::vector<double> shifts_;     ///< [image widths]
   std::vector<double> intervals_;  ///< [s]
-  std::vector<double> blurs_;
+  std::vector<double> blurs_;      ///< `image_blur` at half size
 };
 
 }  // namespace mms

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "mms/core/size_text.hpp"
 #include "mms/io/text/numbers.hpp"
 
 namespace mms {
@@ -70,7 +71,7 @@ std::vector<std::string> camera_faults(const CameraIntrinsics& camera) {
   const double offset = offset_of(camera.cx, camera.cy);
   const bool swapped =
       offset > kMaxOffsetIfSwapped && 2.0 * offset_of(camera.cy, camera.cx) < offset;
-  const std::string size = std::to_string(camera.width) + "x" + std::to_string(camera.height);
+  const std::string size = size_text(camera.width, camera.height);
   if (offset > kMaxOffset || swapped) {
     faults.push_back("cx, cy = " + rounded(camera.cx, 1) + ", " + rounded(camera.cy, 1) +
                      " is far from the center of images of " + size +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "mms/core/size_text.hpp"
 #include "mms/dataset/recorder/recorded_frame.hpp"
 #include "mms/dataset/simulated/map_truth.hpp"
 #include "mms/dataset/simulated/objects_truth.hpp"
@@ -66,7 +67,7 @@ class SceneSource final : public FrameSource {
             format_number(config.hz > 0.0 ? config.hz : sensor.hz) + " Hz",
         "sensor: " + std::string(sensor.name) + ", " +
             (sensor.lidar ? "LiDAR and camera, " : "depth camera, ") +
-            std::to_string(camera.width) + "x" + std::to_string(camera.height) + " pixels",
+            size_text(camera.width, camera.height) + " pixels",
         masks_fact(), "truth: exact"};
     facts.insert(facts.end(), motion_.facts.begin(), motion_.facts.end());
     return facts;

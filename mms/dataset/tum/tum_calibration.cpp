@@ -1,11 +1,10 @@
 #include "mms/dataset/tum/tum_calibration.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 #include <vector>
 
 #include "mms/core/error.hpp"
+#include "mms/io/text/lower_case.hpp"
 #include "mms/io/text/pose_text.hpp"
 #include "mms/io/text/text_table.hpp"
 
@@ -49,10 +48,7 @@ Calibration calibration_of(const CameraIntrinsics& camera) {
 std::string lower_name(const std::filesystem::path& folder) {
   std::filesystem::path whole = std::filesystem::weakly_canonical(folder);
   if (!whole.has_filename()) whole = whole.parent_path();  // trailing slash
-  std::string name = whole.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
+  return lower_case(whole.filename().string());
 }
 
 }  // namespace

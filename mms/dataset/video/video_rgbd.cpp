@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/dataset/source/calibration_choice.hpp"
 #include "mms/dataset/source/first_image.hpp"
 #include "mms/dataset/source/folder_names.hpp"
@@ -194,9 +195,8 @@ void fit_cameras(RgbdRecording& recording) {
   const double aspect = static_cast<double>(width) / height;
   if (std::abs(aspect * depth.height() / depth.width() - 1.0) > kMaxAspectDifference) {
     throw DataError(recording.folder.string(),
-                    "has a video of " + std::to_string(width) + "x" + std::to_string(height) +
-                        " pixels and depth images of " + std::to_string(depth.width()) + "x" +
-                        std::to_string(depth.height()),
+                    "has a video of " + size_text(width, height) + " pixels and depth images of " +
+                        size_text(depth.width(), depth.height()),
                     "depth images must be registered to the color images, or their camera be "
                     "stated as depth_camera in calibration.yaml");
   }
@@ -267,7 +267,7 @@ std::unique_ptr<FrameSource> open_video_rgbd(const fs::path& folder, const Sourc
   const bool stray = fs::exists(folder / kCameraMatrix) && fs::exists(folder / kOdometry);
   recording.facts.emplace_back(stray ? "layout: Stray Scanner, color video and depth images"
                                      : "layout: color video and depth images");
-  // Its .npy files are in millimeters whatever their type is, as of its stray_visualize.py.
+  // Its .npy files are in millimeters whatever their type is, as in its stray_visualize.py.
   if (stray) recording.float_depth_scale = 1000.0;
   match_images(recording, video);
   choose_calibration(recording, options.camera, [&] { return read_camera_matrix(recording); });

@@ -36,12 +36,6 @@ class VoxelHashMap {
   bool empty() const { return entries_.empty(); }
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// Bytes of the cells and the index, without memory that a cell allocates itself.
-  std::size_t memory_bytes() const {
-    return entries_.capacity() * sizeof(Entry) + blocks_.capacity() * sizeof(Block) +
-           index_.bucket_count() * (sizeof(VoxelKey) + 2 * sizeof(std::uint32_t));
-  }
-
   VoxelKey key(const Eigen::Vector3f& point) const { return voxel_key(point, inverse_size_); }
 
   const Cell* find(const VoxelKey& key) const {

@@ -8,6 +8,9 @@
 
 namespace mms {
 
+/// [-]: radius of the ball around a cube over the cube's side. Source: half of sqrt(3).
+inline constexpr float kHalfDiagonal = 0.8660254F;
+
 /// Integer coordinates of a cubic voxel.
 struct VoxelKey {
   std::int32_t x = 0;

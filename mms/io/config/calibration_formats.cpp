@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <iterator>
 #include <span>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "mms/io/config/calibration_ranges.hpp"
 #include "mms/io/config/camera_json.hpp"
 #include "mms/io/config/yaml_map.hpp"
+#include "mms/io/text/lower_case.hpp"
 #include "mms/io/text/numbers.hpp"
 #include "mms/io/text/pose_text.hpp"
 
@@ -75,9 +75,7 @@ class CameraMap {
   void check_model(const char* key, std::span<const char* const> known) {
     const auto node = map_.find(key);
     if (!node || !node->IsScalar()) return;
-    std::string model = node->Scalar();
-    std::transform(model.begin(), model.end(), model.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string model = lower_case(node->Scalar());
     if (std::find(known.begin(), known.end(), model) != known.end()) return;
     map_.fail(*node, key, "is '" + node->Scalar() + "', which is not supported",
               "undistort the images, or give a pinhole camera with plumb_bob coefficients");

@@ -9,6 +9,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/core/image.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/text/numbers.hpp"
 
 namespace mms {
@@ -330,8 +331,7 @@ const Container* container_of(Bytes bytes) {
 
 void check_size(const Size& size, const std::string& where) {
   constexpr std::uint64_t kLimit = kMaxImageSide;
-  const std::string pixels =
-      "is " + std::to_string(size.width) + "x" + std::to_string(size.height) + " pixels";
+  const std::string pixels = "is " + size_text(size.width, size.height) + " pixels";
   if (size.width > kLimit || size.height > kLimit) {
     throw DataError(where, pixels + ", allowed: up to 16384x16384", "the header may be damaged");
   }

@@ -1,9 +1,9 @@
 #include "mms/io/image/picture_files.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "mms/io/text/files.hpp"
+#include "mms/io/text/lower_case.hpp"
 
 namespace mms {
 
@@ -22,9 +22,7 @@ const std::vector<std::string>& depth_endings() {
 }
 
 bool is_picture(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   const auto& endings = color_endings();
   return std::find(endings.begin(), endings.end(), extension) != endings.end();
 }

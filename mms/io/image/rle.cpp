@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/image/image_container.hpp"
 
 namespace mms {
@@ -108,10 +109,9 @@ void check_rle(const Rle& rle) {
 
 Rle encode_rle(const Image<std::uint8_t>& cut, int x, int y, int width, int height) {
   if (x < 0 || y < 0 || x + cut.width() > width || y + cut.height() > height) {
-    throw DataError("mask", std::to_string(cut.width()) + "x" + std::to_string(cut.height()) +
-                                " px at (" + std::to_string(x) + ", " + std::to_string(y) +
-                                ") exceeds its image of " + std::to_string(width) + "x" +
-                                std::to_string(height));
+    throw DataError("mask", size_text(cut.width(), cut.height()) + " px at (" + std::to_string(x) +
+                                ", " + std::to_string(y) + ") exceeds its image of " +
+                                size_text(width, height));
   }
   Rle rle{width, height, {}};
   std::uint64_t end = 0;  // of the last run of the mask

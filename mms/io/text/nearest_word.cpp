@@ -13,8 +13,7 @@ std::string joined(std::span<const std::string> words) {
   return text;
 }
 
-}  // namespace
-
+/// Levenshtein distance of `a` and `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -29,6 +28,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return row[b.size()];
 }
+
+}  // namespace
 
 std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> known) {
   if (known.empty()) return std::nullopt;

@@ -7,9 +7,6 @@
 
 namespace mms {
 
-/// Levenshtein distance of `a` and `b`.
-std::size_t edit_distance(std::string_view a, std::string_view b);
-
 /// The word of `known` that is close to `word`; nullopt if none is.
 std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> known);
 

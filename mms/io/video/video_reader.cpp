@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/image/image_container.hpp"
 #include "mms/io/video/libav_pointer.hpp"
 
@@ -85,9 +86,8 @@ class VideoReader::Impl {
     if (code < 0) throw DataError(path_, "cannot be decoded: " + error_text(code));
     if (codec_->width < 1 || codec_->height < 1 || codec_->width > kMaxImageSide ||
         codec_->height > kMaxImageSide) {
-      throw DataError(path_, "has images of " + std::to_string(codec_->width) + "x" +
-                                 std::to_string(codec_->height) + " pixels, allowed are 1 to " +
-                                 std::to_string(kMaxImageSide));
+      throw DataError(path_, "has images of " + size_text(codec_->width, codec_->height) +
+                                 " pixels, allowed are 1 to " + std::to_string(kMaxImageSide));
     }
   }
 
@@ -97,9 +97,8 @@ class VideoReader::Impl {
     codec_->max_pixels = limit;
     if (std::int64_t{codec_->width} * codec_->height <= limit) return;
     throw DataError(path_,
-                    "has images of " + std::to_string(codec_->width) + "x" +
-                        std::to_string(codec_->height) + " pixels, allowed: up to " +
-                        std::to_string(limit) + " pixels",
+                    "has images of " + size_text(codec_->width, codec_->height) +
+                        " pixels, allowed: up to " + std::to_string(limit) + " pixels",
                     "the environment variable MMS_MAX_IMAGE_PIXELS sets the limit");
   }
 

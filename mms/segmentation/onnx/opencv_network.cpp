@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/segmentation/onnx/scale_repair.hpp"
 
 namespace mms::onnx {
@@ -19,7 +20,7 @@ std::string reason_of(const std::exception& fault) {
 }
 
 std::string running(int width, int height) {
-  return "run it on " + std::to_string(width) + "x" + std::to_string(height) + " px";
+  return "run it on " + size_text(width, height) + " px";
 }
 
 /// Runs an action that may throw in OpenCV.

@@ -9,6 +9,13 @@ namespace {
 
 constexpr std::size_t kWordBits = 64;
 
+/// Number of pixels in both of two masks of one size.
+int common_area(const BitMask& a, const BitMask& b) {
+  int area = 0;
+  for (std::size_t i = 0; i < a.words.size(); ++i) area += std::popcount(a.words[i] & b.words[i]);
+  return area;
+}
+
 float overlap(const NmsCandidate& a, const NmsCandidate& b) {
   if (a.category != b.category) return 0.0F;
   const int common = common_area(a.mask, b.mask);
@@ -37,12 +44,6 @@ BitMask bit_mask(std::span<const float> values, float threshold) {
   if (!values.empty()) mask.words.push_back(word_of(values, threshold));
   for (const std::uint64_t word : mask.words) mask.area += std::popcount(word);
   return mask;
-}
-
-int common_area(const BitMask& a, const BitMask& b) {
-  int area = 0;
-  for (std::size_t i = 0; i < a.words.size(); ++i) area += std::popcount(a.words[i] & b.words[i]);
-  return area;
 }
 
 std::vector<float> matrix_nms(const std::vector<NmsCandidate>& candidates, float sigma) {

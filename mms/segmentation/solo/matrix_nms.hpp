@@ -18,9 +18,6 @@ inline BitMask bit_mask(const std::vector<float>& values, float threshold) {
   return bit_mask(std::span<const float>(values), threshold);
 }
 
-/// Number of pixels in both of two masks of one size.
-int common_area(const BitMask& a, const BitMask& b);
-
 /// A mask that competes with others of its category.
 struct NmsCandidate {
   int category = 0;

@@ -1,7 +1,9 @@
 #include "mms/server/http/origin.hpp"
 
 namespace mms {
+namespace {
 
+/// "[::1]" of "[::1]:8080", "localhost" of "localhost:8080".
 std::string_view host_name(std::string_view host) {
   const std::size_t bracket = host.rfind(']');
   const std::size_t colon = host.rfind(':');
@@ -9,6 +11,8 @@ std::string_view host_name(std::string_view host) {
       colon != std::string_view::npos && (bracket == std::string_view::npos || colon > bracket);
   return has_port ? host.substr(0, colon) : host;
 }
+
+}  // namespace
 
 bool is_own_origin(std::string_view origin, std::string_view host) {
   if (origin.empty()) return true;

@@ -4,9 +4,6 @@
 
 namespace mms {
 
-/// "[::1]" of "[::1]:8080", "localhost" of "localhost:8080".
-std::string_view host_name(std::string_view host);
-
 /// Whether a request comes from a page of this server, or from a program other than a browser: the
 /// Origin header equals the Host or is absent.
 /// @param origin  empty: absent

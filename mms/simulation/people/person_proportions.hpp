@@ -10,20 +10,19 @@ struct PersonProportions {
   float scale;  ///< relative to a height of 1.75 m
   float build;  ///< of widths
 
-  float ankle;         ///< from the floor to the ankle joint
-  float shank;         ///< ankle to knee
-  float thigh;         ///< knee to hip
-  float hip_y;         ///< from the center to a hip joint
-  float waist;         ///< from the hips to the joint of the torso
-  float shoulder_y;    ///< from the center to a shoulder
-  float shoulder_z;    ///< from the waist to the shoulders
-  float neck;          ///< from the waist to the joint of the head
-  float upper_arm;     ///< shoulder to elbow
-  float forearm;       ///< elbow to wrist
-  float heel;          ///< from the ankle back to the heel
-  float ball;          ///< from the ankle forward to the ball of the foot
-  float toe;           ///< from the ankle forward to the tip of the shoe
-  float shank_radius;  ///< of the knee
+  float ankle;       ///< from the floor to the ankle joint
+  float shank;       ///< ankle to knee
+  float thigh;       ///< knee to hip
+  float hip_y;       ///< from the center to a hip joint
+  float waist;       ///< from the hips to the joint of the torso
+  float shoulder_y;  ///< from the center to a shoulder
+  float shoulder_z;  ///< from the waist to the shoulders
+  float neck;        ///< from the waist to the joint of the head
+  float upper_arm;   ///< shoulder to elbow
+  float forearm;     ///< elbow to wrist
+  float heel;        ///< from the ankle back to the heel
+  float ball;        ///< from the ankle forward to the ball of the foot
+  float toe;         ///< from the ankle forward to the tip of the shoe
 
   PersonProportions(float body_height, float body_build)
       : height(body_height),
@@ -41,8 +40,7 @@ struct PersonProportions {
         forearm(0.150F * height),
         heel(0.040F * height),
         ball(0.074F * height),
-        toe(0.115F * height),
-        shank_radius(0.034F * height) {}
+        toe(0.115F * height) {}
 
   float leg() const { return thigh + shank; }
 

@@ -9,9 +9,9 @@
 
 namespace mms {
 
-/// Errors of masks, as of a segmentation network (III-B: eroded edges, parts lost by motion blur,
-/// objects missed for some frames). Shares are of the frames of one object and occur in periods;
-/// objects are independent.
+/// Errors of masks, like those of a segmentation network (III-B: eroded edges, parts lost by motion
+/// blur, objects missed for some frames). Shares are of the frames of one object and occur in
+/// periods; objects are independent.
 struct MaskErrorConfig {
   bool enabled = false;
   double missed = 0.15;  ///< share of an object's frames without mask

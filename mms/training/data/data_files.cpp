@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mms/core/error.hpp"
+#include "mms/core/size_text.hpp"
 #include "mms/io/image/picture_files.hpp"
 
 namespace mms {
@@ -126,9 +127,8 @@ std::vector<DataImage> list_images(const TrainingData& set, const std::vector<st
 
 void check_size(const DataImage& image, int width, int height) {
   if (image.width == 0 || (image.width == width && image.height == height)) return;
-  throw DataError(image.path.string(),
-                  "is " + std::to_string(width) + "x" + std::to_string(height) + ", annotated as " +
-                      std::to_string(image.width) + "x" + std::to_string(image.height));
+  throw DataError(image.path.string(), "is " + size_text(width, height) + ", annotated as " +
+                                           size_text(image.width, image.height));
 }
 
 }  // namespace mms
