@@ -52,6 +52,18 @@ TEST(NetworkSegmenter, OmitsDisabledClasses) {
   EXPECT_THROW(segment({.person = false, .agv = false}), DataError);
 }
 
+TEST(NetworkSegmenter, KnowsTheNamesOfOtherModels) {
+  for (const char* name : {"person", "Person", "PEDESTRIAN", "human", "Worker", "people"}) {
+    EXPECT_TRUE(object_class_of(name) == ObjectClass::kPerson) << name;
+  }
+  for (const char* name : {"agv", "AGV", "AMR", "Forklift", "van", "Truck"}) {
+    EXPECT_TRUE(object_class_of(name) == ObjectClass::kAgv) << name;
+  }
+  for (const char* name : {"", "pallet", "personal computer", "train", "Chair"}) {
+    EXPECT_FALSE(object_class_of(name).has_value()) << name;
+  }
+}
+
 TEST(NetworkSegmenter, NoInstancesWithoutImage) {
   NetworkSegmenter segmenter(
       std::make_unique<FixedDetector>(std::vector<Detection>{object(0, 1.0F)},

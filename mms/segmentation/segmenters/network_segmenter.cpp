@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "mms/core/error.hpp"
@@ -9,8 +10,19 @@
 namespace mms {
 namespace {
 
-constexpr std::array<std::string_view, 9> kVehicles = {
-    "agv", "forklift", "robot", "vehicle", "car", "bus", "truck", "motorcycle", "bicycle"};
+constexpr std::array<std::string_view, 5> kPeople = {"person", "people", "pedestrian", "human",
+                                                     "worker"};
+constexpr std::array<std::string_view, 11> kVehicles = {
+    "agv", "amr", "forklift", "robot",      "vehicle", "car",
+    "bus", "van", "truck",    "motorcycle", "bicycle"};
+
+/// The name with small letters, as models for one site are often trained with `Person`.
+std::string small_letters(std::string name) {
+  for (char& letter : name) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  return name;
+}
 
 }  // namespace
 
@@ -21,8 +33,11 @@ void NetworkSegmenterConfig::visit(ConfigVisitor& v) {
 }
 
 std::optional<ObjectClass> object_class_of(const std::string& name) {
-  if (name == "person") return ObjectClass::kPerson;
-  const bool vehicle = std::find(kVehicles.begin(), kVehicles.end(), name) != kVehicles.end();
+  const std::string small = small_letters(name);
+  if (std::find(kPeople.begin(), kPeople.end(), small) != kPeople.end()) {
+    return ObjectClass::kPerson;
+  }
+  const bool vehicle = std::find(kVehicles.begin(), kVehicles.end(), small) != kVehicles.end();
   return vehicle ? std::optional(ObjectClass::kAgv) : std::nullopt;
 }
 

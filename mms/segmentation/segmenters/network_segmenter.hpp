@@ -20,8 +20,9 @@ struct NetworkSegmenterConfig {
   void visit(ConfigVisitor& v);
 };
 
-/// The class of a network's class name: "person", and "agv", "forklift", "truck" and other vehicles
-/// of COCO; nullopt for others.
+/// The class of a network's class name, in large or small letters: "person", "people",
+/// "pedestrian", "human" and "worker"; "agv", "amr", "forklift", "robot", "vehicle", "van" and road
+/// vehicles of COCO; nullopt for others.
 std::optional<ObjectClass> object_class_of(const std::string& name);
 
 /// Segments frames with a network (III-A). Frames without an image have no instances.
