@@ -92,6 +92,8 @@ TEST(TrainingRun, StopsAfterAStepAndContinues) {
   {
     TrainingRun stopped(config, folder.path() / "out", 1, {}, [&] { return ++asked == 2; });
     EXPECT_FALSE(stopped.train());
+    const std::string weights = stopped.weights_path().string();
+    EXPECT_NO_THROW(unpack_model(read_safetensors(weights), weights));
   }
   EXPECT_EQ(asked, 2);
   asked = 0;

@@ -264,6 +264,7 @@ void TrainingRun::checkpoint() {
   // The log first: entries beyond the checkpoint are removed when the training is continued.
   write_training_log(folder_ / "log.json", log_);
   trainer_.save(folder_ / "checkpoint.pt");
+  write_results();
   write_training_report(report_path(), folder_.filename().string(), log_, config_text_);
 }
 

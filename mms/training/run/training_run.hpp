@@ -27,9 +27,9 @@ struct TrainingEvent {
 };
 
 /// A training in a folder: checkpoint.pt and log.json for continuation, config.yaml,
-/// weights.safetensors (the average, after every validation) and report.html. Several processes
-/// divide each batch; the first one writes the files, and the result is that of one process but
-/// for rounding.
+/// weights.safetensors (the average, after every validation and checkpoint) and report.html.
+/// Several processes divide each batch; the first one writes the files, and the result is that of
+/// one process but for rounding.
 class TrainingRun {
  public:
   /// Continues the training in the folder, if there is one.
