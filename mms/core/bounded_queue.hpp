@@ -40,6 +40,12 @@ class BoundedQueue {
     return item;
   }
 
+  /// Whether `close` was called.
+  bool is_closed() const {
+    const std::scoped_lock lock(mutex_);
+    return closed_;
+  }
+
   /// Wakes all waiting threads. Items already in the queue can still be popped.
   void close() {
     const std::scoped_lock lock(mutex_);
@@ -57,7 +63,7 @@ class BoundedQueue {
   }
 
   std::size_t capacity_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable room_;
   std::condition_variable filled_;
   std::deque<T> items_;

@@ -149,6 +149,8 @@ class StageThreads {
         left_out.add(input->frame);  // which is gone where there is no room
         if (inputs_.try_push(std::move(*input))) {
           left_out = {};
+        } else if (inputs_.is_closed()) {  // another step failed
+          break;
         } else {
           ++dropped;
         }

@@ -31,7 +31,9 @@ TEST(BoundedQueue, ClosedQueueOnlyPopsRemainingItems) {
   BoundedQueue<int> queue(4);
   queue.push(1);
   queue.push(2);
+  EXPECT_FALSE(queue.is_closed());
   queue.close();
+  EXPECT_TRUE(queue.is_closed());
   EXPECT_FALSE(queue.push(3));
   EXPECT_FALSE(queue.try_push(3));
   EXPECT_EQ(queue.pop(), 1);

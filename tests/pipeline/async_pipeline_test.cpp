@@ -156,6 +156,24 @@ TEST_P(AsyncPipelineThreads, ProcessesOrDropsEachRealtimeFrame) {
   EXPECT_EQ(processed + pipeline.dropped(), 30U);
 }
 
+/// An error ends the run, since the frames of a sensor have no end.
+TEST(AsyncPipelineRealtime, RethrowsExceptionsAndEnds) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point limit = Clock::now() + std::chrono::seconds(20);
+  bool was_stopped = true;
+  const auto endless = [&]() -> std::optional<Frame> {
+    was_stopped = Clock::now() < limit;
+    if (!was_stopped) return std::nullopt;
+    return scene_frame(0);
+  };
+  SlamSystem system(SystemConfig{}, std::make_unique<FailingSegmenter>(0));
+  AsyncPipeline pipeline({.threads = 2, .realtime = true});
+  const std::string message =
+      message_of<DataError>([&] { pipeline.run(system, endless, [](const Processed&) {}); });
+  EXPECT_EQ(message, scene_frame(0).name + ": the segmenter fails");
+  EXPECT_TRUE(was_stopped);
+}
+
 /// Slow, and finds no objects.
 class SlowSegmenter : public Segmenter {
  public:
