@@ -76,6 +76,20 @@ TEST(Kill, KilledRunLeavesResultsSoFar) {
   }
 }
 
+TEST(Kill, FailedRunSaysHowToGetItsFrames) {
+  const TempFolder folder;
+  write_scene(folder.path() / "data", small_scene(kFrames));
+  RunningMms run(folder.path(), run_words("out"));
+  ASSERT_TRUE(wait_for_size(folder.path() / "out/journal.bin", 1));
+  fs::create_directory(folder.path() / "out/trajectory.tum");  // where a file is to be written
+  const Outcome outcome = run.wait();
+  expect_error(outcome, "trajectory.tum: cannot be written");
+  EXPECT_EQ(lines_with(outcome, "mms convert out -o NEW"), 1) << outcome.err;
+  const Outcome convert = run_mms(folder.path(), {"convert", "out", "-o", "new"});
+  expect_success(convert);
+  expect_in("data: 30 frames", convert.out);
+}
+
 TEST(Kill, TerminationSignalsLetRunWriteResults) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));

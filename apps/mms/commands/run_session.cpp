@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "apps/mms/console/common_options.hpp"
@@ -12,6 +14,7 @@
 #include "apps/mms/console/viewing.hpp"
 #include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
+#include "mms/io/journal/journal.hpp"
 #include "mms/map_file/map_file.hpp"
 #include "mms/run/results/result_folder.hpp"
 #include "mms/run/results/run_map.hpp"
@@ -46,6 +49,14 @@ void keep_showing(const SlamRun& run, const std::filesystem::path& folder) {
   }
   fmt::print(stderr, "the viewer runs at {} until Ctrl-C\n", run.view()->server().url());
   wait_for_interrupt();
+}
+
+/// Says how to get the results of a run that failed after some frames.
+void tell_recoverable(const std::filesystem::path& folder, Progress& progress) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder / kJournalName, error)) return;
+  progress.on_warning(
+      fmt::format("the frames before the error are kept: mms convert {} -o NEW", folder.string()));
 }
 
 }  // namespace
@@ -108,12 +119,17 @@ void play_and_write(SlamRun& run, const ConsoleOptions& console) {
   ResultFolder folder(options.output, options.data, options.overwrite);
   const std::string place = folder.path().string();
   Progress progress(console.quiet);
-  run.play(folder.path(), progress);
-  if (folder.restore()) {
-    print_warnings({place + " was removed during the run; the results are written to " +
-                    folder.path().string()});
+  try {
+    run.play(folder.path(), progress);
+    if (folder.restore()) {
+      print_warnings({place + " was removed during the run; the results are written to " +
+                      folder.path().string()});
+    }
+    run.write(folder.path());
+  } catch (...) {
+    tell_recoverable(folder.path(), progress);
+    throw;
   }
-  run.write(folder.path());
   folder.make_latest();
   print_summary(folder.path(), run.log().metrics(), console);
   const bool is_saved = run.failure().empty() && run.save_map(progress);  // no map of lost frames
