@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
@@ -36,6 +37,18 @@ TEST(AtomicFile, KeepsOldFileWithoutCommit) {
   }
   EXPECT_EQ(read_file(path), "old");
   EXPECT_EQ(list_folder(folder.path()).size(), 1U);
+}
+
+/// Processes in two containers may have one number, and write one file.
+TEST(AtomicFile, TemporaryNamesHaveMoreThanTheNumberOfTheProcess) {
+  const TempFolder folder;
+  AtomicFile file(folder.path() / "a.txt");
+  const std::vector<std::string> names = list_folder(folder.path());
+  ASSERT_EQ(names.size(), 1U);
+  const std::string own = "a.txt.tmp" + std::to_string(::getpid());
+  EXPECT_TRUE(names.front().starts_with(own)) << names.front();
+  EXPECT_FALSE(names.front().starts_with(own + "_")) << names.front();
+  EXPECT_EQ(name_without_temporary_part(names.front()), "a.txt");
 }
 
 TEST(AtomicFile, FollowsLinks) {

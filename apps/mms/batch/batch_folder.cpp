@@ -13,6 +13,7 @@
 #include "mms/core/error.hpp"
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
+#include "mms/io/text/temporary_path.hpp"
 
 namespace mms {
 namespace fs = std::filesystem;
@@ -30,7 +31,7 @@ void check_is_batch(const fs::path& folder) {
 
 /// The time now, as the file system of a folder has it.
 fs::file_time_type time_in(const fs::path& folder) {
-  const fs::path file = folder / ("." + std::to_string(getpid()));
+  const fs::path file = folder / ("." + process_mark());
   write_file(file, std::string_view());
   const fs::file_time_type now = fs::last_write_time(file);
   fs::remove(file);

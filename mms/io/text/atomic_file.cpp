@@ -1,7 +1,5 @@
 #include "mms/io/text/atomic_file.hpp"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -27,7 +25,7 @@ fs::path destination(const fs::path& path) {
 
 fs::path neighbour(const fs::path& path) {
   static std::atomic<int> counter = 0;
-  return path.string() + ".tmp" + std::to_string(::getpid()) + "_" + std::to_string(counter++);
+  return path.string() + ".tmp" + process_mark() + "_" + std::to_string(counter++);
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <random>
 #include <utility>
 
 namespace mms {
@@ -18,6 +20,11 @@ std::array<std::atomic<char*>, 64> removed_paths{};
 static_assert(std::atomic<char*>::is_always_lock_free, "signal handlers must not lock");
 
 }  // namespace
+
+std::string process_mark() {
+  static const std::uint32_t kNumber = std::random_device{}();
+  return std::to_string(::getpid()) + std::to_string(kNumber);
+}
 
 TemporaryPath::TemporaryPath(std::filesystem::path path) : path_(std::move(path)) {
   char* copy = strdup(path_.c_str());

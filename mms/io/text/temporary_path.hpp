@@ -1,8 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace mms {
+
+/// Digits that no other process has, for the names of temporary files. Containers and machines that
+/// share a folder have processes of equal numbers, so these do not suffice.
+std::string process_mark();
 
 /// A temporary file, or a temporary folder of such files, that is removed at the end of its
 /// lifetime, and by `remove_temporary_paths` where a signal ends the program.
