@@ -1,10 +1,18 @@
 // Many runs of one list, by the command of the program.
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <functional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "mms/io/text/atomic_file.hpp"
 #include "mms/io/text/files.hpp"
@@ -72,6 +80,46 @@ TEST(Batch, WritesTablesAndGoesOnAfterFailures) {
   EXPECT_EQ(lines_with(second, kFirst), 0);
   EXPECT_EQ(fs::last_write_time(out / "runs" / kFirst / "trajectory.tum"), written);
   EXPECT_EQ(read_file(out / "batch.csv"), table);
+}
+
+/// Counts how often a file is put into a folder.
+class Arrivals {
+ public:
+  explicit Arrivals(const fs::path& folder) : descriptor_(inotify_init1(IN_NONBLOCK)) {
+    EXPECT_GE(inotify_add_watch(descriptor_, folder.c_str(), IN_MOVED_TO), 0);
+  }
+  ~Arrivals() { ::close(descriptor_); }
+  Arrivals(const Arrivals&) = delete;
+  Arrivals& operator=(const Arrivals&) = delete;
+
+  int number_of(const std::string& name) const {
+    int count = 0;
+    std::array<char, 65536> bytes{};
+    ssize_t size = 0;
+    while ((size = ::read(descriptor_, bytes.data(), bytes.size())) > 0) {
+      for (std::size_t at = 0; at < static_cast<std::size_t>(size);) {
+        std::uint32_t length = 0;  // of the name behind the event
+        std::memcpy(&length, bytes.data() + at + offsetof(inotify_event, len), sizeof length);
+        at += sizeof(inotify_event);
+        count += name == bytes.data() + at ? 1 : 0;
+        at += length;
+      }
+    }
+    return count;
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// A batch of a thousand runs must not read all results a thousand times.
+TEST(Batch, WritesTablesOnceWhereAllRunsAreThere) {
+  const TempFolder folder;
+  write_list(folder, {1, 2});
+  expect_success(run_batch(folder, "out"));
+  const Arrivals arrivals(folder.path() / "out");
+  expect_success(run_batch(folder, "out"));
+  EXPECT_EQ(arrivals.number_of("batch.csv"), 1);
 }
 
 TEST(Batch, DamagedResultsOfOneRunDoNotHideTheOthers) {

@@ -25,14 +25,15 @@ struct BatchOptions {
   std::string shard = "1/1";
 };
 
-enum class Outcome { kFinished, kFailed, kElsewhere };
+/// Of a run; `kThere`: its results are there already.
+enum class Outcome { kThere, kFinished, kFailed, kElsewhere };
 
 /// Does a run, unless it is done, or another process does it.
 Outcome execute(const BatchFolder& folder, const BatchRun& run, const std::string& position) {
-  if (folder.has_finished(run.name)) return Outcome::kFinished;
+  if (folder.has_finished(run.name)) return Outcome::kThere;
   const auto claim = folder.claim(run.name);
   if (!claim) return Outcome::kElsewhere;
-  if (folder.has_finished(run.name)) return Outcome::kFinished;  // meanwhile
+  if (folder.has_finished(run.name)) return Outcome::kThere;  // meanwhile
   if (folder.has_failed_meanwhile(run.name)) return Outcome::kFailed;
   fmt::print(stderr, "{} {}\n", position, run.name);
   std::vector<std::string> arguments = {"run"};
@@ -76,7 +77,8 @@ void batch(const BatchOptions& options) {
     const Outcome outcome = execute(folder, runs[i], fmt::format("[{}/{}]", i + 1, runs.size()));
     failed += outcome == Outcome::kFailed ? 1 : 0;
     elsewhere += outcome == Outcome::kElsewhere ? 1 : 0;
-    if (outcome != Outcome::kElsewhere) write_tables(folder, runs);
+    const bool is_new = outcome == Outcome::kFinished || outcome == Outcome::kFailed;
+    if (is_new) write_tables(folder, runs);
   }
   const BatchTables tables = write_tables(folder, runs);
   fmt::print("{}\n{}", text_of(tables.accuracy), text_of(tables.speed));
