@@ -84,6 +84,19 @@ TEST(OutputFolder, NeverTouchesFileInPlaceOfFolder) {
   EXPECT_EQ(read_file(folder.path() / "pictures"), "mine");
 }
 
+/// Else a run on a network folder could not be repeated after a power cut.
+TEST(OutputFolder, LeavesRemaindersOfRemovedFilesAlone) {
+  for (const char* name :
+       {".nfs00000000013a4d7800000002", ".fuse_hidden0000a4d700000002", ".mms_Xk3a9Q"}) {
+    const TempFolder folder;
+    folder.write("run.json", "{}");
+    folder.write(name, "rest");
+    EXPECT_FALSE(take_output_folder(folder.path(), kOwn, kMarks, true)) << name;
+    EXPECT_EQ(list_folder(folder.path()), std::vector<std::string>{name});
+    EXPECT_FALSE(take_output_folder(folder.path(), kOwn, kMarks, false)) << name;
+  }
+}
+
 TEST(OutputFolder, LeavesDevicesAlone) {
   const TempFolder folder;
   fs::create_symlink("/dev/null", folder.path() / "map.ply");

@@ -25,6 +25,12 @@ bool is_special(const fs::path& path) {
   return fs::is_other(path, error);
 }
 
+/// What is left of files that were removed while they were open, where a computer lost power or the
+/// program was killed: of NFS, of FUSE, and of `DiskBuffer`.
+bool is_remainder(const std::string& name) {
+  return name.starts_with(".nfs") || name.starts_with(".fuse_hidden") || name.starts_with(".mms_");
+}
+
 }  // namespace
 
 FolderLock::FolderLock(const fs::path& folder)
@@ -56,7 +62,9 @@ bool take_output_folder(const fs::path& folder, std::span<const std::string_view
                         std::span<const std::string_view> marks, bool overwrite) {
   const bool made = make_folder(folder);
   std::vector<std::string> names = list_folder(folder);
-  std::erase_if(names, [&](const std::string& name) { return is_special(folder / name); });
+  std::erase_if(names, [&](const std::string& name) {
+    return is_special(folder / name) || is_remainder(name);
+  });
   const auto is_in = [](std::span<const std::string_view> list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };

@@ -31,8 +31,8 @@ class FolderLock {
 /// they lead to.
 bool is_as_named(const std::filesystem::path& path);
 
-/// Makes an output folder, or takes one that has nothing but earlier outputs. Devices, and links to
-/// them, are left alone.
+/// Makes an output folder, or takes one that has nothing but earlier outputs. Devices, links to
+/// them, and what file systems keep of removed files (.nfs...) are left alone.
 /// @param own        names of all files and folders that the caller writes there; those without
 ///                   ending are folders. Their temporary files, left by a killed process, are
 ///                   earlier outputs, too.
