@@ -208,12 +208,13 @@ bool SlamRun::is_repeated(Frame& frame, RunObserver& observer) {
   return is_omitted;
 }
 
-/// Shows a warning, and keeps it for the report, which has at most so many.
+/// Shows a warning, and keeps it for the report: the first ones of each kind, so that those of
+/// hours of frames leave room for what is said at the end.
 void SlamRun::warn(const std::string& message, RunObserver& observer) {
-  constexpr std::size_t kKept = 20;
+  constexpr std::size_t kKept = 40;
   {
     const std::scoped_lock lock(warnings_mutex_);
-    if (warnings_.size() < kKept) warnings_.push_back(message);
+    if (repeated_warnings_.add(message) && warnings_.size() < kKept) warnings_.push_back(message);
   }
   observer.on_warning(message);
 }
@@ -342,7 +343,9 @@ void SlamRun::write(const std::filesystem::path& folder) {
   finish_recording();
   const std::vector<std::string> warnings = [this] {
     const std::scoped_lock lock(warnings_mutex_);  // the journal may add one
-    return warnings_;
+    std::vector<std::string> all = warnings_;
+    for (std::string& line : repeated_warnings_.rest()) all.push_back(std::move(line));
+    return all;
   }();
   write_outputs(folder, options_.data, config_, system_, *log_, warnings);
   const auto calibration = source_->calibration();

@@ -17,6 +17,7 @@
 #include "mms/run/record/run_options.hpp"
 #include "mms/run/record/run_recorder.hpp"
 #include "mms/run/repeated_frames.hpp"
+#include "mms/run/repeated_warnings.hpp"
 #include "mms/run/results/run_map.hpp"
 #include "mms/run/run_observer.hpp"
 #include "mms/run/view/live_view.hpp"
@@ -84,6 +85,7 @@ class SlamRun {
   RunOptions options_;
   std::unique_ptr<FrameSource> source_;
   std::vector<std::string> warnings_;  // of the settings, then of the run
+  RepeatedWarnings repeated_warnings_;
   std::mutex warnings_mutex_;
   std::optional<Frame> first_;  // read for the settings, null once processed
   std::size_t stale_ = 0;       // frames that arrived before a run in real time

@@ -8,6 +8,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/dataset/live/live_source.hpp"
+#include "mms/io/text/files.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/pipeline/played_scene.hpp"
 
@@ -25,6 +26,27 @@ class EndedSensor final : public LiveSource {
     wait({});
   }
   std::vector<std::string> describe() const override { return {}; }
+};
+
+/// A sensor with a warning for each frame, and one at its end.
+class DamagedSensor final : public LiveSource {
+ public:
+  explicit DamagedSensor(std::size_t frames) : LiveSource(100) {
+    for (std::size_t i = 0; i < frames; ++i) push(scene_frame(i));
+    end();
+    wait({});
+  }
+  std::optional<Frame> next() override {
+    constexpr int kImages = 25;
+    for (int i = 0; i < kImages; ++i) warn("image " + std::to_string(++images_) + " is damaged");
+    std::optional<Frame> frame = LiveSource::next();
+    if (!frame) warn("the sensor was unplugged");
+    return frame;
+  }
+  std::vector<std::string> describe() const override { return {}; }
+
+ private:
+  int images_ = 0;
 };
 
 /// Keeps what is said at the start.
@@ -69,6 +91,19 @@ TEST(SlamRun, FramesOfLiveSourcesAreThoseAfterTheSkippedOnes) {
   run.play(folder.path(), announced);
   EXPECT_EQ(run.log().size(), 1U);
   EXPECT_EQ(announced.frames, 1U);
+}
+
+TEST(SlamRun, ReportHasWarningsOfAllKinds) {
+  const TempFolder folder;
+  SlamRun run(options_of(0), std::make_unique<DamagedSensor>(4));
+  Announced announced;
+  run.play(folder.path(), announced);
+  run.write(folder.path());
+  const std::string report = read_file(folder.path() / "report.html");
+  expect_in("image 3 is damaged", report);
+  EXPECT_EQ(report.find("image 4 is damaged"), std::string::npos);
+  expect_in("more like: image 1 is damaged", report);
+  expect_in("the sensor was unplugged", report);
 }
 
 TEST(SlamRun, ErrorOfLiveSourcesHasNoCount) {

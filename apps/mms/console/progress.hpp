@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/mms/console/interrupt.hpp"
-#include "apps/mms/console/repeated_warnings.hpp"
 #include "apps/mms/console/status_line.hpp"
+#include "mms/run/repeated_warnings.hpp"
 #include "mms/run/run_observer.hpp"
 
 namespace mms {

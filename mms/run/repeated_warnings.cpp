@@ -1,4 +1,4 @@
-#include "apps/mms/console/repeated_warnings.hpp"
+#include "mms/run/repeated_warnings.hpp"
 
 #include <algorithm>
 #include <cctype>
