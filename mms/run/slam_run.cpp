@@ -141,8 +141,6 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   source_->on_warning(handler);
   journal_ = std::make_unique<RunJournal>(folder, options_.data, config_, handler);
   if (options_.mcap) recorder_ = std::make_unique<RunRecorder>(folder, handler);
-  log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
-                                  config_.dynamic_map, folder);
   if (view_) view_->keep_on_disk(folder);
   observer.on_start(run_heading(options_, *source_, config_, frames_, folder), frames_);
   for (const std::string& warning : of_settings) warn(warning, observer);
@@ -151,6 +149,8 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   AsyncPipeline pipeline(threads_of(options_, config_, *source_));
   // The check takes about 0.5 s, which a run in real time does not have.
   if (!options_.realtime) check_.emplace();
+  log_ = std::make_unique<RunLog>(source_->ground_truth(), options_.segmenter == "network",
+                                  config_.dynamic_map, folder);  // its clock starts here
   pipeline.run(system_, frames_for(observer),
                [&](Processed&& processed) { finish_frame(std::move(processed), observer); });
   end_map();

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "mms/core/error.hpp"
@@ -91,6 +93,23 @@ TEST(SlamRun, FramesOfLiveSourcesAreThoseAfterTheSkippedOnes) {
   run.play(folder.path(), announced);
   EXPECT_EQ(run.log().size(), 1U);
   EXPECT_EQ(announced.frames, 1U);
+}
+
+/// Takes its time before the first frame, as a map that is loaded.
+struct SlowStart : Announced {
+  void on_start(const std::vector<std::string>&, std::size_t) override {
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+  }
+};
+
+TEST(SlamRun, RateIsThatOfTheFrames) {
+  const TempFolder folder;
+  SlamRun run(options_of(0), std::make_unique<EndedSensor>(2));
+  SlowStart observer;
+  run.play(folder.path(), observer);
+  ASSERT_EQ(run.log().frames().size(), 2U);
+  EXPECT_LT(run.log().frames().front().interval_ms, 3000.0);
+  EXPECT_GT(run.log().metrics().rate_hz, 2.0 / 3.0);
 }
 
 TEST(SlamRun, ReportHasWarningsOfAllKinds) {
