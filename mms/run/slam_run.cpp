@@ -70,7 +70,9 @@ std::optional<Frame> read_first(const RunOptions& options, FrameSource& source,
   return first;
 }
 
-[[noreturn]] void throw_no_frames(const RunOptions& options, const FrameSource& source) {
+[[noreturn]] void throw_no_frames(const RunOptions& options, const FrameSource& source,
+                                  bool interrupted) {
+  if (interrupted) throw DataError(options.data, "was interrupted before its first frame");
   if (source.size() == FrameSource::kEndless) {
     throw DataError(options.data,
                     options.start == 0
@@ -161,12 +163,12 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
   }
   observer.on_end();
   interrupted_ = observer.stop_requested();
+  if (log_->size() == 0) throw_no_frames(options_, *source_, interrupted_);
   if (interrupted_) warn("interrupted, writing the results so far", observer);
   log_->finish(source_->skipped() + repeated_.count(), source_->dropped() + stale_, pipeline,
                system_);
   warn_if_not_localized(observer);
   warn_of_sessions_outside(observer);
-  if (log_->size() == 0) throw_no_frames(options_, *source_);
   compare_with_truth(observer);
 }
 

@@ -41,7 +41,7 @@ class SlamRun {
 
   /// Processes the recording with a journal in `folder`, and compares the results with available
   /// ground truth. If the observer ends it early, the frames so far count.
-  /// @throws DataError if no frame could be processed.
+  /// @throws DataError if no frame was processed.
   void play(const std::filesystem::path& folder, RunObserver& observer);
 
   /// Writes all files of the run and closes the journal.

@@ -95,6 +95,24 @@ TEST(SlamRun, FramesOfLiveSourcesAreThoseAfterTheSkippedOnes) {
   EXPECT_EQ(announced.frames, 1U);
 }
 
+/// Ends the run before its first frame.
+struct Interrupting : Announced {
+  std::vector<std::string> warnings;
+
+  void on_warning(const std::string& message) override { warnings.push_back(message); }
+  bool stop_requested() const override { return true; }
+};
+
+TEST(SlamRun, InterruptedBeforeTheFirstFrameIsNoFaultOfTheRecording) {
+  const TempFolder folder;
+  SlamRun run(options_of(0), std::make_unique<EndedSensor>(2));
+  Interrupting observer;
+  expect_in("camera:test: was interrupted before its first frame",
+            message_of<DataError>([&] { run.play(folder.path(), observer); }));
+  EXPECT_TRUE(run.interrupted());
+  EXPECT_TRUE(observer.warnings.empty());  // no results are written
+}
+
 /// Takes its time before the first frame, as a map that is loaded.
 struct SlowStart : Announced {
   void on_start(const std::vector<std::string>&, std::size_t) override {

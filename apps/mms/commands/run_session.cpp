@@ -127,6 +127,9 @@ void play_and_write(SlamRun& run, const ConsoleOptions& console) {
     }
     run.write(folder.path());
   } catch (...) {
+    if (run.interrupted() && run.log().size() == 0) {
+      throw Interrupted("no frame was processed, so there are no results");
+    }
     tell_recoverable(folder.path(), progress);
     throw;
   }
