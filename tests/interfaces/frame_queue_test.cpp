@@ -19,6 +19,30 @@ TEST(FrameQueue, DropsOldestFrame) {
   EXPECT_EQ(queue.pop()->index, 2);
 }
 
+/// A hundred frames of large images would fill the memory of a small computer.
+TEST(FrameQueue, DropsOldestFrameBeyondItsSize) {
+  const auto large = [](int index) {
+    Frame frame = frame_of(index);
+    frame.color = Image<Rgb>(100, 100);    // 30 kB
+    frame.depth = Image<float>(100, 100);  // 40 kB
+    return frame;
+  };
+  FrameQueue queue(100, 150'000);
+  for (const int i : {0, 1, 2}) queue.push(large(i));
+  EXPECT_EQ(queue.dropped(), 1U);
+  EXPECT_EQ(queue.pop()->index, 1);
+  queue.push(large(3));
+  EXPECT_EQ(queue.dropped(), 1U);
+  queue.interrupt();
+  EXPECT_FALSE(queue.pop());
+  for (const int i : {4, 5}) queue.push(large(i));
+  EXPECT_EQ(queue.dropped(), 1U);
+  FrameQueue small(100, 1000);
+  small.push(large(0));
+  EXPECT_EQ(small.dropped(), 0U);  // one may always wait
+  EXPECT_EQ(small.pop()->index, 0);
+}
+
 TEST(FrameQueue, DroppedFramesHandOnMotionAndPlace) {
   const auto place = [](double x) {
     return Transform<Global, Sensor>(Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)));

@@ -18,13 +18,21 @@ class FrameQueue {
  public:
   using Clock = std::chrono::steady_clock;
 
-  explicit FrameQueue(std::size_t capacity) : capacity_(capacity) {}
+  /// [B]: largest size of the frames that wait. Source: 100 frames of 640x480 pixels have 205 MiB;
+  /// those of large images would fill a computer with 2 GB.
+  static constexpr std::size_t kMaxBytes = std::size_t{256} << 20U;
+
+  /// @param capacity   frames that may wait
+  /// @param max_bytes  of them together; one frame may have more
+  explicit FrameQueue(std::size_t capacity, std::size_t max_bytes = kMaxBytes)
+      : capacity_(capacity), max_bytes_(max_bytes) {}
 
   void push(Frame frame) {
     const std::scoped_lock lock(mutex_);
     if (closed_ || ended_) return;  // nobody takes it
+    bytes_ += bytes_of(frame);
     frames_.push_back({std::move(frame), Clock::now()});
-    if (frames_.size() > capacity_) drop_oldest();
+    while (frames_.size() > capacity_ || (bytes_ > max_bytes_ && frames_.size() > 1)) drop_oldest();
     filled_.notify_one();
   }
 
@@ -37,6 +45,7 @@ class FrameQueue {
       interrupted_ = false;
       return std::nullopt;
     }
+    bytes_ -= bytes_of(frames_.front().frame);
     Arrived next = std::move(frames_.front());
     frames_.pop_front();
     arrival_ = next.at;
@@ -47,6 +56,7 @@ class FrameQueue {
   void interrupt() {
     const std::scoped_lock lock(mutex_);
     frames_.clear();
+    bytes_ = 0;
     interrupted_ = true;
     filled_.notify_all();
   }
@@ -81,8 +91,18 @@ class FrameQueue {
     Clock::time_point at;
   };
 
+  /// Size of images and scan, which do not change while the frame waits.
+  static std::size_t bytes_of(const Frame& frame) {
+    const LidarScan& scan = frame.scan;
+    return frame.color.pixels().size() * sizeof(Rgb) + frame.mask.pixels().size() +
+           frame.depth.pixels().size() * sizeof(float) +
+           scan.points.size() * sizeof(Eigen::Vector3f) +
+           (scan.intensity.size() + scan.time_offset.size()) * sizeof(float);
+  }
+
   void drop_oldest() {
     LeftOutFrames left_out;
+    bytes_ -= bytes_of(frames_.front().frame);
     left_out.add(frames_.front().frame);
     frames_.pop_front();
     if (!frames_.empty()) left_out.give_to(frames_.front().frame);
@@ -90,6 +110,8 @@ class FrameQueue {
   }
 
   std::size_t capacity_;
+  std::size_t max_bytes_;
+  std::size_t bytes_ = 0;  ///< of the frames that wait
   mutable std::mutex mutex_;
   std::condition_variable filled_;
   std::deque<Arrived> frames_;
