@@ -308,6 +308,18 @@ TEST(EvalGold, Kitti00) {
                3.587949121});
 }
 
+TEST(EvalGold, Kitti00Drift) {
+  const fs::path shared = fs::path(MMS_SOURCE_DIR) / "../shared/data/trajectories";
+  if (!fs::exists(shared)) GTEST_SKIP() << "no shared data in ../shared/data";
+  const TempFolder folder;
+  const auto json =
+      json_of(run_mms(folder.path(), {"eval", "trajectory", shared / "KITTI_00_gt.txt",
+                                      shared / "KITTI_00_ORB.txt", "--json"}));
+  // Published for stereo ORB-SLAM2: 0.70 % and 0.25 degrees per 100 m.
+  EXPECT_NEAR(json["kitti_trans_pct"], 0.699728664, 1e-6);
+  EXPECT_NEAR(json["kitti_rot_deg_per_100m"], 0.253330235, 1e-6);
+}
+
 TEST(EvalGold, Freiburg1Xyz) {
   expect_gold({"freiburg1_xyz-groundtruth.txt",
                "freiburg1_xyz-rgbdslam_drift.txt",

@@ -92,15 +92,20 @@ Eigen::Isometry3d motion(const Trajectory& trajectory, std::size_t from, std::si
 
 }  // namespace
 
+Eigen::Isometry3d relative_pose_error(const Trajectory& reference, const Trajectory& estimate,
+                                      const PoseMatch& from, const PoseMatch& to) {
+  const Eigen::Isometry3d truth = motion(reference, from.reference, to.reference);
+  return truth.inverse() * motion(estimate, from.estimate, to.estimate);
+}
+
 RelativeError relative_error(const Trajectory& reference, const Trajectory& estimate,
                              const std::vector<PoseMatch>& matches, const RelativeDelta& delta) {
   check(delta);
   std::vector<double> distances;
   std::vector<double> angles;
   for (const auto& [i, j] : choose_pairs(estimate, matches, delta)) {
-    const Eigen::Isometry3d truth = motion(reference, matches[i].reference, matches[j].reference);
     const Eigen::Isometry3d error =
-        truth.inverse() * motion(estimate, matches[i].estimate, matches[j].estimate);
+        relative_pose_error(reference, estimate, matches[i], matches[j]);
     distances.push_back(error.translation().norm());
     angles.push_back(se3::angle(error) * 180.0 / std::numbers::pi);
   }

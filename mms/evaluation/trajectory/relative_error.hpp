@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <vector>
 
@@ -28,9 +29,14 @@ struct RelativeError {
   double rot_rmse_deg = 0.0;
 };
 
-/// For pairs (i, j) of matched poses `delta` apart, the error (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) of the
-/// estimate P against the reference Q (Sturm et al., IROS 2012, eq. 1). In seconds, j is the
-/// matched pose nearest to stamp_i + delta; no pair starts if none is within a tenth of delta.
+/// Error (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) of the motion between two matches, of the estimate P against
+/// the reference Q (Sturm et al., IROS 2012, eq. 1).
+Eigen::Isometry3d relative_pose_error(const Trajectory& reference, const Trajectory& estimate,
+                                      const PoseMatch& from, const PoseMatch& to);
+
+/// For pairs (i, j) of matched poses `delta` apart, the root mean square of `relative_pose_error`.
+/// In seconds, j is the matched pose nearest to stamp_i + delta; no pair starts if none is within a
+/// tenth of delta.
 /// @param matches  in order of time
 /// @throws DataError if delta is outside 1e-9..1e9, in frames 1..1e9
 RelativeError relative_error(const Trajectory& reference, const Trajectory& estimate,

@@ -5,12 +5,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/mms/commands/eval/eval_parts.hpp"
 #include "apps/mms/console/warnings.hpp"
 #include "mms/core/error.hpp"
 #include "mms/dataset/lidar/kitti_calibration.hpp"
 #include "mms/evaluation/trajectory/drift.hpp"
+#include "mms/evaluation/trajectory/kitti_drift.hpp"
 #include "mms/evaluation/trajectory/trajectory_error.hpp"
 #include "mms/io/results/trajectory_io.hpp"
 
@@ -101,7 +103,13 @@ void evaluate(const TrajectoryArguments& arguments) {
                error.poses, how, options.align ? "SE(3) aligned" : "not aligned", error.rpe.pairs,
                delta.value, unit_name(delta.unit));
   }
-  print_metrics(metric_values(error), arguments.json);
+  std::vector<MetricValue> values = metric_values(error);
+  if (options.matching == Matching::kByIndex) {
+    const std::vector<MetricValue> drift =
+        metric_values(kitti_drift(reference, estimate, match_by_index(reference, estimate)));
+    values.insert(values.end(), drift.begin(), drift.end());
+  }
+  print_metrics(values, arguments.json);
 }
 
 void add_options(CLI::App& command, TrajectoryArguments& arguments) {
