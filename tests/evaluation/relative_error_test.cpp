@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "mms/core/error.hpp"
 #include "tests/evaluation/trajectories.hpp"
@@ -41,6 +42,27 @@ TEST(RelativeError, MeterDeltaFollowsEstimatedPath) {
   const RelativeError error = evaluate(truth, estimate, 1.0, DeltaUnit::kMeters);
   EXPECT_EQ(error.pairs, 14U);
   EXPECT_NEAR(error.trans_rmse_m, 4 * 0.05, 1e-12);
+}
+
+TEST(RelativeError, NoticesOtherAxes) {
+  std::mt19937 random(5);
+  const Trajectory truth = test::random_walk(random, 60);
+  const auto with_axes = [&](double angle) {
+    const Eigen::Isometry3d T(Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 3).normalized()));
+    Trajectory turned = truth;
+    for (StampedPose& pose : turned) {
+      pose.T_world_sensor = pose.T_world_sensor * Transform<Sensor, Sensor>(T);
+    }
+    return turned;
+  };
+  const auto differ = [&](const Trajectory& estimate, double delta) {
+    return evaluate(truth, estimate, delta, DeltaUnit::kSeconds).axes_differ;
+  };
+  EXPECT_TRUE(differ(with_axes(2.0), 1.0));
+  EXPECT_TRUE(differ(with_axes(0.5), 1.0));
+  EXPECT_FALSE(differ(with_axes(0.05), 1.0));
+  EXPECT_FALSE(differ(with_axes(2.0), 5.5)) << "only five pairs";
+  EXPECT_FALSE(differ(test::random_walk(random, 60), 1.0)) << "wrong, but not by axes";
 }
 
 TEST(RelativeError, RotationDriftGivesAngle) {

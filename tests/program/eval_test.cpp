@@ -80,6 +80,22 @@ TEST(EvalTrajectory, ConvertsPosesOfKittiLidar) {
   EXPECT_LT(json_of(run_mms(folder.path(), converted))["rpe_trans_rmse_m"], 1e-6);
 }
 
+TEST(EvalTrajectory, WarnsOfOtherAxes) {
+  Eigen::Isometry3d T_camera_lidar = Eigen::Isometry3d::Identity();
+  T_camera_lidar.matrix().topRows<3>() << 0, -1, 0, 0, 0, 0, -1, -0.1, 1, 0, 0, -0.3;
+  const TempFolder folder;
+  folder.write("lidar.txt", kitti_poses(150, Eigen::Isometry3d::Identity()));
+  folder.write("camera.txt", kitti_poses(150, T_camera_lidar));
+  const std::string text = "lidar.txt moves along other axes than camera.txt";
+  const auto outcome = run_mms(folder.path(), {"eval", "trajectory", "camera.txt", "lidar.txt"});
+  expect_success(outcome);
+  expect_in(text, outcome.err);
+  expect_in("--kitti-calib", outcome.err);
+  const auto same = run_mms(folder.path(), {"eval", "trajectory", "lidar.txt", "lidar.txt"});
+  expect_success(same);
+  EXPECT_EQ(same.err.find("axes"), std::string::npos) << same.err;
+}
+
 TEST(EvalTrajectory, WarnsOfKittiFilesOfOtherLengths) {
   const TempFolder folder;
   folder.write("a.txt", kitti_poses(30, Eigen::Isometry3d::Identity()));

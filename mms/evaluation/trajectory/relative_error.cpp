@@ -8,6 +8,7 @@
 #include "mms/core/error.hpp"
 #include "mms/evaluation/scores/metric_value.hpp"
 #include "mms/evaluation/scores/statistics.hpp"
+#include "mms/evaluation/trajectory/alignment.hpp"
 #include "mms/geometry/se3.hpp"
 
 namespace mms {
@@ -90,6 +91,38 @@ Eigen::Isometry3d motion(const Trajectory& trajectory, std::size_t from, std::si
   return (trajectory[from].T_world_sensor.inverse() * trajectory[to].T_world_sensor).isometry();
 }
 
+/// Motions of the pairs, each in the axes of its sensor [m].
+struct Motions {
+  std::vector<Eigen::Vector3d> reference;
+  std::vector<Eigen::Vector3d> estimate;
+};
+
+void add_both(std::vector<Eigen::Vector3d>& vectors, const Eigen::Vector3d& vector) {
+  vectors.push_back(vector);
+  vectors.emplace_back(-vector);
+}
+
+bool axes_differ(const Motions& motions) {
+  constexpr std::size_t kMinPairs = 10;
+  constexpr double kLarge = 0.2;  // share of the motion: that of axes 12 degrees apart
+  constexpr double kLeft = 0.3;   // share of the error
+  if (motions.reference.size() < kMinPairs) return false;
+  // With each motion and its opposite the centers are zero, and only the rotation is fitted.
+  Motions both;
+  for (const Eigen::Vector3d& move : motions.reference) add_both(both.reference, move);
+  for (const Eigen::Vector3d& move : motions.estimate) add_both(both.estimate, move);
+  const Eigen::Matrix3d turn = align_points(both.estimate, both.reference).linear();
+  double length2 = 0.0;
+  double error2 = 0.0;
+  double left2 = 0.0;
+  for (std::size_t i = 0; i < motions.reference.size(); ++i) {
+    length2 += motions.reference[i].squaredNorm();
+    error2 += (motions.reference[i] - motions.estimate[i]).squaredNorm();
+    left2 += (motions.reference[i] - turn * motions.estimate[i]).squaredNorm();
+  }
+  return error2 > kLarge * kLarge * length2 && left2 < kLeft * kLeft * error2;
+}
+
 }  // namespace
 
 Eigen::Isometry3d relative_pose_error(const Trajectory& reference, const Trajectory& estimate,
@@ -103,13 +136,19 @@ RelativeError relative_error(const Trajectory& reference, const Trajectory& esti
   check(delta);
   std::vector<double> distances;
   std::vector<double> angles;
+  Motions motions;
   for (const auto& [i, j] : choose_pairs(estimate, matches, delta)) {
     const Eigen::Isometry3d error =
         relative_pose_error(reference, estimate, matches[i], matches[j]);
     distances.push_back(error.translation().norm());
     angles.push_back(se3::angle(error) * 180.0 / std::numbers::pi);
+    motions.reference.emplace_back(
+        motion(reference, matches[i].reference, matches[j].reference).translation());
+    motions.estimate.emplace_back(
+        motion(estimate, matches[i].estimate, matches[j].estimate).translation());
   }
-  return {distances.size(), root_mean_square(distances), root_mean_square(angles)};
+  return {distances.size(), root_mean_square(distances), root_mean_square(angles),
+          axes_differ(motions)};
 }
 
 }  // namespace mms

@@ -27,6 +27,10 @@ struct RelativeError {
   std::size_t pairs = 0;
   double trans_rmse_m = 0.0;
   double rot_rmse_deg = 0.0;
+  /// Whether turning the axes of the estimated sensor would remove most of a large error: then the
+  /// poses are of another sensor than the reference's, and the error has no meaning. Needs ten
+  /// pairs.
+  bool axes_differ = false;
 };
 
 /// Error (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) of the motion between two matches, of the estimate P against

@@ -94,6 +94,12 @@ void evaluate(const TrajectoryArguments& arguments) {
                                read_kitti_calibration(arguments.kitti_calib, {}).T_camera0_lidar);
   }
   const TrajectoryError error = evaluate_trajectory(reference, estimate, options);
+  if (error.rpe.axes_differ) {
+    print_warnings({fmt::format(
+        "{} moves along other axes than {}: they seem to be poses of different sensors, so that "
+        "RPE and KITTI drift have no meaning; --kitti-calib converts poses of KITTI's LiDAR",
+        arguments.estimate, arguments.reference)});
+  }
   if (!arguments.json) {
     const RelativeDelta delta = rpe_delta(options);
     const std::string how = options.matching == Matching::kByIndex
