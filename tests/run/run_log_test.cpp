@@ -48,5 +48,28 @@ TEST(RunLog, ErrorInTheMapNeedsThreePoses) {
   EXPECT_EQ(enough.loops->trajectory->matched, 3U);
 }
 
+TEST(RunLog, LostFramesDoNotMoveTheTrueMap) {
+  SlamSystem system = testing::mask_system();
+  const Frame& frame = testing::scene_frame(0);
+  Processed processed{frame, system.process(frame), 0.0, std::nullopt};
+  Trajectory truth;
+  for (int i = 0; i < kFrames; ++i) truth.push_back({stamp_of(i), pose_of(i)});
+  RunLog log(truth, false, {});
+  for (int i = 0; i < kFrames; ++i) {
+    const bool lost = i == 2;
+    processed.frame.stamp = stamp_of(i);
+    processed.result.odometry.status = lost ? Status::kLost : Status::kTracking;
+    processed.result.odometry.T_world_sensor = pose_of(lost ? i + 10 : i);  // 1 m too far
+    log.add(processed);
+  }
+  log.finish(0, 0, AsyncPipeline(AsyncOptions()), system);
+  TruthCloud cloud;
+  cloud.points = {{0.0F, 0.0F, 2.0F}, {0.0F, 1.0F, 2.0F}};
+  cloud.labels = {0, 0};
+  log.compare_map(cloud, cloud.points);
+  ASSERT_TRUE(log.metrics().map);
+  EXPECT_EQ(log.metrics().map->SA, 100.0);
+}
+
 }  // namespace
 }  // namespace mms

@@ -20,4 +20,9 @@ std::optional<Eigen::Isometry3d> align_truth(const Trajectory& truth, const Traj
   return align_poses(true_poses, poses);
 }
 
+Trajectory poses_without(Trajectory poses, const std::set<Timestamp>& left_out) {
+  std::erase_if(poses, [&](const StampedPose& pose) { return left_out.contains(pose.stamp); });
+  return poses;
+}
+
 }  // namespace mms

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "mms/evaluation/scores/statistics.hpp"
@@ -212,7 +213,7 @@ void RunLog::compare_objects(const ObjectHistory& truth) {
   if (played.empty()) return;
   const auto compare = [&](const ObjectHistory& objects,
                            const Trajectory& poses) -> std::optional<TrackingError> {
-    const auto T = align_truth(truth_, poses);
+    const auto T = aligned_to(poses);
     if (!T) return std::nullopt;
     return evaluate_tracking(played, transformed(objects, T->inverse()), truth_);
   };
@@ -221,8 +222,16 @@ void RunLog::compare_objects(const ObjectHistory& truth) {
 }
 
 void RunLog::compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map) {
-  const auto T = align_truth(truth_, corrected_trajectory());
+  const auto T = aligned_to(corrected_trajectory());
   if (T) metrics_.map = evaluate_labeled_map(truth.points, truth.labels, T->cast<float>(), map);
+}
+
+std::optional<Eigen::Isometry3d> RunLog::aligned_to(const Trajectory& poses) const {
+  std::set<Timestamp> lost;
+  for (const LoggedFrame& frame : frames_) {
+    if (frame.status == Status::kLost) lost.insert(frame.stamp);
+  }
+  return align_truth(truth_, poses_without(poses, lost));
 }
 
 Trajectory RunLog::trajectory() const {

@@ -40,7 +40,8 @@ class RunLog {
   void compare_objects(const ObjectHistory& truth);
 
   /// Compares the static map with the ground truth, transformed to the map's frame by aligning the
-  /// corrected poses of all frames with ground truth. Does nothing without such frames.
+  /// corrected poses of all frames with ground truth that are not lost. Does nothing without such
+  /// frames.
   /// @param truth  in the world frame of the ground-truth poses
   /// @throws DataError if the ground truth has no valid points.
   void compare_map(const TruthCloud& truth, const std::vector<Eigen::Vector3f>& map);
@@ -86,6 +87,8 @@ class RunLog {
   void sum_up_accuracy();
   void sum_up_loops(const GlobalMap& map);
   SessionMetrics session_metrics() const;
+  /// Transform from the frame of the ground truth to that of the poses, without lost frames.
+  std::optional<Eigen::Isometry3d> aligned_to(const Trajectory& poses) const;
   void move_objects();
 
   Trajectory truth_;

@@ -45,7 +45,7 @@ std::optional<Eigen::Isometry3d> truth_alignment(const MapArguments& arguments) 
   const fs::path truth = fs::path(arguments.truth).parent_path() / "groundtruth.txt";
   const fs::path poses = map_trajectory_file(fs::path(arguments.map).parent_path());
   if (arguments.no_align || !fs::exists(truth) || !fs::exists(poses)) return std::nullopt;
-  auto T = align_truth(read_trajectory_tum(truth), read_trajectory_tum(poses));
+  auto T = align_truth(read_trajectory_tum(truth), map_poses(poses.parent_path()));
   if (!T) {
     print_warnings({fmt::format("{} and {} have no pose in common: the ground truth is not aligned",
                                 truth.string(), poses.string())});

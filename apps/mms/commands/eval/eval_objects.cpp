@@ -26,7 +26,7 @@ void evaluate_objects(const ObjectArguments& arguments) {
                                               read_trajectory_tum(result / "trajectory.tum"));
   const ObjectHistory tracks = read_objects(result / "objects.json");
   const Trajectory poses = read_trajectory_tum(truth / "groundtruth.txt");
-  const auto T = align_truth(poses, read_trajectory_tum(map_trajectory_file(result)));
+  const auto T = align_truth(poses, map_poses(result));
   if (!T) {
     throw DataError((result / "trajectory.tum").string(),
                     "has no pose within 0.02 s of a ground-truth pose",

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <filesystem>
 #include <vector>
 
+#include "mms/core/trajectory.hpp"
 #include "mms/evaluation/scores/metric_value.hpp"
 
 namespace mms {
@@ -17,6 +19,9 @@ void add_eval_objects(CLI::App& eval);
 
 /// Adds the flag --json, which sets `json`.
 void add_json_flag(CLI::App& command, bool& json);
+
+/// Poses of a run in the frame of its maps, without those of lost frames.
+Trajectory map_poses(const std::filesystem::path& result);
 
 /// Prints a table on stdout, or one JSON object.
 void print_metrics(const std::vector<MetricValue>& values, bool json);
