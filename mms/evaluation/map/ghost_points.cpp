@@ -10,9 +10,10 @@
 namespace mms {
 namespace {
 
-constexpr double kMaxGap = 0.05;          ///< share of the depth that separates two modes
-constexpr std::size_t kMaxImages = 1000;  ///< 0.6 GB at 640x480
-constexpr double kMinShare = 0.10;        ///< smallest share of a pixel's returns in a mode
+constexpr double kMaxGap = 0.05;       ///< share of the depth that separates two modes
+constexpr std::size_t kMinImages = 4;  ///< kept of images of any size
+constexpr std::size_t kMaxImages = 1000;
+constexpr double kMinShare = 0.10;  ///< smallest share of a pixel's returns in a mode
 
 /// Median of the farthest sufficiently long run of sorted depths; 0 if none.
 double far_mode_of(const std::vector<std::uint16_t>& sorted) {
@@ -44,7 +45,8 @@ void RoomDepth::add(const Image<float>& depth) {
     raw[i] = mm > 0.0F && mm < 65535.0F ? static_cast<std::uint16_t>(mm + 0.5F) : std::uint16_t{0};
   }
   millimetres_.push_back(std::move(raw));
-  if (millimetres_.size() <= kMaxImages) return;
+  const std::size_t pixels = std::max<std::size_t>(depth.size(), 1);
+  if (millimetres_.size() <= std::clamp(max_pixels_ / pixels, kMinImages, kMaxImages)) return;
   std::vector<Image<std::uint16_t>> kept;
   for (std::size_t i = 0; i < millimetres_.size(); i += 2) {
     kept.push_back(std::move(millimetres_[i]));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,8 +16,13 @@ namespace mms {
 /// repeatedly, its far mode.
 class RoomDepth {
  public:
-  /// Adds a depth image [m]; 0, NaN and infinite pixels mean no return. Of more than 1000 images
-  /// every second one is used, of more than 2000 every fourth one, and so on.
+  /// @param max_pixels  of all kept images, 2 bytes each; by default those of 1000 of 640x480
+  explicit RoomDepth(std::size_t max_pixels = std::size_t{1000} * 640 * 480)
+      : max_pixels_(max_pixels) {}
+
+  /// Adds a depth image [m]; 0, NaN and infinite pixels mean no return. At most 1000 images are
+  /// kept, and fewer of large ones. Of more images every second one is used, of more than twice as
+  /// many every fourth one, and so on.
   /// @throws DataError if its size differs from that of the earlier images.
   void add(const Image<float>& depth);
 
@@ -25,6 +31,7 @@ class RoomDepth {
   Image<float> far_mode() const;
 
  private:
+  std::size_t max_pixels_;
   std::vector<Image<std::uint16_t>> millimetres_;
   std::size_t added_ = 0;
   std::size_t step_ = 1;  ///< every so many images are kept
