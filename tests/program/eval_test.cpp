@@ -238,6 +238,10 @@ TEST_F(EvalSegmentation, PixelsHaveDocumentedKeys) {
   expect_in("pixels of class person under masks of score 0.30 or more", run({"--pixels"}).out);
 }
 
+TEST_F(EvalSegmentation, LowestScoreNeedsPixels) {
+  expect_usage_error(run({"--min-score", "0.5"}), "--min-score requires --pixels");
+}
+
 TEST_F(EvalSegmentation, TableHasLinePerClass) {
   const Outcome outcome = run({});
   expect_success(outcome);

@@ -63,12 +63,14 @@ void add_eval_segmentation(CLI::App& eval) {
   command->add_option("--category", arguments->category, "evaluate only this class");
   command->add_option("--split", arguments->split,
                       "evaluate only the images of this split, such as \"holdout\"");
-  command->add_flag("--pixels", arguments->pixels,
-                    "also recall and precision of the pixels, by the objects' height");
+  CLI::Option* pixels =
+      command->add_flag("--pixels", arguments->pixels,
+                        "also recall and precision of the pixels, by the objects' height");
   command
       ->add_option("--min-score", arguments->min_score, "lowest score of a mask that counts there")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(CLI::Range(0.0, 1.0))
+      ->needs(pixels);
   add_json_flag(*command, arguments->json);
   command->callback([arguments] { evaluate(*arguments); });
 }
