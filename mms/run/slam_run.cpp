@@ -169,6 +169,7 @@ void SlamRun::process(const std::filesystem::path& folder, RunObserver& observer
                system_);
   warn_if_not_localized(observer);
   warn_of_sessions_outside(observer);
+  warn_of_other_axes(observer);
   compare_with_truth(observer);
 }
 
@@ -312,6 +313,15 @@ void SlamRun::warn_of_sessions_outside(RunObserver& observer) {
     warn(fmt::format("session {} has no place in the map: its map and poses are in outside_map", i),
          observer);
   }
+}
+
+void SlamRun::warn_of_other_axes(RunObserver& observer) {
+  const auto& trajectory = log_->metrics().trajectory;
+  if (!trajectory || !trajectory->rpe.axes_differ) return;
+  warn(
+      "the ground truth moves along other axes than the sensor: it seems to be of another sensor "
+      "or body, so that RPE has no meaning",
+      observer);
 }
 
 void SlamRun::end_map() {

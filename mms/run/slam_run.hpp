@@ -81,6 +81,7 @@ class SlamRun {
   void warn_of_losses(const Processed& processed, RunObserver& observer);
   void warn_of_sessions_outside(RunObserver& observer);
   void warn_if_not_localized(RunObserver& observer);
+  void warn_of_other_axes(RunObserver& observer);
 
   RunOptions options_;
   std::unique_ptr<FrameSource> source_;

@@ -56,6 +56,25 @@ void expect_time_statistics(const nlohmann::json& times) {
   EXPECT_LE(times["p50"], times["p99"]);
 }
 
+TEST(Run, WarnsOfGroundTruthOfAnotherSensor) {
+  const TempFolder folder;
+  write_scene(folder.path() / "data", small_scene(30));
+  const fs::path file = folder.path() / "data/groundtruth.txt";
+  Trajectory truth = read_trajectory_tum(file);
+  const Eigen::Isometry3d turn(Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 3).normalized()));
+  for (StampedPose& pose : truth) {
+    pose.T_world_sensor = pose.T_world_sensor * Transform<Sensor, Sensor>(turn);
+  }
+  const std::string text = "the ground truth moves along other axes than the sensor";
+  const Outcome exact = run_recording(folder);
+  expect_success(exact);
+  EXPECT_EQ(exact.err.find(text), std::string::npos) << exact.err;
+  write_trajectory_tum(file, truth);
+  const Outcome outcome = run_recording(folder);
+  expect_success(outcome);
+  expect_in(text, outcome.err);
+}
+
 TEST(Run, WritesDocumentedFiles) {
   const TempFolder folder;
   write_scene(folder.path() / "data", small_scene(kFrames));
