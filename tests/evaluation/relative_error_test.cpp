@@ -102,6 +102,7 @@ TEST(RelativeError, DeltaMustBePositive) {
   EXPECT_THROW(evaluate(truth, truth, 0.0, DeltaUnit::kSeconds), DataError);
   EXPECT_THROW(evaluate(truth, truth, -1.0, DeltaUnit::kMeters), DataError);
   EXPECT_THROW(evaluate(truth, truth, 0.5, DeltaUnit::kFrames), DataError);
+  EXPECT_THROW(evaluate(truth, truth, 1.5, DeltaUnit::kFrames), DataError);
   EXPECT_THROW(evaluate(truth, truth, std::nan(""), DeltaUnit::kSeconds), DataError);
 }
 

@@ -80,6 +80,10 @@ Pairs choose_pairs(const Trajectory& estimate, const std::vector<PoseMatch>& mat
 void check(const RelativeDelta& delta) {
   constexpr double kMax = 1e9;
   const double min = delta.unit == DeltaUnit::kFrames ? 1.0 : 1e-9;
+  if (delta.unit == DeltaUnit::kFrames && delta.value != std::floor(delta.value)) {
+    throw DataError("relative pose error",
+                    "delta " + to_fixed(delta.value, 9) + " frames is not a whole number");
+  }
   if (delta.value >= min && delta.value <= kMax) return;
   throw DataError("relative pose error",
                   "delta " + to_fixed(delta.value, 9) +

@@ -42,7 +42,7 @@ Eigen::Isometry3d relative_pose_error(const Trajectory& reference, const Traject
 /// In seconds, j is the matched pose nearest to stamp_i + delta; no pair starts if none is within a
 /// tenth of delta.
 /// @param matches  in order of time
-/// @throws DataError if delta is outside 1e-9..1e9, in frames 1..1e9
+/// @throws DataError if delta is outside 1e-9..1e9, in frames 1..1e9 or not whole
 RelativeError relative_error(const Trajectory& reference, const Trajectory& estimate,
                              const std::vector<PoseMatch>& matches, const RelativeDelta& delta);
 
