@@ -147,6 +147,22 @@ TEST(LidarScans, ReadsKittiRaw) {
                   .isApprox(Eigen::Vector3d(1.1131949, 0.0, 0.5), 1e-6));
 }
 
+/// The lines of missing scans are empty there.
+TEST(LidarScans, ReadsKittiRawWithEmptyLinesOfMissingScans) {
+  const TempFolder folder;
+  for (const char* scan : {"0000000000", "0000000003"}) {
+    folder.write(std::string("velodyne_points/data/") + scan + ".bin", kPoint);
+  }
+  folder.write("velodyne_points/timestamps.txt",
+               "2011-09-26 13:02:25.500000000\n\n\n2011-09-26 13:02:25.800000000\n");
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.names(), "0000000000 0000000003");
+  EXPECT_EQ(played.frames[1].stamp, Timestamp(1'317'042'145'800'000'000));
+  folder.write("velodyne_points/data/0000000002.bin", kPoint);
+  expect_in("has no line for scan 0000000002.bin",
+            message_of<DataError>([&] { open_dataset(folder.path()); }));
+}
+
 TEST(LidarScans, ReadsMulRan) {
   const TempFolder folder;
   folder.write("Ouster/1564718964000000000.bin", ring_of_points({30}));

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -122,16 +123,19 @@ std::optional<Timestamp> parse_date(std::string_view date, std::string_view time
   return Timestamp(((days * 24 + *hour) * 60 + *minute) * 60 * kSecond + second->nanoseconds());
 }
 
-/// Line i is that of scan number i; numbers may be missing.
+/// Line i of the file is that of scan number i. Where a scan is missing, its line may be empty.
 std::vector<Timestamp> read_kitti_raw(const fs::path& file, const std::vector<fs::path>& scans) {
   const TextTable table(file);
+  std::map<std::int64_t, const TextLine*> lines;  // by number of the scan
+  for (const TextLine& line : table.lines()) lines.emplace(line.number - 1, &line);
   std::vector<Timestamp> stamps;
   for (const fs::path& scan : scans) {
     const auto number = parse_integer(scan.stem().string());
-    if (!number || *number < 0 || static_cast<std::size_t>(*number) >= table.lines().size()) {
+    const auto found = number ? lines.find(*number) : lines.end();
+    if (found == lines.end()) {
       throw DataError(file.string(), "has no line for scan " + scan.filename().string());
     }
-    const TextLine& line = table.lines()[static_cast<std::size_t>(*number)];
+    const TextLine& line = *found->second;
     const auto stamp =
         line.fields.size() == 2 ? parse_date(line.fields[0], line.fields[1]) : std::nullopt;
     if (!stamp) throw DataError(table.where(line), "is not a date and a time");
