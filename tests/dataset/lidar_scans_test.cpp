@@ -395,6 +395,26 @@ TEST(LidarScans, ReadsOdometryBenchmark) {
   expect_in("data_odometry_calib.zip", error);
 }
 
+/// Stamps and poses are those of the scans' numbers.
+TEST(LidarScans, ReadsPartOfASequence) {
+  const TempFolder folder;
+  folder.write("velodyne/000001.bin", kPoint);
+  folder.write("velodyne/000003.bin", kPoint);
+  folder.write("times.txt", "0.0\n0.11\n0.2\n0.33\n0.4\n");
+  folder.write("poses.txt",
+               "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n1 0 0 2 0 1 0 0 0 0 1 0\n"
+               "1 0 0 3 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.names(), "000001 000003");
+  EXPECT_EQ(played.frames[0].stamp, Timestamp(110'000'000));
+  EXPECT_EQ(played.frames[1].stamp, Timestamp(330'000'000));
+  const Trajectory& truth = played.source->ground_truth();
+  ASSERT_EQ(truth.size(), 2U);
+  EXPECT_EQ(truth[0].stamp, played.frames[0].stamp);
+  EXPECT_EQ(truth[0].T_world_sensor.translation().x(), 1.0);
+  EXPECT_EQ(truth[1].T_world_sensor.translation().x(), 3.0);
+}
+
 TEST(LidarScans, SkipsEmptyAndTruncatedScans) {
   const TempFolder folder;
   folder.write("0.bin", "");

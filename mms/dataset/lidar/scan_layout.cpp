@@ -1,6 +1,7 @@
 #include "mms/dataset/lidar/scan_layout.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <string_view>
 
 #include "mms/core/error.hpp"
@@ -156,6 +157,18 @@ ScanLayout find_scan_layout(const fs::path& folder) {
     return {known.name, known.dataset, std::move(scans), known.format};
   }
   throw DataError(folder.string(), "has no *.bin scans, and neither has velodyne/");
+}
+
+std::vector<std::size_t> lines_of_scans(const std::vector<fs::path>& scans, std::size_t lines) {
+  std::vector<std::size_t> numbers(scans.size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  if (scans.size() == lines) return numbers;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const auto number = parse_integer(scans[i].stem().string());
+    if (!number || *number < 0 || static_cast<std::size_t>(*number) >= lines) return {};
+    numbers[i] = static_cast<std::size_t>(*number);
+  }
+  return numbers;
 }
 
 }  // namespace mms

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,5 +27,12 @@ bool has_scans(const std::vector<std::string>& names);
 /// Finds the scans of a recording in its folder or one below it.
 /// @throws DataError if there are none.
 ScanLayout find_scan_layout(const std::filesystem::path& folder);
+
+/// The lines of the scans, from 0, in a file that has one for each scan of a sequence: all in their
+/// order, or those of the names' numbers if the folder has a part of the sequence. Empty if neither
+/// is possible.
+/// @param lines  of the file
+std::vector<std::size_t> lines_of_scans(const std::vector<std::filesystem::path>& scans,
+                                        std::size_t lines);
 
 }  // namespace mms

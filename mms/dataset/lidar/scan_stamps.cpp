@@ -89,7 +89,7 @@ std::vector<Timestamp> stamps_in_names(const std::vector<fs::path>& scans) {
   return stamps;
 }
 
-std::vector<Timestamp> read_times(const fs::path& file, std::size_t count) {
+std::vector<Timestamp> read_times(const fs::path& file, const std::vector<fs::path>& scans) {
   std::vector<Timestamp> stamps;
   const TextTable table(file);
   const StampReader read_stamp(table, 0, kLongestImageStep);
@@ -98,11 +98,14 @@ std::vector<Timestamp> read_times(const fs::path& file, std::size_t count) {
     if (!stamp) throw DataError(table.where(line), "is not a stamp in seconds");
     stamps.push_back(*stamp);
   }
-  if (stamps.size() != count) {
+  const std::vector<std::size_t> lines = lines_of_scans(scans, stamps.size());
+  if (lines.empty()) {
     throw DataError(file.string(), "has " + std::to_string(stamps.size()) + " stamps for " +
-                                       std::to_string(count) + " scans");
+                                       std::to_string(scans.size()) + " scans");
   }
-  return stamps;
+  std::vector<Timestamp> chosen;
+  for (const std::size_t line : lines) chosen.push_back(stamps[line]);
+  return chosen;
 }
 
 /// Parses "2011-09-26" and "13:02:25.951199337" as UTC.
@@ -151,7 +154,7 @@ ScanStamps read_scan_stamps(const fs::path& folder, const ScanLayout& layout,
   const fs::path times = folder / "times.txt";
   if (fs::exists(times)) {
     facts.emplace_back("stamps: times.txt");
-    return {read_times(times, layout.scans.size()), std::nullopt};
+    return {read_times(times, layout.scans), std::nullopt};
   }
   const fs::path raw = folder / "velodyne_points" / "timestamps.txt";
   if (layout.dataset == ScanDataset::kKittiRaw && fs::exists(raw)) {

@@ -17,9 +17,9 @@ struct ScanStamps {
   std::optional<AssumedRate> assumed_rate;  ///< if the recording has none
 };
 
-/// Stamps of the scans: times.txt ([s], one a line), velodyne_points/timestamps.txt of KITTI raw,
-/// or the number at the end of the scans' names (stamp_of_number), or seconds_nanoseconds there.
-/// Else 10 Hz are assumed. Adds a fact if there are any.
+/// Stamps of the scans: times.txt ([s], see lines_of_scans), velodyne_points/timestamps.txt of
+/// KITTI raw, or the number at the end of the scans' names (stamp_of_number), or
+/// seconds_nanoseconds there. Else 10 Hz are assumed. Adds a fact if there are any.
 /// @throws FileError if a file cannot be read; DataError for a damaged line or another number of
 /// stamps than scans.
 ScanStamps read_scan_stamps(const std::filesystem::path& folder, const ScanLayout& layout,

@@ -1,6 +1,5 @@
 #include "mms/dataset/lidar/scan_truth.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -195,12 +194,16 @@ fs::path find_kitti_poses(const fs::path& folder) {
   return fs::exists(poses) ? poses : fs::path();
 }
 
-Trajectory read_kitti_truth(const fs::path& file, std::span<const Timestamp> stamps,
+Trajectory read_kitti_truth(const fs::path& file, const std::vector<fs::path>& scans,
+                            std::span<const Timestamp> stamps,
                             const Eigen::Isometry3d& T_camera_lidar) {
   Trajectory truth;
   const Trajectory camera = read_trajectory_kitti(file);
-  for (std::size_t i = 0; i < std::min(camera.size(), stamps.size()); ++i) {
-    const auto pose = camera[i].T_world_sensor.isometry() * T_camera_lidar;
+  const std::vector<std::size_t> lines = lines_of_scans(scans, camera.size());
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const std::size_t line = lines.empty() ? i : lines[i];
+    if (line >= camera.size()) break;
+    const auto pose = camera[line].T_world_sensor.isometry() * T_camera_lidar;
     truth.push_back({stamps[i], Transform<World, Sensor>(pose)});
   }
   return truth;
@@ -260,7 +263,7 @@ Trajectory read_scan_truth(const fs::path& folder, const ScanLayout& layout,
     case ScanDataset::kHeLiPR:
       return used(read_helipr_truth(file));
     default:
-      return used(read_kitti_truth(file, stamps, T_camera_lidar),
+      return used(read_kitti_truth(file, layout.scans, stamps, T_camera_lidar),
                   T_camera_lidar.matrix().isIdentity(0.0)
                       ? ", of camera 0 because T_camera_lidar is missing"
                       : "");
