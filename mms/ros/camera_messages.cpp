@@ -13,9 +13,11 @@ std::array<double, 5> lens_of(const msg::CameraInfo& message, const std::string&
   const bool none = std::all_of(D.begin(), D.end(), [](double d) { return d == 0.0; });
   if (none) return lens;
   const std::string& model = message.distortion_model;
-  // RealSense's SDK calls plumb_bob by the names of its authors.
+  // RealSense's SDK calls plumb_bob by the names of its authors. "Inverse", as of the D455,
+  // projects by the same formula (rs2_project_point_to_pixel), and its ROS driver says plumb_bob.
   const bool known = model == "plumb_bob" || model == "Brown Conrady" ||
-                     model == "rational_polynomial" || model.empty();
+                     model == "Inverse Brown Conrady" || model == "rational_polynomial" ||
+                     model.empty();
   const bool short_enough = std::all_of(D.begin() + std::ptrdiff_t(std::min(D.size(), lens.size())),
                                         D.end(), [](double d) { return d == 0.0; });
   if (!known || !short_enough) {

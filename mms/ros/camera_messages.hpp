@@ -7,9 +7,9 @@
 
 namespace mms {
 
-/// Camera of a CameraInfo: K with the distortion D (plumb_bob, "Brown Conrady" of RealSense's SDK,
-/// or rational_polynomial with zeros as last three coefficients), or P without distortion for
-/// rectified images.
+/// Camera of a CameraInfo: K with the distortion D (plumb_bob, "Brown Conrady" and "Inverse Brown
+/// Conrady" of RealSense's SDK, or rational_polynomial with zeros as last three coefficients), or P
+/// without distortion for rectified images.
 /// @throws DataError at `where` for other distortion models, for missing calibration, and for
 /// binning.
 CameraIntrinsics intrinsics_of(const msg::CameraInfo& message, bool rectified,

@@ -48,7 +48,9 @@ TEST(CameraMessages, KnowsNamesOfRealSense) {
   message.distortion_model = "Brown Conrady";
   EXPECT_EQ(intrinsics_of(message, false, "test"), kCamera);
   message.distortion_model = "Inverse Brown Conrady";
-  expect_in("has the distortion model 'Inverse Brown Conrady' of 5 coefficients",
+  EXPECT_EQ(intrinsics_of(message, false, "test"), kCamera);
+  message.distortion_model = "Kannala Brandt4";
+  expect_in("has the distortion model 'Kannala Brandt4' of 5 coefficients",
             message_of<DataError>([&] { intrinsics_of(message, false, "test"); }));
 }
 
