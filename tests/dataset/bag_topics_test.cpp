@@ -127,6 +127,22 @@ TEST(BagTopics, ChoosesWheelsAndGyroscopeButNoOtherOdometry) {
   EXPECT_EQ(topics.choose({.wheels = "/odom"}).wheels, "/odom");
 }
 
+/// As recorded with all topics while another program runs.
+TEST(BagTopics, PrefersSensorsToResultsOfPrograms) {
+  Topics topics = Topics()
+                      .add("/Odometry", "nav_msgs/Odometry")
+                      .add("/mavros/local_position/odom", "nav_msgs/Odometry")
+                      .add("/kiss/odometry", "nav_msgs/Odometry")
+                      .add("/cloud_registered", "sensor_msgs/PointCloud2", "", 20)
+                      .add("/camera/depth/points", "sensor_msgs/PointCloud2", "", 30);
+  EXPECT_EQ(topics.choose().wheels, "");
+  EXPECT_EQ(topics.choose().cloud, "/camera/depth/points");  // where there is no other
+  topics.add("/velodyne_points", "sensor_msgs/PointCloud2", "", 10);
+  EXPECT_EQ(topics.choose().cloud, "/velodyne_points");
+  EXPECT_EQ(topics.choose({.cloud = "/cloud_registered"}).cloud, "/cloud_registered");
+  EXPECT_EQ(topics.choose({.wheels = "/Odometry"}).wheels, "/Odometry");
+}
+
 TEST(BagTopics, TakesRawColorsWhereThereAreNoOthers) {
   Topics topics = Topics()
                       .image("/camera/color/image_raw", "yuv422_yuy2")

@@ -191,12 +191,23 @@ int beside(int rank, const std::string& name, const std::string& other) {
   return rank == 0 ? 0 : rank * kLongest + std::min(common(name, other), kLongest - 1);
 }
 
+/// Clouds that programs made of scans, often in the world frame, and those of depth cameras count
+/// less than all others. The number of messages decides among the rest.
+int cloud_rank(const BagTopic& topic) {
+  constexpr std::size_t kLargestCount = 1'000'000'000;  // that count
+  if (topic.type != "sensor_msgs/PointCloud2") return 0;
+  const bool made =
+      has_word(topic.name, {"registered", "map", "global", "world", "filtered", "effected",
+                            "corner", "surf", "feature", "segment", "cluster", "obstacle", "ground",
+                            "static_cloud", "dynamic_cloud", "depth", "stereo", "disparity"});
+  const auto count = static_cast<int>(std::min(topic.count, kLargestCount));
+  return made ? count : static_cast<int>(kLargestCount) + count;
+}
+
 /// @param depth   of the bag, which goes without color here; empty for none
 /// @param unread  as of `unread_colors`
 std::string find_cloud(const Choice& choice, const std::string& depth, const std::string& unread) {
-  const std::string best = choice.best([](const BagTopic& topic) {
-    return topic.type != "sensor_msgs/PointCloud2" ? 0 : static_cast<int>(topic.count);
-  });
+  const std::string best = choice.best(cloud_rank);
   // The clouds of a depth camera are no scans of a LiDAR.
   if (!best.empty() && !unread.empty() && !depth.empty()) {
     choice.fail("has depth in " + depth + ", but color in an encoding that is not read: " + unread,
@@ -218,10 +229,13 @@ std::string find_camera_info(const Choice& choice, const std::string& color) {
 std::string find_wheels(const Choice& choice, const std::string& truth) {
   return choice.best([&](const BagTopic& topic) {
     const bool other = has_word(
-        topic.name, {"visual", "vio",      "vins",  "rgbd",  "camera", "zed",       "t265", "lidar",
-                     "laser",  "icp",      "loam",  "lio",   "slam",   "gps",       "gnss", "ekf",
-                     "fus",    "filtered", "truth", "mocap", "vicon",  "optitrack", "/gt"});
+        topic.name,
+        {"visual", "vio",      "vins",  "rgbd",  "camera",  "zed",       "t265",    "lidar",
+         "laser",  "icp",      "loam",  "lio",   "slam",    "gps",       "gnss",    "ekf",
+         "fus",    "filtered", "truth", "mocap", "vicon",   "optitrack", "/gt",     "mavros",
+         "msckf",  "rovio",    "okvis", "kiss",  "rtabmap", "mapping",   "estimat", "global"});
     if (topic.type != "nav_msgs/Odometry" || topic.name == truth || other) return 0;
+    if (topic.name == "/Odometry") return 0;  // as FAST-LIO calls its poses
     return has_word(topic.name, {"wheel"}) ? 2 : has_word(topic.name, {"odom"}) ? 1 : 0;
   });
 }
