@@ -156,6 +156,21 @@ LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::s
   return scan;
 }
 
+LidarScan scan_of(const msg::LivoxScan& message) {
+  LidarScan scan;
+  for (const msg::LivoxPoint& point : message.points) {
+    scan.points.emplace_back(point.position[0], point.position[1], point.position[2]);
+    scan.intensity.push_back(static_cast<float>(point.reflectivity));
+    scan.time_offset.push_back(static_cast<float>(1e-9 * point.offset_time));
+  }
+  return scan;
+}
+
+bool is_livox_type(std::string_view type) {
+  return type == "livox_ros_driver/CustomMsg" || type == "livox_ros_driver2/CustomMsg" ||
+         type == "livox_interfaces/CustomMsg";
+}
+
 msg::PointCloud2 cloud_message(const msg::Header& header, const LidarScan& scan) {
   msg::PointCloud2 message;
   message.header = header;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "mms/core/frame.hpp"
 #include "mms/ros/ros_messages.hpp"
@@ -18,6 +19,13 @@ namespace mms {
 /// outside a point or of unknown type.
 LidarScan scan_of(const msg::PointCloud2& message, Timestamp stamp, const std::string& where,
                   bool* other_clock = nullptr);
+
+/// Points of a scan of a Livox, with the reflectivity as intensity and their times. Points without
+/// return are zero.
+LidarScan scan_of(const msg::LivoxScan& message);
+
+/// Whether messages of a type, such as "livox_ros_driver/CustomMsg", are scans of a Livox.
+bool is_livox_type(std::string_view type);
 
 /// A message with x y z, and intensity and time [s] if available; all float32.
 msg::PointCloud2 cloud_message(const msg::Header& header, const LidarScan& scan);

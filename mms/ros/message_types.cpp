@@ -64,6 +64,16 @@ const Entries& entries() {
         "Header header\nuint32 height\nuint32 width\nPointField[] fields\nbool "
         "is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
         {"std_msgs/Header", "sensor_msgs/PointField"}}},
+      {"livox_ros_driver2/CustomPoint",
+       {"109a3cc548bb1f96626be89a5008bd6d",
+        "uint32 offset_time\nfloat32 x\nfloat32 y\nfloat32 z\nuint8 reflectivity\nuint8 tag\nuint8 "
+        "line\n",
+        {}}},
+      {"livox_ros_driver2/CustomMsg",
+       {"e4d6829bdfe657cb6c21a746c86b21a6",
+        "std_msgs/Header header\nuint64 timebase\nuint32 point_num\nuint8 lidar_id\nuint8[3] "
+        "rsvd\nCustomPoint[] points\n",
+        {"std_msgs/Header", "livox_ros_driver2/CustomPoint"}}},
       {"geometry_msgs/PoseStamped",
        {"d3812c3cbc69362b77dc0b19b345f8f5", "Header header\nPose pose\n", kPose}},
       {"geometry_msgs/PoseWithCovarianceStamped",

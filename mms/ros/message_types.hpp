@@ -29,6 +29,8 @@ inline constexpr std::string_view kName<CameraInfo> = "sensor_msgs/CameraInfo";
 template <>
 inline constexpr std::string_view kName<PointCloud2> = "sensor_msgs/PointCloud2";
 template <>
+inline constexpr std::string_view kName<LivoxScan> = "livox_ros_driver2/CustomMsg";
+template <>
 inline constexpr std::string_view kName<PoseStamped> = "geometry_msgs/PoseStamped";
 template <>
 inline constexpr std::string_view kName<TransformStamped> = "geometry_msgs/TransformStamped";

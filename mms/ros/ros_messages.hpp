@@ -118,6 +118,35 @@ struct PointCloud2 {
   }
 };
 
+/// livox_ros_driver/CustomPoint
+struct LivoxPoint {
+  std::uint32_t offset_time = 0;    ///< after the timebase [ns]
+  std::array<float, 3> position{};  ///< x y z [m]; zeros without return
+  std::uint8_t reflectivity = 0;
+  std::uint8_t tag = 0;   ///< kind of return
+  std::uint8_t line = 0;  ///< number of the laser
+
+  template <class Self, class Archive>
+  static void fields(Self& self, Archive& archive) {
+    archive(self.offset_time, self.position, self.reflectivity, self.tag, self.line);
+  }
+};
+
+/// livox_ros_driver/CustomMsg, and the same of livox_ros_driver2 and livox_interfaces
+struct LivoxScan {
+  Header header;               ///< its stamp is the timebase on the clock of ROS
+  std::uint64_t timebase = 0;  ///< of the first point, by the clock of the sensor [ns]
+  std::uint32_t point_num = 0;
+  std::uint8_t lidar_id = 0;
+  std::array<std::uint8_t, 3> rsvd{};
+  std::vector<LivoxPoint> points;
+
+  template <class Self, class Archive>
+  static void fields(Self& self, Archive& archive) {
+    archive(self.header, self.timebase, self.point_num, self.lidar_id, self.rsvd, self.points);
+  }
+};
+
 /// geometry_msgs/Pose, and geometry_msgs/Transform, which has the same fields.
 struct Pose {
   std::array<double, 3> position{};                       ///< x y z [m]

@@ -285,6 +285,26 @@ TEST_P(BagSources, ReadsCloudsWithCamera) {
   expect_in("/points message 2: has no points", played.warnings[0]);
 }
 
+TEST_P(BagSources, ReadsScansOfLivox) {
+  msg::LivoxScan scan;
+  scan.points = {{0, {1, 2, 3}, 10, 16, 0}, {50'000'000, {4, 5, 6}, 200, 0, 1}};
+  scan.point_num = 2;
+  scan.timebase = 77;
+  for (const int t : {0, 100}) {
+    scan.header = header(t, "livox_frame");
+    write("/livox/lidar", scan);
+  }
+  finish();
+  const Playback played = play();
+  ASSERT_EQ(played.frames.size(), 2U);
+  EXPECT_EQ(played.frames[1].stamp, at(100));
+  const LidarScan& second = played.frames[1].scan;
+  EXPECT_EQ(second.points, (std::vector<Eigen::Vector3f>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(second.intensity, (std::vector<float>{10, 200}));
+  EXPECT_EQ(second.time_offset, (std::vector<float>{0.0F, 0.05F}));
+  EXPECT_TRUE(played.warnings.empty());
+}
+
 TEST_P(BagSources, MasksOfCloudsAreThoseOfTheirImages) {
   camera_info();
   LidarScan scan;

@@ -143,6 +143,16 @@ TEST(BagTopics, PrefersSensorsToResultsOfPrograms) {
   EXPECT_EQ(topics.choose({.wheels = "/Odometry"}).wheels, "/Odometry");
 }
 
+TEST(BagTopics, ChoosesScansOfLivox) {
+  Topics topics = Topics()
+                      .add("/cloud_registered", "sensor_msgs/PointCloud2", "", 20)
+                      .add("/livox/lidar", "livox_ros_driver/CustomMsg");
+  EXPECT_EQ(topics.choose().cloud, "/livox/lidar");
+  topics.add("/os_cloud_node/points", "sensor_msgs/PointCloud2");
+  EXPECT_EQ(topics.choose().cloud, "/os_cloud_node/points");
+  EXPECT_EQ(topics.choose({.cloud = "/livox/lidar"}).cloud, "/livox/lidar");
+}
+
 TEST(BagTopics, TakesRawColorsWhereThereAreNoOthers) {
   Topics topics = Topics()
                       .image("/camera/color/image_raw", "yuv422_yuy2")

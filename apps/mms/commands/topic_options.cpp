@@ -8,7 +8,7 @@ void add_topic_options(CLI::App& command, BagTopicNames& topics) {
   };
   add("--topic-color", topics.color, "color images, Image or CompressedImage");
   add("--topic-depth", topics.depth, "depth images registered to them");
-  add("--topic-cloud", topics.cloud, "LiDAR scans, PointCloud2");
+  add("--topic-cloud", topics.cloud, "LiDAR scans, PointCloud2 or CustomMsg of Livox");
   add("--topic-camera-info", topics.camera_info, "CameraInfo of the color images");
   add("--topic-mask", topics.mask, "label images: 0 static, 1 person, 2 vehicle");
   add("--topic-wheels", topics.wheels, "wheel odometry, Odometry");

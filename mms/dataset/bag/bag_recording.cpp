@@ -43,8 +43,9 @@ class StreamReader {
       : bag_(&bag), stream_(&stream) {
     stream.topic = topic;
     for (const BagTopic& candidate : bag.topics()) {
-      if (candidate.name == topic)
-        stream.compressed = candidate.type == "sensor_msgs/CompressedImage";
+      if (candidate.name != topic) continue;
+      stream.compressed = candidate.type == "sensor_msgs/CompressedImage";
+      stream.livox = is_livox_type(candidate.type);
     }
   }
 
@@ -220,7 +221,7 @@ void check_clocks(BagRecording& recording) {
 
 /// Tells by the first cloud that the times of points have another clock than the stamps.
 void check_point_clock(BagRecording& recording) {
-  if (recording.cloud.empty()) return;
+  if (recording.cloud.empty() || recording.cloud.livox) return;
   const std::string& topic = recording.cloud.topic;
   const std::string where = recording.bag->where(topic, 0);
   bool other_clock = false;

@@ -18,6 +18,7 @@ namespace mms {
 struct BagStream {
   std::string topic;
   bool compressed = false;
+  bool livox = false;  ///< scans of `is_livox_type`
   std::string frame_id;
   std::vector<Timestamp> stamps;
   Duration delay{0};  ///< of the recording after the stamp, median

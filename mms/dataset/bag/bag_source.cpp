@@ -30,6 +30,13 @@ Image<float> read_depth(const BagReader& bag, const BagStream& stream, std::size
   return depth_of(bag.read<msg::Image>(stream.topic, index), where, scale);
 }
 
+LidarScan read_cloud(const BagReader& bag, const BagStream& stream, std::size_t index,
+                     Timestamp stamp) {
+  if (stream.livox) return scan_of(bag.read<msg::LivoxScan>(stream.topic, index));
+  return scan_of(bag.read<msg::PointCloud2>(stream.topic, index), stamp,
+                 bag.where(stream.topic, index));
+}
+
 class BagSource final : public RecordedSource {
  public:
   explicit BagSource(BagRecording recording) : recording_(std::move(recording)) {
@@ -58,8 +65,7 @@ class BagSource final : public RecordedSource {
     frame.calibration = recording_.calibration;
     if (at.cloud != BagFrame::kNone) {
       const std::string& topic = recording_.cloud.topic;
-      frame.scan = scan_of(bag.read<msg::PointCloud2>(topic, at.cloud), at.stamp,
-                           bag.where(topic, at.cloud));
+      frame.scan = read_cloud(bag, recording_.cloud, at.cloud, at.stamp);
       if (frame.scan.points.empty()) throw DataError(bag.where(topic, at.cloud), "has no points");
     }
     if (at.color != BagFrame::kNone) read_images(frame, at);

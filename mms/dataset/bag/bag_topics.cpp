@@ -5,6 +5,7 @@
 
 #include "mms/core/error.hpp"
 #include "mms/io/text/lower_case.hpp"
+#include "mms/ros/cloud_messages.hpp"
 #include "mms/ros/image_messages.hpp"
 #include "mms/ros/raw_colors.hpp"
 
@@ -15,6 +16,7 @@ using Words = std::initializer_list<const char*>;
 
 constexpr const char* kImage = "sensor_msgs/Image";
 constexpr const char* kCompressed = "sensor_msgs/CompressedImage";
+constexpr const char* kCloud = "sensor_msgs/PointCloud2";
 
 bool has_word(const std::string& name, Words words) {
   const std::string lower = lower_case(name);
@@ -192,16 +194,19 @@ int beside(int rank, const std::string& name, const std::string& other) {
 }
 
 /// Clouds that programs made of scans, often in the world frame, and those of depth cameras count
-/// less than all others. The number of messages decides among the rest.
+/// less than all others, and a Livox less than another LiDAR. The number of messages decides among
+/// the rest.
 int cloud_rank(const BagTopic& topic) {
-  constexpr std::size_t kLargestCount = 1'000'000'000;  // that count
-  if (topic.type != "sensor_msgs/PointCloud2") return 0;
+  constexpr std::size_t kLargestCount = 500'000'000;  // that count
+  const bool livox = is_livox_type(topic.type);
+  if (!livox && topic.type != kCloud) return 0;
   const bool made =
       has_word(topic.name, {"registered", "map", "global", "world", "filtered", "effected",
                             "corner", "surf", "feature", "segment", "cluster", "obstacle", "ground",
                             "static_cloud", "dynamic_cloud", "depth", "stereo", "disparity"});
   const auto count = static_cast<int>(std::min(topic.count, kLargestCount));
-  return made ? count : static_cast<int>(kLargestCount) + count;
+  const int tier = made ? 0 : livox ? 1 : 2;
+  return tier * static_cast<int>(kLargestCount) + count;
 }
 
 /// @param depth   of the bag, which goes without color here; empty for none
@@ -282,10 +287,13 @@ BagTopicNames choose_frames(const Choice& choice, const std::vector<BagTopic>& t
     }
   }
   const std::string unread = chosen.color.empty() ? unread_colors(topics, encoding_of) : "";
-  chosen.cloud = choice.pick(given.cloud, "--topic-cloud", {"sensor_msgs/PointCloud2"}, [&] {
-    if (!chosen.depth.empty()) return std::string();
-    return find_cloud(choice, choice.best(rank_depth), unread);
-  });
+  chosen.cloud = choice.pick(given.cloud, "--topic-cloud",
+                             {kCloud, "livox_ros_driver/CustomMsg", "livox_ros_driver2/CustomMsg",
+                              "livox_interfaces/CustomMsg"},
+                             [&] {
+                               if (!chosen.depth.empty()) return std::string();
+                               return find_cloud(choice, choice.best(rank_depth), unread);
+                             });
   // Beside a LiDAR, images as the sensor sends them count if they are named only.
   const bool raw = choice.rank_of(chosen.color, rank_color) == kRawRank;
   if (given.color.empty() && chosen.depth.empty() && raw) chosen.color.clear();

@@ -8,7 +8,7 @@ namespace mms {
 struct BagTopicNames {
   std::string color{};  ///< sensor_msgs/Image or CompressedImage
   std::string depth{};  ///< sensor_msgs/Image or CompressedImage, registered to the color image
-  std::string cloud{};  ///< sensor_msgs/PointCloud2
+  std::string cloud{};  ///< sensor_msgs/PointCloud2, or CustomMsg of Livox's drivers
   std::string camera_info{};  ///< sensor_msgs/CameraInfo of the color image
   std::string mask{};         ///< sensor_msgs/Image of labels: 0 static, 1 person, 2 vehicle
   std::string wheels{};       ///< nav_msgs/Odometry
