@@ -152,6 +152,36 @@ TEST(TumRgbd, KeepsOrderWhereStampsAreNoTimes) {
   EXPECT_TRUE(any_has(played.warnings, "5 images within 0.0012 s; they are no times"));
 }
 
+/// Taken as seconds they would be frames at 1 Hz.
+TEST(TumRgbd, TakesWholeNumbersForImagesWithoutStamps) {
+  const TempFolder folder;
+  write_tum(folder, 5);
+  std::string pairs;
+  for (int i = 0; i < 5; ++i) {
+    const std::string number = std::to_string(i + 100);
+    pairs += number + " rgb/" + file_of(i) + " " + number + " depth/" + file_of(i) + "\n";
+  }
+  std::filesystem::remove(folder.path() / "rgb.txt");
+  std::filesystem::remove(folder.path() / "depth.txt");
+  folder.write("associations.txt", pairs);
+  folder.write("groundtruth.txt", "100 0 0 0 0 0 0 1\n104 1 0 0 0 0 0 1\n");
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.names(), "f0 f1 f2 f3 f4");
+  EXPECT_EQ(played.frames[4].stamp, Timestamp(6'933'333'333));
+  EXPECT_EQ(played.source->ground_truth()[1].stamp, played.frames[4].stamp);
+  EXPECT_TRUE(any_has(played.warnings, "no time stamps: 15 Hz is assumed"));
+  SourceOptions options;
+  options.rate = 20.0;
+  EXPECT_EQ(Playback(open_dataset(folder.path(), options)).frames[4].stamp,
+            Timestamp(5'200'000'000));
+  // Decimals are stamps, of 1 Hz here.
+  folder.write("associations.txt",
+               "100.0 rgb/f0.png 100.0 depth/f0.png\n101.0 rgb/f1.png 101.0 depth/f1.png\n"
+               "102.0 rgb/f2.png 102.0 depth/f2.png\n103.0 rgb/f3.png 103.0 depth/f3.png\n"
+               "104.0 rgb/f4.png 104.0 depth/f4.png\n");
+  EXPECT_EQ(Playback(open_dataset(folder.path())).frames[4].stamp, Timestamp(104'000'000'000));
+}
+
 TEST(TumRgbd, ReadsPairsOfImages) {
   for (const char* name : {"associations.txt", "association.txt", "associate.txt"}) {
     const TempFolder folder;

@@ -1,9 +1,11 @@
 #include "mms/dataset/source/image_list.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <set>
 
 #include "mms/core/error.hpp"
+#include "mms/io/text/numbers.hpp"
 #include "mms/io/text/stamp_reader.hpp"
 #include "mms/io/text/text_table.hpp"
 
@@ -100,6 +102,13 @@ std::vector<ListedImage> read_image_list(const fs::path& list, std::vector<std::
     return parse_image(below.empty() ? folder : folder / below, line, 0, read_stamp);
   };
   return read_list(list, 2, "stamp path", parse, warnings);
+}
+
+bool has_whole_stamps(const fs::path& list) {
+  const TextTable table(list);
+  return std::all_of(table.lines().begin(), table.lines().end(), [](const TextLine& line) {
+    return parse_integer(line.fields[0]).has_value();
+  });
 }
 
 std::vector<ListedPair> read_associations(const fs::path& list,

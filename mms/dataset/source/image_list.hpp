@@ -32,6 +32,10 @@ std::vector<ListedImage> read_image_list(const std::filesystem::path& list,
                                          std::vector<std::string>& warnings,
                                          const std::filesystem::path& below = {});
 
+/// Whether the stamps of a list are whole numbers, as those of images: "1", but not "1.000".
+/// @throws FileError if the list cannot be read.
+bool has_whole_stamps(const std::filesystem::path& list);
+
 /// Reads associations.txt, with color or depth first; skips lines as above.
 /// @throws FileError, DataError as above.
 std::vector<ListedPair> read_associations(const std::filesystem::path& list,

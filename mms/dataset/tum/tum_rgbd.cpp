@@ -1,6 +1,7 @@
 #include "mms/dataset/tum/tum_rgbd.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 
 #include "mms/core/error.hpp"
@@ -52,17 +53,25 @@ void match_lists(RgbdRecording& recording, const ListNames& names) {
   add_matched_frames(recording, color, depth);
 }
 
-void read_lists(RgbdRecording& recording) {
+/// @returns the list of the color images or pairs; empty if there is none
+fs::path read_lists(RgbdRecording& recording) {
   for (const ListNames& names : kListNames) {
     if (!fs::exists(recording.folder / names.color)) continue;
     if (!fs::exists(recording.folder / names.depth)) continue;
-    return match_lists(recording, names);
+    match_lists(recording, names);
+    return recording.folder / names.color;
   }
   const fs::path pairs = find_pairs(recording.folder);
-  if (!pairs.empty()) return read_pairs(recording, pairs);
+  if (!pairs.empty()) {
+    read_pairs(recording, pairs);
+    return pairs;
+  }
   const bool color = fs::exists(recording.folder / "rgb.txt");
   const bool depth = fs::exists(recording.folder / "depth.txt");
-  if (!color && !depth) return add_unlisted_frames(recording);
+  if (!color && !depth) {
+    add_unlisted_frames(recording);
+    return {};
+  }
   throw DataError(recording.folder.string(),
                   std::string("is a TUM-layout sequence, but ") +
                       (color ? "depth.txt" : "rgb.txt") + " is missing",
@@ -92,14 +101,38 @@ std::optional<Calibration> known_calibration(RgbdRecording& recording,
   return calibration;
 }
 
-/// Converts stamps that are image numbers, as those of ICL-NUIM, to stamps at 30 Hz.
-void count_at_30_hz(RgbdRecording& recording) {
-  const auto stamp_of = [](Timestamp number) {
-    return Timestamp(number.nanoseconds() / kDataSetRate.hz);
-  };
-  for (RgbdFiles& frame : recording.frames) frame.stamp = stamp_of(frame.stamp);
-  for (StampedPose& pose : recording.ground_truth) pose.stamp = stamp_of(pose.stamp);
-  recording.assumed_rate = kDataSetRate;
+/// Whether a stamp may be the number of an image: a whole number of seconds, long before 2001.
+bool may_be_number(Timestamp stamp) {
+  constexpr std::int64_t kOne = 1'000'000'000;  // [ns]
+  const std::int64_t number = stamp.nanoseconds() / kOne;
+  return number >= 0 && number < kMaxImageNumber && stamp.nanoseconds() % kOne == 0;
+}
+
+/// Whether the stamps are numbers of images, which mostly follow each other, as 0, 1, 2.
+bool are_image_numbers(const std::vector<RgbdFiles>& frames) {
+  constexpr std::size_t kMinNumbered = 5;  // less prove nothing
+  if (frames.size() < kMinNumbered) return false;
+  std::size_t following = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!may_be_number(frames[i].stamp)) return false;
+    if (i > 0 && frames[i].stamp - frames[i - 1].stamp == std::chrono::seconds(1)) ++following;
+  }
+  return 2 * following >= frames.size();
+}
+
+/// Converts stamps that are image numbers, as those of ICL-NUIM, to stamps at a rate.
+void count_images_at(RgbdRecording& recording, const AssumedRate& rate) {
+  const auto stamp_of = [&](Timestamp number) { return Timestamp(number.nanoseconds() / rate.hz); };
+  for (RgbdFiles& frame : recording.frames) {
+    frame.stamp = stamp_of(frame.stamp);
+    frame.depth_offset = Duration::zero();
+  }
+  const bool truth = std::all_of(recording.ground_truth.begin(), recording.ground_truth.end(),
+                                 [](const StampedPose& pose) { return may_be_number(pose.stamp); });
+  if (truth) {
+    for (StampedPose& pose : recording.ground_truth) pose.stamp = stamp_of(pose.stamp);
+  }
+  recording.assumed_rate = rate;
 }
 
 /// Ground truth of ICL-NUIM, as livingRoom0.gt.freiburg.
@@ -136,7 +169,7 @@ std::unique_ptr<FrameSource> open_tum_rgbd(const fs::path& folder, const SourceO
   RgbdRecording recording;
   recording.folder = folder;
   recording.facts.emplace_back("layout: TUM RGB-D");
-  read_lists(recording);
+  const fs::path list = read_lists(recording);
   const std::optional<fs::path> icl_truth = find_icl_truth(folder);
   choose_calibration(recording, options.camera,
                      [&] { return known_calibration(recording, icl_truth); });
@@ -146,9 +179,14 @@ std::unique_ptr<FrameSource> open_tum_rgbd(const fs::path& folder, const SourceO
     recording.ground_truth = read_trajectory_tum(truth);
   } else if (icl_truth) {
     recording.ground_truth = mirrored(read_trajectory_tum(*icl_truth));
-    count_at_30_hz(recording);
+    count_images_at(recording, kDataSetRate);
     recording.facts.push_back("ground truth: " + icl_truth->filename().string() +
                               ", mirrored since its camera's y axis is up");
+  }
+  const bool numbers = !list.empty() && has_whole_stamps(list);
+  if (numbers && !recording.assumed_rate && are_image_numbers(recording.frames)) {
+    count_images_at(recording, kUnknownRate);
+    recording.facts.emplace_back("numbers: the lists have those of the images in place of stamps");
   }
   return std::make_unique<RgbdSource>(std::move(recording));
 }
