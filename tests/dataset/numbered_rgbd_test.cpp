@@ -218,6 +218,26 @@ TEST(Open3d, DoesNotGuessCameraOfOtherSizes) {
   EXPECT_TRUE(any_has(open_dataset(large.path())->describe(), "PrimeSense camera (525 px)"));
 }
 
+TEST(Open3d, SamplesColorsForDepthOfArkit) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.path() / "images");
+  std::filesystem::create_directories(folder.path() / "depth");
+  write_png(folder.path() / "images/0.png", Image<Rgb>(512, 384));
+  write_png(folder.path() / "depth/0.png", Image<std::uint16_t>(256, 192, 1500));
+  folder.write("calibration.yaml",
+               "fx: 400\nfy: 400\ncx: 255.5\ncy: 191.5\nwidth: 512\nheight: 384\n"
+               "depth_scale: 1000\n");
+  const Playback played(open_dataset(folder.path()));
+  ASSERT_EQ(played.frames.size(), 1U);
+  const Frame& frame = played.frames[0];
+  EXPECT_EQ(*frame.calibration->camera, (CameraIntrinsics{200, 200, 127.5, 95.5, 256, 192, {}}));
+  EXPECT_EQ(frame.color.width(), 256);
+  EXPECT_EQ(frame.depth(0, 0), 1.5F);
+  // Depth of other cameras may be unregistered where its size is another.
+  write_png(folder.path() / "depth/0.png", Image<std::uint16_t>(128, 96, 1500));
+  EXPECT_TRUE(Playback(open_dataset(folder.path())).frames.empty());
+}
+
 TEST(Open3d, ErrorNamesFoldersWithoutCommonNumber) {
   const TempFolder folder;
   write_color(folder.path() / "color/0.png");

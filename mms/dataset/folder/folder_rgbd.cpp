@@ -185,6 +185,7 @@ std::unique_ptr<FrameSource> open_folder_rgbd(const fs::path& folder,
   add_pose_files(recording, poses);  // NaN where tracking was lost
   choose_calibration(recording, options.camera,
                      [&] { return calibration_of(recording, seven_scenes); });
+  sample_colors_of_arkit(recording);
   find_masks(recording, options);
   return std::make_unique<RgbdSource>(std::move(recording));
 }

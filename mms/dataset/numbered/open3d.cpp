@@ -114,6 +114,7 @@ std::unique_ptr<FrameSource> open_open3d(const fs::path& folder, const SourceOpt
       find_series(folder / first_of(names, kDepthFolders), depth_endings()),
       is_redwood ? kDataSetRate : kUnknownRate);
   choose_calibration(recording, options.camera, [&] { return find_camera(recording); });
+  sample_colors_of_arkit(recording);
   read_trajectory_log(recording, numbers);
   find_masks(recording, options);
   return std::make_unique<RgbdSource>(std::move(recording));

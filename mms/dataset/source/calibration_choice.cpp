@@ -1,7 +1,10 @@
 #include "mms/dataset/source/calibration_choice.hpp"
 
+#include <algorithm>
+
 #include "mms/core/error.hpp"
 #include "mms/dataset/source/first_image.hpp"
+#include "mms/dataset/source/resized_camera.hpp"
 #include "mms/io/config/calibration_formats.hpp"
 #include "mms/io/text/numbers.hpp"
 
@@ -26,6 +29,19 @@ std::optional<Calibration> read_file_of(RgbdRecording& recording, const CameraOp
     recording.facts.emplace_back("depth scale: none, 1000 units per meter assumed");
   }
   return calibration;
+}
+
+/// Whether a depth image has the size of those of ARKit, upright or not.
+bool is_of_arkit(const Image<float>& depth) {
+  constexpr int kLongSide = 256;   // [px]
+  constexpr int kShortSide = 192;  // [px]
+  return std::max(depth.width(), depth.height()) == kLongSide &&
+         std::min(depth.width(), depth.height()) == kShortSide;
+}
+
+template <class T>
+bool is_camera_of(const CameraIntrinsics& camera, const Image<T>& image) {
+  return camera.width == image.width() && camera.height == image.height();
 }
 
 CameraIntrinsics camera_of(const std::array<double, 4>& k, const RgbdRecording& recording) {
@@ -57,6 +73,27 @@ void choose_calibration(RgbdRecording& recording, const CameraOptions& options,
     recording.facts.push_back("depth scale: given, " + format_number(*options.depth_scale));
   }
   recording.calibration = std::make_shared<const Calibration>(*calibration);
+}
+
+void sample_colors_of_arkit(RgbdRecording& recording) {
+  if (recording.color_camera || recording.calibration->depth_camera) return;
+  try {
+    const Image<float> depth = first_depth(recording);
+    if (!is_of_arkit(depth)) return;
+    const Image<Rgb> color = first_color(recording);
+    Calibration calibration = *recording.calibration;
+    CameraIntrinsics& camera = *calibration.camera;
+    const bool larger = color.width() > depth.width();
+    const bool same_view = color.width() * depth.height() == color.height() * depth.width();
+    if (!larger || !same_view || !(is_camera_of(camera, color) || is_camera_of(camera, depth))) {
+      return;
+    }
+    recording.color_camera = resized_camera(camera, color.width(), color.height());
+    camera = resized_camera(camera, depth.width(), depth.height());
+    recording.calibration = std::make_shared<const Calibration>(calibration);
+    recording.facts.emplace_back("colors: sampled for the depth images of ARKit");
+  } catch (const Error&) {  // frames that cannot be read are skipped with a warning
+  }
 }
 
 void reject_image_options(const fs::path& recording, const CameraOptions& options) {

@@ -17,6 +17,10 @@ namespace mms {
 void choose_calibration(RgbdRecording& recording, const CameraOptions& options,
                         const std::function<std::optional<Calibration>()>& of_layout);
 
+/// Depth images of ARKit (256x192, iPhone and iPad with LiDAR) are registered to larger color
+/// images: colors are sampled for them then. The calibration may be that of either size.
+void sample_colors_of_arkit(RgbdRecording& recording);
+
 /// For recordings that take a calibration file alone.
 /// @throws DataError with `recording` if intrinsics or depth scale are given.
 void reject_image_options(const std::filesystem::path& recording, const CameraOptions& options);

@@ -173,6 +173,7 @@ std::unique_ptr<FrameSource> open_tum_rgbd(const fs::path& folder, const SourceO
   const std::optional<fs::path> icl_truth = find_icl_truth(folder);
   choose_calibration(recording, options.camera,
                      [&] { return known_calibration(recording, icl_truth); });
+  sample_colors_of_arkit(recording);
   find_masks(recording, options);
   const fs::path truth = folder / "groundtruth.txt";
   if (fs::exists(truth)) {
