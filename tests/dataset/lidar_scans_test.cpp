@@ -44,6 +44,16 @@ TEST(LidarScans, TransformsPosesToLidar) {
   EXPECT_EQ(source->ground_truth()[0].T_world_sensor.translation().x(), 7.5);
 }
 
+TEST(LidarScans, ReadsPosesInTheFormatOfTum) {
+  const TempFolder folder;
+  folder.write("velodyne/0.bin", kPoint);
+  folder.write("poses.txt", "0.0 7 0 0 0 0 0 1\n");
+  folder.write("calibration.yaml", "T_camera_lidar: [1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0]\n");
+  const auto source = open_dataset(folder.path());
+  ASSERT_EQ(source->ground_truth().size(), 1U);
+  EXPECT_EQ(source->ground_truth()[0].T_world_sensor.translation().x(), 7.0);
+}
+
 TEST(LidarScans, ReadsStampsFromTimes) {
   const TempFolder folder;
   folder.write("velodyne/0.bin", kPoint);

@@ -209,6 +209,13 @@ Trajectory read_kitti_truth(const fs::path& file, const std::vector<fs::path>& s
   return truth;
 }
 
+/// Whether a file of poses has the eight columns of TUM, and not the twelve of KITTI.
+bool has_tum_poses(const fs::path& file) {
+  constexpr std::size_t kColumns = 8;
+  const TextTable table(file);
+  return !table.lines().empty() && table.lines()[0].fields.size() == kColumns;
+}
+
 /// File of the ground truth of a data set; empty for none.
 fs::path truth_file(const fs::path& folder, const ScanLayout& layout) {
   const fs::path whole = absolute_folder(folder);
@@ -263,6 +270,7 @@ Trajectory read_scan_truth(const fs::path& folder, const ScanLayout& layout,
     case ScanDataset::kHeLiPR:
       return used(read_helipr_truth(file));
     default:
+      if (has_tum_poses(file)) return used(read_trajectory_tum(file), " (TUM)");
       return used(read_kitti_truth(file, layout.scans, stamps, T_camera_lidar),
                   T_camera_lidar.matrix().isIdentity(0.0)
                       ? ", of camera 0 because T_camera_lidar is missing"
