@@ -153,6 +153,16 @@ TEST(BagTopics, ChoosesScansOfLivox) {
   EXPECT_EQ(topics.choose({.cloud = "/livox/lidar"}).cloud, "/livox/lidar");
 }
 
+TEST(BagTopics, ChoosesGyroscopeOfTheDevice) {
+  Topics topics = Topics()
+                      .add("/camera/imu", "sensor_msgs/Imu")
+                      .add("/os_cloud_node/imu", "sensor_msgs/Imu")
+                      .add("/os_cloud_node/points", "sensor_msgs/PointCloud2");
+  EXPECT_EQ(topics.choose().imu, "/os_cloud_node/imu");
+  topics.image("/camera/color/image_raw", "rgb8").image("/camera/depth/image_raw", "16UC1");
+  EXPECT_EQ(topics.choose().imu, "/camera/imu");
+}
+
 TEST(BagTopics, TakesRawColorsWhereThereAreNoOthers) {
   Topics topics = Topics()
                       .image("/camera/color/image_raw", "yuv422_yuy2")

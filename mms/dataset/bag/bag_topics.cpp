@@ -245,11 +245,14 @@ std::string find_wheels(const Choice& choice, const std::string& truth) {
   });
 }
 
-/// Sensors of depth cameras have topics of their own for the two kinds of measurements.
-std::string find_imu(const Choice& choice) {
-  return choice.best([](const BagTopic& topic) {
+/// Sensors of depth cameras have topics of their own for the two kinds of measurements. Of several
+/// gyroscopes, that of the device counts whose name begins most like `frames`.
+/// @param frames  topic of the clouds, or else of the color images
+std::string find_imu(const Choice& choice, const std::string& frames) {
+  return choice.best([&](const BagTopic& topic) {
     if (topic.type != "sensor_msgs/Imu") return 0;
-    return has_word(topic.name, {"accel"}) && !has_word(topic.name, {"gyro"}) ? 0 : 1;
+    if (has_word(topic.name, {"accel"}) && !has_word(topic.name, {"gyro"})) return 0;
+    return 1 + common(topic.name, frames);
   });
 }
 
@@ -340,8 +343,9 @@ BagTopicNames choose_topics(const std::vector<BagTopic>& topics, const BagTopicN
                              [&] { return find_truth(choice); });
   chosen.wheels = choice.pick(given.wheels, "--topic-wheels", {"nav_msgs/Odometry"},
                               [&] { return find_wheels(choice, chosen.truth); });
-  chosen.imu =
-      choice.pick(given.imu, "--topic-imu", {"sensor_msgs/Imu"}, [&] { return find_imu(choice); });
+  chosen.imu = choice.pick(given.imu, "--topic-imu", {"sensor_msgs/Imu"}, [&] {
+    return find_imu(choice, chosen.cloud.empty() ? chosen.color : chosen.cloud);
+  });
   return chosen;
 }
 
