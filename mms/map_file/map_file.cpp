@@ -24,16 +24,18 @@ using Access = SqliteDatabase::Access;
 /// [-]: keyframes of a submap: about 5 m.
 constexpr std::size_t kSubmapKeyframes = 20;
 
-/// The header of a database file: text, then numbers at given places.
+/// The header of a database file: text, then numbers at given places. Of a map that this process
+/// writes it was read before.
 class FileHeader {
  public:
-  explicit FileHeader(const fs::path& path) {
+  explicit FileHeader(const fs::path& path) : is_claimed_(MapClaim::exists(path)) {
+    if (is_claimed_) return;
     std::ifstream file(path, std::ios::binary);
     file.read(bytes_, sizeof bytes_);
     valid_ = file.gcount() == sizeof bytes_ && std::string_view(bytes_, 15) == "SQLite format 3";
   }
-  bool is_map() const { return valid_ && number(68) == kMapApplication; }
-  std::int64_t version() const { return number(60); }
+  bool is_map() const { return is_claimed_ || (valid_ && number(68) == kMapApplication); }
+  std::int64_t version() const { return is_claimed_ ? kMapVersion : number(60); }
 
  private:
   std::int64_t number(std::size_t offset) const {
@@ -44,6 +46,7 @@ class FileHeader {
     return value;
   }
 
+  bool is_claimed_;
   char bytes_[100]{};
   bool valid_ = false;
 };
@@ -223,6 +226,10 @@ MapFile::MapFile(const fs::path& path, Mode mode) : path_(path) {
     database_->execute(fmt::format("PRAGMA application_id = {};{}", kMapApplication, kMapSchema));
     return;
   }
+  if (mode == Mode::kExtend) {
+    check_header(path);
+    claim_.emplace(path);
+  }
   database_ = open_existing(path, mode == Mode::kRead ? Access::kRead : Access::kWrite);
   read_sessions();
 }
@@ -244,6 +251,7 @@ void MapFile::write_partial() {
   check_target(path_);
   std::error_code error;
   if (fs::exists(path_, error)) path_ = fs::canonical(path_);  // a link stays one
+  claim_.emplace(path_);
   // Last: closing any other descriptor of the file ends the lock (POSIX).
   if (fs::exists(path_)) {
     try {
@@ -477,13 +485,14 @@ void MapFile::set_graph(const std::vector<Eigen::Isometry3d>& poses,
 void MapFile::commit() {
   database_->execute(fmt::format("PRAGMA user_version = {}; COMMIT", kMapVersion));
   database_.reset();
-  if (!written_) return;
+  if (!written_) return claim_.reset();
   std::error_code error;
   fs::rename(written_->path(), path_, error);
   if (error) throw FileError(path_.string(), "cannot be written: " + error.message());
   written_->release();
   written_.reset();
   replaced_.reset();
+  claim_.reset();
 }
 
 void compact_map_file(const fs::path& path) {

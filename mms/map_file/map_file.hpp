@@ -12,6 +12,7 @@
 
 #include "mms/global_map/global_map.hpp"
 #include "mms/io/text/temporary_path.hpp"
+#include "mms/map_file/map_claim.hpp"
 #include "mms/map_file/map_session.hpp"
 #include "mms/mapping/static_map/map_cloud.hpp"
 #include "mms/storage/sqlite_database.hpp"
@@ -76,6 +77,7 @@ class MapFile {
   void read_sessions();
 
   std::filesystem::path path_;
+  std::optional<MapClaim> claim_;             ///< of `path_`, if it is written
   std::unique_ptr<SqliteDatabase> replaced_;  ///< the map at `path_`, locked until it is replaced
   std::optional<TemporaryPath> written_;      ///< the file that is renamed to `path_`, if any
   std::optional<TemporaryPath> journal_;      ///< SQLite's beside it

@@ -1,9 +1,11 @@
 // Map files: round trips, damage, locks, full disks and kills.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sqlite3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -42,6 +44,21 @@ std::string message_of(const std::filesystem::path& path, Mode mode) {
     return error.what();
   }
   return "";
+}
+
+/// Whether another process finds a lock of a file.
+bool is_locked(const std::filesystem::path& path) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    struct flock lock = {};
+    lock.l_type = F_WRLCK;
+    lock.l_whence = SEEK_SET;
+    const bool is_known = file >= 0 && fcntl(file, F_GETLK, &lock) == 0;
+    _exit(is_known && lock.l_type != F_UNLCK ? 0 : 1);
+  }
+  int status = 0;
+  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 /// Adds a second session to a file.
@@ -164,10 +181,11 @@ TEST(MapFile, TheSecondWriterIsRefusedAndReadersAreWelcome) {
   const TempFolder folder;
   write_first_session(folder.path() / "a");
   const MapFile writer(folder.path() / "a", Mode::kExtend);
-  EXPECT_NE(message_of(folder.path() / "a", Mode::kExtend).find("another process"),
-            std::string::npos);
+  EXPECT_NE(message_of(folder.path() / "a", Mode::kExtend).find("this program"), std::string::npos);
   const MapFile reader(folder.path() / "a", Mode::kRead);
   EXPECT_TRUE(reader.check().empty());
+  EXPECT_TRUE(is_map_file(folder.path() / "a"));
+  EXPECT_TRUE(is_locked(folder.path() / "a"));
 }
 
 TEST(MapFile, AMapThatARunExtendsIsNotReplaced) {
@@ -175,13 +193,12 @@ TEST(MapFile, AMapThatARunExtendsIsNotReplaced) {
   write_first_session(folder.path() / "a");
   {
     const MapFile writer(folder.path() / "a", Mode::kExtend);
-    EXPECT_NE(message_of(folder.path() / "a", Mode::kCreate).find("another process"),
+    EXPECT_NE(message_of(folder.path() / "a", Mode::kCreate).find("this program"),
               std::string::npos);
     EXPECT_THROW(compact_map_file(folder.path() / "a"), FileError);
   }
   const MapFile replacing(folder.path() / "a", Mode::kCreate);
-  EXPECT_NE(message_of(folder.path() / "a", Mode::kExtend).find("another process"),
-            std::string::npos);
+  EXPECT_NE(message_of(folder.path() / "a", Mode::kExtend).find("this program"), std::string::npos);
 }
 
 TEST(MapFile, AReaderSeesTheSessionsThatWereThere) {
@@ -201,7 +218,7 @@ TEST(MapFile, TwoRunsDoNotMakeOneFile) {
   const TempFolder folder;
   {
     const MapFile first(folder.path() / "a", Mode::kCreate);
-    EXPECT_NE(message_of(folder.path() / "a", Mode::kCreate).find("another process"),
+    EXPECT_NE(message_of(folder.path() / "a", Mode::kCreate).find("this program"),
               std::string::npos);
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "a.partial"));
   }
