@@ -14,7 +14,10 @@ SlamSystem& LiveSlam::make_system(const Calibration* calibration) {
   if (!system_ && takes_max_depth_ && calibration != nullptr && calibration->max_depth) {
     config_.static_map.surface.max_depth = *calibration->max_depth;
   }
-  if (!system_) system_.emplace(config_, std::move(segmenter_));
+  if (!system_) {
+    system_.emplace(config_, std::move(segmenter_));
+    map_.set_settings(config_);
+  }
   if (!std::exchange(has_map_, true)) {
     try {
       map_.load(*system_, calibration, [this](const std::string& line) { warn(line); });

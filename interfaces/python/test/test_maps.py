@@ -1,4 +1,7 @@
 """Map files: made by one run, used by the next one."""
+import contextlib
+import sqlite3
+
 import pytest
 
 import mms_slam
@@ -28,6 +31,23 @@ def test_map_of_a_run_is_used_by_the_next_one(mms, tmp_path):
         result.pose[:3, 3], abs=0.02)
     _, saved = run(tmp_path, map=path)
     assert saved and "2 sessions" in mms("info", path)
+
+
+def test_maps_have_the_settings_of_a_run(mms, tmp_path):
+    scene = "sim:rack_aisle?frames=8&width=320&sensor=d435"  # its noise and range are its own
+    slam = mms_slam.Slam(save_map=tmp_path / "python.mmsmap")
+    for frame in mms_slam.Recording(scene):
+        slam.process_frame(frame)
+    slam.finish()
+    assert slam.save_map()
+    mms("run", scene, "--segmenter", "masks", "-o", tmp_path / "run",
+        "--save-map", tmp_path / "run.mmsmap")
+
+    def settings(name):
+        with contextlib.closing(sqlite3.connect(tmp_path / name)) as database:
+            return database.execute("SELECT settings FROM sessions").fetchall()
+
+    assert settings("python.mmsmap") == settings("run.mmsmap")
 
 
 def test_maps_of_another_camera_are_named_after_a_look_at_the_empty_map(tmp_path):

@@ -49,7 +49,7 @@ bool is_like(const CameraIntrinsics& a, const CameraIntrinsics& b) {
 RunMap::RunMap(const MapFileOptions& options, const SystemConfig& config) {
   session_.name = options.recording;
   session_.program = MMS_VERSION;
-  session_.settings = dump_config(config);
+  set_settings(config);
   check_map_options(options, config);
   if (options.map.empty() && options.save_map.empty()) return;
   if (options.localize) use_ = MapUse::kLocalizeOnly;
@@ -63,6 +63,10 @@ RunMap::RunMap(const MapFileOptions& options, const SystemConfig& config) {
   } else {
     written_ = std::make_unique<MapFile>(path_, options.map);
   }
+}
+
+void RunMap::set_settings(const SystemConfig& config) {
+  session_.settings = dump_config(config);
 }
 
 void RunMap::load(SlamSystem& system, const Calibration* calibration,

@@ -34,6 +34,9 @@ class RunMap {
   /// @throws Error for options that exclude each other, and files that cannot be read or written
   RunMap(const MapFileOptions& options, const SystemConfig& config);
 
+  /// Replaces the settings that the map keeps, where the first frame has changed some.
+  void set_settings(const SystemConfig& config);
+
   /// Gives the earlier map to the system, if there is one. Before the first frame.
   /// @param calibration  of the recording; may be null
   void load(SlamSystem& system, const Calibration* calibration,
