@@ -1,5 +1,7 @@
 #include "mms/run/repeated_frames.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -35,16 +37,32 @@ bool shows_anything(const Frame& frame) {
 
 }  // namespace
 
-bool RepeatedFrames::omits(Frame& frame) {
+bool RepeatedFrames::omits(Frame& frame, const WarningHandler& warn) {
+  const bool had_old_color = has_old_color_;
+  const bool is_kept = keeps(frame);
+  if (!warn) return !is_kept;
+  if (!is_kept && count_ == 1) {
+    warn(fmt::format(
+        "frame {}: repeats an image or scan of the frame before: such frames are left out",
+        frame.name));
+  }
+  if (has_old_color_ && !had_old_color) {
+    warn(fmt::format("frame {}: the color image does not change any more: the depth is used alone",
+                     frame.name));
+  }
+  return !is_kept;
+}
+
+bool RepeatedFrames::keeps(Frame& frame) {
   if (repeats(frame)) {
     left_out_.add(frame);
     ++count_;
-    return true;
+    return false;
   }
   left_out_.give_to(frame);
   keep(frame);
   if (has_old_color_) frame.color = {};
-  return false;
+  return true;
 }
 
 bool RepeatedFrames::repeats(const Frame& frame) {

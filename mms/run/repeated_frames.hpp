@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "mms/core/frame.hpp"
@@ -15,8 +17,12 @@ namespace mms {
 /// change any more, though the depth does, is removed.
 class RepeatedFrames {
  public:
+  /// Receives one line with frame and fault.
+  using WarningHandler = std::function<void(const std::string&)>;
+
   /// Whether a frame is to be left out. The next one that is not gets its motion samples and place.
-  bool omits(Frame& frame);
+  /// @param warn  called for the first one, and where the color image does not change any more
+  bool omits(Frame& frame, const WarningHandler& warn = {});
 
   std::size_t count() const { return count_; }  ///< frames to be left out so far
 
@@ -25,6 +31,7 @@ class RepeatedFrames {
 
  private:
   bool repeats(const Frame& frame);
+  bool keeps(Frame& frame);
   void keep(const Frame& frame);
 
   // Of the last frame that was not left out:

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -197,18 +196,7 @@ AsyncPipeline::Source SlamRun::frames_for(RunObserver& observer) {
 
 /// Whether a frame is to be left out. Called in the reading thread.
 bool SlamRun::is_repeated(Frame& frame, RunObserver& observer) {
-  const bool had_old_color = repeated_.has_old_color();
-  const bool is_omitted = repeated_.omits(frame);
-  const auto tell = [&](std::string_view what) {
-    warn(fmt::format("frame {}: {}", frame.name, what), observer);
-  };
-  if (is_omitted && repeated_.count() == 1) {
-    tell("repeats an image or scan of the frame before: such frames are left out");
-  }
-  if (repeated_.has_old_color() && !had_old_color) {
-    tell("the color image does not change any more: the depth is used alone");
-  }
-  return is_omitted;
+  return repeated_.omits(frame, [&](const std::string& line) { warn(line, observer); });
 }
 
 /// Shows a warning, and keeps it for the report: the first ones of each kind, so that those of

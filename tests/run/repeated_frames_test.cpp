@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace mms {
 namespace {
@@ -57,6 +59,20 @@ TEST(RepeatedFrames, DepthGoesOnWithoutABrokenColorCamera) {
     EXPECT_EQ(repeated.has_old_color(), frame.color.empty()) << i;
   }
   EXPECT_EQ(left, (Indices{0, 4, 5, 6, 7}));
+}
+
+TEST(RepeatedFrames, SaysSoOnce) {
+  RepeatedFrames repeated;
+  std::vector<std::string> lines;
+  for (int i = 0; i < 8; ++i) {
+    Frame frame = frame_of(i, 1, i);
+    frame.name = std::to_string(i);
+    repeated.omits(frame, [&](const std::string& line) { lines.push_back(line); });
+  }
+  EXPECT_EQ(lines,
+            (std::vector<std::string>{
+                "frame 1: repeats an image or scan of the frame before: such frames are left out",
+                "frame 4: the color image does not change any more: the depth is used alone"}));
 }
 
 TEST(RepeatedFrames, ABrokenDepthCameraDoes) {

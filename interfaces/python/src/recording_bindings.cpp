@@ -8,6 +8,7 @@
 #include "interfaces/python/src/bindings.hpp"
 #include "interfaces/python/src/numpy_arrays.hpp"
 #include "mms/dataset/open_dataset.hpp"
+#include "mms/run/repeated_frames.hpp"
 
 namespace mms::python {
 namespace {
@@ -39,6 +40,22 @@ class Recording {
     return result;
   }
 
+  /// The next frame but those that mms run leaves out, too; nothing at the end.
+  std::optional<Frame> next() {
+    return with_source([this](FrameSource& source) {
+      std::optional<Frame> frame = source.next();
+      const auto keep_warning = [this](const std::string& line) { warnings_.push_back(line); };
+      while (frame && repeated_.omits(*frame, keep_warning)) frame = source.next();
+      return frame;
+    });
+  }
+
+  /// Frames that were left out so far.
+  std::size_t skipped() {
+    return with_source(
+        [this](const FrameSource& source) { return source.skipped() + repeated_.count(); });
+  }
+
   void close() {
     const py::gil_scoped_release release;
     const std::scoped_lock lock(mutex_);
@@ -49,6 +66,7 @@ class Recording {
   std::string path_;
   std::mutex mutex_;
   std::unique_ptr<FrameSource> source_;
+  RepeatedFrames repeated_;
   std::vector<std::string> warnings_;
 };
 
@@ -68,7 +86,7 @@ std::unique_ptr<Recording> open_recording(const Path& path, const std::optional<
 }
 
 Frame next_frame(Recording& recording) {
-  auto frame = recording.with_source([](FrameSource& source) { return source.next(); });
+  std::optional<Frame> frame = recording.next();
   if (!frame) throw py::stop_iteration();
   return std::move(*frame);
 }
@@ -89,9 +107,9 @@ void bind_recording(py::module_& module) {
       .def_property_readonly(
           "labels", [](const py::object& c) { return view(c.cast<TruthCloud&>().labels, c); },
           "N int32: 0 static, else 1 + id of the object.");
-  py::class_<Recording>(
-      module, "Recording",
-      "A recording as an iterator of Frame. Frames that are damaged are left out with a warning.")
+  py::class_<Recording>(module, "Recording",
+                        "A recording as an iterator of Frame. Frames that are damaged, or repeat\n"
+                        "an image or scan of the frame before, are left out with a warning.")
       .def(py::init(&open_recording), py::arg("path"), py::kw_only(), py::arg("masks") = py::none(),
            py::arg("calibration") = py::none(), py::arg("intrinsics") = py::none(),
            py::arg("depth_scale") = py::none(), py::arg("rate") = py::none(),
@@ -115,9 +133,7 @@ void bind_recording(py::module_& module) {
       .def("describe",
            from_source<std::vector<std::string>>([](FrameSource& s) { return s.describe(); }),
            "Facts, one a line, as mms info shows them.")
-      .def_property_readonly("skipped",
-                             from_source<std::size_t>([](FrameSource& s) { return s.skipped(); }),
-                             "Damaged frames so far.")
+      .def_property_readonly("skipped", &Recording::skipped, "Damaged and repeated frames so far.")
       .def_property_readonly("has_masks",
                              from_source<bool>([](FrameSource& s) { return s.has_masks(); }),
                              "Whether any frame has masks.")

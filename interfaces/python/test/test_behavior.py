@@ -85,6 +85,23 @@ def test_damaged_frames_are_warnings(mms, tmp_path):
     assert len(frames) == 5 and recording.skipped == 1
 
 
+def test_repeated_frames_are_left_out_as_by_run(mms, tmp_path):
+    mms("convert", SCENE, "-o", tmp_path / "sim")
+    depth = sorted((tmp_path / "sim" / "depth").iterdir())
+    depth[5].write_bytes(depth[4].read_bytes())
+    recording = mms_slam.Recording(tmp_path / "sim")
+    slam = mms_slam.Slam(calibration=recording.calibration, segmenter="none")
+    with pytest.warns(UserWarning, match="repeats an image or scan of the frame before"):
+        frames = list(recording)
+    assert len(frames) == 23 and recording.skipped == 1
+    for frame in frames:
+        slam.process_frame(frame)
+    slam.trajectory().write(tmp_path / "poses.tum")
+    mms("run", tmp_path / "sim", "-o", tmp_path / "run", "--segmenter", "none")
+    written = (tmp_path / "run" / "trajectory.tum").read_bytes()
+    assert (tmp_path / "poses.tum").read_bytes() == written
+
+
 def test_rate_is_of_recordings_without_time_stamps(mms, tmp_path):
     mms("convert", "sim:static?frames=3&width=160", "-o", tmp_path / "sim")
     with pytest.raises(mms_slam.DataError, match="has time stamps of its own"):
