@@ -11,6 +11,7 @@
 #include "interfaces/python/src/bindings.hpp"
 #include "interfaces/python/src/live_slam.hpp"
 #include "interfaces/python/src/numpy_arrays.hpp"
+#include "mms/geometry/depth_registration.hpp"
 #include "mms/geometry/parallel.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
 #include "mms/run/sensor_settings.hpp"
@@ -109,6 +110,8 @@ class Slam {
     const py::gil_scoped_release release;
     slam_ = std::make_unique<LiveSlam>(system, make_segmenter_of(segmenter, system), files,
                                        takes_max_depth);
+    registration_ = make_registration(*calibration_);
+    calibration_ = registered_calibration(calibration_);
   }
 
   FrameResult process(const py::array& color, const py::array& depth, std::int64_t stamp,
@@ -121,8 +124,7 @@ class Slam {
     const ImageSource labels = mask_source(masks);
     return fill_and_process(stamp, [&](Frame& frame) {
       // One core alone does not use all of the memory's bandwidth.
-      parallel_tasks([&] { copy(colors, frame.color); },
-                     [&] { copy_depth(depths, calibration_->depth_scale, frame.depth); },
+      parallel_tasks([&] { copy(colors, frame.color); }, [&] { fill_depth(depths, frame.depth); },
                      [&] { copy(labels, frame.mask); });
       frame.scan = {};
     });
@@ -191,7 +193,8 @@ class Slam {
   }
 
   ImageSource depth_source(const py::array& depth) const {
-    const CameraIntrinsics& camera = *calibration_->camera;
+    const CameraIntrinsics& camera =
+        registration_ ? registration_->depth_camera() : *calibration_->camera;
     const Shape shape = {camera.height, camera.width};
     const bool is_raw = py::isinstance<py::array_t<std::uint16_t>>(depth);
     const void* data =
@@ -212,8 +215,17 @@ class Slam {
     return {data_of<std::uint8_t>(*masks, "masks", "uint8", shape), camera.width, camera.height};
   }
 
-  std::string source_;  // of the masks
-  std::shared_ptr<Calibration> calibration_;
+  /// Depth registered to the color image.
+  void fill_depth(const ImageSource& depths, Image<float>& to) {
+    if (!registration_) return copy_depth(depths, calibration_->depth_scale, to);
+    copy_depth(depths, calibration_->depth_scale, unregistered_);
+    to = registration_->apply(unregistered_);
+  }
+
+  std::string source_;                              // of the masks
+  std::shared_ptr<const Calibration> calibration_;  // of registered depth
+  std::optional<DepthRegistration> registration_;
+  Image<float> unregistered_;  // of the last frame; used in turns, as the system
   std::unique_ptr<LiveSlam> slam_;
 };
 
@@ -340,7 +352,8 @@ void bind_slam(py::module_& module) {
            "Localizes an image with depth and adds it to the maps.\n"
            "color: height x width x 3 uint8, red green blue.\n"
            "depth: height x width, registered to color: float32 [m], or uint16 in units of the\n"
-           "calibration; 0, NaN and inf mean no return.\n"
+           "calibration; 0, NaN and inf mean no return. Where the calibration has a depth_camera,\n"
+           "it has the size of that one, and is registered here.\n"
            "stamp: int [ns], more than that of the frame before.\n"
            "masks: height x width uint8: 0 static, 1 person, 2 vehicle; None: all is static.\n"
            "Arrays have rows without gaps. Raises ValueError that names argument and value.")

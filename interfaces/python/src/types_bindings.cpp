@@ -79,15 +79,22 @@ void check_number(double value, const char* name, const Range& range, const char
 
 std::shared_ptr<Calibration> make_calibration(const std::optional<CameraIntrinsics>& camera,
                                               double depth_scale, std::optional<double> max_depth,
-                                              const Eigen::Matrix4d& T_camera_lidar) {
+                                              const Eigen::Matrix4d& T_camera_lidar,
+                                              const std::optional<CameraIntrinsics>& depth_camera,
+                                              const Eigen::Matrix4d& T_color_depth) {
   check_number(depth_scale, "depth_scale", kDepthScaleRange, " (depth image units per meter)");
   if (max_depth) check_number(*max_depth, "max_depth", kMaxDepthRange, " m");
+  if (depth_camera && !camera) throw py::value_error("depth_camera: needs a camera");
   auto calibration = std::make_shared<Calibration>();
   calibration->camera = camera;
   calibration->depth_scale = depth_scale;
   calibration->max_depth = max_depth;
   calibration->T_camera_lidar =
       Transform<Camera, Lidar>(isometry_of(T_camera_lidar, "T_camera_lidar"));
+  if (depth_camera) {
+    calibration->depth_camera = DepthCamera{
+        *depth_camera, Transform<Camera, Depth>(isometry_of(T_color_depth, "T_color_depth"))};
+  }
   return calibration;
 }
 
@@ -110,10 +117,14 @@ void bind_calibration(py::module_& module) {
       .def(py::init(&make_calibration), py::arg("camera") = py::none(),
            py::arg("depth_scale") = 1000.0, py::arg("max_depth") = py::none(),
            py::arg_v("T_camera_lidar", Eigen::Matrix4d(Eigen::Matrix4d::Identity()), "identity"),
+           py::arg("depth_camera") = py::none(),
+           py::arg_v("T_color_depth", Eigen::Matrix4d(Eigen::Matrix4d::Identity()), "identity"),
            "camera: Camera, or None for a LiDAR alone.\n"
            "depth_scale: units of 16-bit depth images per meter.\n"
            "max_depth: largest depth used for mapping [m].\n"
            "T_camera_lidar: 4 x 4, LiDAR to camera frame [m], for images with scans.\n"
+           "depth_camera: Camera of depth images that are not registered to color.\n"
+           "T_color_depth: 4 x 4, frame of depth_camera to that of camera [m].\n"
            "Raises ValueError for numbers out of range.")
       .def_static(
           "read",
@@ -128,7 +139,20 @@ void bind_calibration(py::module_& module) {
       .def_readonly("max_depth", &Calibration::max_depth, "Largest depth used for mapping [m].")
       .def_property_readonly(
           "T_camera_lidar", [](const Calibration& c) { return matrix_of(c.T_camera_lidar); },
-          "4 x 4, LiDAR to camera frame [m].");
+          "4 x 4, LiDAR to camera frame [m].")
+      .def_property_readonly(
+          "depth_camera",
+          [](const Calibration& c) {
+            return c.depth_camera ? std::optional(c.depth_camera->camera) : std::nullopt;
+          },
+          "Camera of depth images that are not registered to color, or None.")
+      .def_property_readonly(
+          "T_color_depth",
+          [](const Calibration& c) {
+            return matrix_of(c.depth_camera ? c.depth_camera->T_color_depth
+                                            : Transform<Camera, Depth>());
+          },
+          "4 x 4, frame of depth_camera to that of camera [m].");
 }
 
 void bind_frame(py::module_& module) {

@@ -138,3 +138,30 @@ def test_arrays_that_are_copied_may_have_gaps(slam, frames):
     a = mms_slam.Slam().process_scan(scan[:, :3], 1, intensity=scan[:, 3])
     b = mms_slam.Slam().process_scan(scan[:, :3].copy(), 1)
     assert np.array_equal(a.points, b.points, equal_nan=True)
+
+
+def test_depth_of_a_camera_of_its_own_is_registered(frames, tmp_path):
+    camera, color = frames[0].calibration.camera, frames[0].color
+    (tmp_path / "c.yaml").write_text(
+        f"fx: {camera.fx}\nfy: {camera.fy}\ncx: {camera.cx}\ncy: {camera.cy}\n"
+        f"width: {camera.width}\nheight: {camera.height}\ndepth_scale: 1000\n"
+        f"depth_camera:\n  fx: {camera.fx / 2}\n  fy: {camera.fy / 2}\n"
+        f"  cx: {camera.cx / 2 - 0.25}\n  cy: {camera.cy / 2 - 0.25}\n"
+        f"  width: {camera.width // 2}\n  height: {camera.height // 2}\n"
+        "  T_color_depth: [1, 0, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0]\n")
+    read = mms_slam.Calibration.read(tmp_path / "c.yaml")
+    made = mms_slam.Calibration(camera, depth_camera=read.depth_camera,
+                                T_color_depth=read.T_color_depth)
+    assert made.T_color_depth[0, 3] == 0.1 and made.depth_camera.width == camera.width // 2
+    wall = np.full((camera.height, camera.width), 2.0, np.float32)
+    small = np.full((camera.height // 2, camera.width // 2), 2000, np.uint16)
+    left = np.nanmin(mms_slam.Slam(calibration=frames[0].calibration).process(
+        color, wall, 1).points[:, 0])
+    for calibration in (read, made):
+        slam = mms_slam.Slam(calibration=calibration)
+        with pytest.raises(ValueError, match=r"depth: has the shape .*, allowed: \(120, 160\)"):
+            slam.process(color, wall, 1)
+        points = slam.process(color, small, 1).points  # 10 cm to the right of the depth camera
+        assert np.nanmin(points[:, 0]) == pytest.approx(left + 0.1, abs=0.03)
+    with pytest.raises(ValueError, match="depth_camera: needs a camera"):
+        mms_slam.Calibration(depth_camera=camera)
