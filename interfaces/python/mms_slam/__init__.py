@@ -6,14 +6,14 @@ raise ValueError.
 """
 from ._mms import (
     Calibration, Camera, ConfigError, DataError, Error, FileError, Frame, MapCloud, ObjectBox,
-    ObjectFrame, Recording, Result, Slam, TrackedObject, Trajectory, TruthCloud, __version__,
-    align_truth, evaluate_drift, evaluate_map, evaluate_masks, evaluate_objects,
+    ObjectFrame, OccupancyGrid, Recording, Result, Slam, TrackedObject, Trajectory, TruthCloud,
+    __version__, align_truth, evaluate_drift, evaluate_map, evaluate_masks, evaluate_objects,
     evaluate_trajectory, read_objects)
 
 __all__ = [
     "Calibration", "Camera", "ConfigError", "DataError", "Error", "FileError", "Frame", "MapCloud",
-    "ObjectBox", "ObjectFrame", "Recording", "Result", "Slam", "TrackedObject", "Trajectory",
-    "TruthCloud", "align_truth", "evaluate_drift", "evaluate_map", "evaluate_masks",
+    "ObjectBox", "ObjectFrame", "OccupancyGrid", "Recording", "Result", "Slam", "TrackedObject",
+    "Trajectory", "TruthCloud", "align_truth", "evaluate_drift", "evaluate_map", "evaluate_masks",
     "evaluate_objects", "evaluate_trajectory", "read_objects"]
 
 for _name in __all__:  # as users see them, in texts and pickles

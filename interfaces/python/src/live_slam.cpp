@@ -6,6 +6,7 @@
 
 #include "mms/geometry/noise_measurement.hpp"
 #include "mms/run/results/result_files.hpp"
+#include "mms/run/results/robot_maps.hpp"
 
 namespace mms::python {
 
@@ -92,6 +93,24 @@ MapCloud LiveSlam::static_map(bool corrected) {
   if (!corrected) return result_map(present->static_map(), frame);
   const std::vector<SessionPlace> places = session_places(present->global_map(), session_count());
   return result_map(present->mapping(), frame, places);
+}
+
+OccupancyGrid LiveSlam::occupancy_grid(bool corrected) {
+  const std::scoped_lock lock(mutex_);
+  if (!config_.occupancy.enabled) {
+    throw std::runtime_error("occupancy_grid: occupancy.enabled is off in the settings");
+  }
+  const SlamSystem* const present = system();
+  if (present == nullptr) return {};
+  const std::vector<SessionPlace> places = session_places(present->global_map(), session_count());
+  RobotMaps maps =
+      corrected && are_corrected(places)
+          ? make_robot_maps(map_occupancy(present->global_map(), session_count(), config_),
+                            joined_map(present->mapping().session_maps(), places), has_image_,
+                            MapMarking::kObstacles)
+          : make_robot_maps(present->occupancy_map(), present->static_map().cloud(), has_image_);
+  if (!maps.warning.empty()) warn(maps.warning);
+  return std::move(maps.grid);
 }
 
 std::vector<TrackedObject> LiveSlam::objects() {

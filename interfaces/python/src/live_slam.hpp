@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mms/core/trajectory.hpp"
+#include "mms/geometry/voxels/occupancy.hpp"
 #include "mms/mapping/static_map/map_cloud.hpp"
 #include "mms/pipeline/slam_system.hpp"
 #include "mms/run/results/run_map.hpp"
@@ -54,6 +55,11 @@ class LiveSlam {
   /// The static map of the present session; of a LiDAR with a normal for every point.
   /// @param corrected  by loop closure, with all sessions whose place is known, as result files
   MapCloud static_map(bool corrected);
+
+  /// The floor as result files have it; empty before the first frame.
+  /// @param corrected  by loop closure, as `static_map`
+  /// @throws std::runtime_error where the settings have no occupancy map
+  OccupancyGrid occupancy_grid(bool corrected);
 
   /// Writes the map file, once.
   /// @returns whether one was asked for, and had a keyframe

@@ -13,6 +13,7 @@
 #include "interfaces/python/src/numpy_arrays.hpp"
 #include "mms/geometry/depth_registration.hpp"
 #include "mms/geometry/parallel.hpp"
+#include "mms/io/results/occupancy_grid_io.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
 #include "mms/run/sensor_settings.hpp"
 #include "mms/segmentation/segmenters/mask_segmenter.hpp"
@@ -156,6 +157,10 @@ class Slam {
 
   bool save_map() {
     return with_warnings([this] { return slam_->save_map(); });
+  }
+
+  OccupancyGrid occupancy_grid(bool corrected) {
+    return with_warnings([&] { return slam_->occupancy_grid(corrected); });
   }
 
   LiveSlam& live() { return *slam_; }
@@ -319,12 +324,38 @@ void bind_map_cloud(py::module_& module) {
           "N int32: number of views that measured the point.");
 }
 
+void write_grid(const OccupancyGrid& grid, const Path& path) {
+  if (path.extension() != ".yaml") {
+    throw py::value_error("path: is " + path.string() + ", allowed: a name that ends in .yaml");
+  }
+  write_occupancy_grid(path, grid);
+}
+
+void bind_occupancy_grid(py::module_& module) {
+  py::class_<OccupancyGrid>(module, "OccupancyGrid",
+                            "Top view of the floor, for navigation. Its frame has its origin on\n"
+                            "the floor below the first sensor pose, z up, and x forward there.")
+      .def_property_readonly(
+          "cells", [](const py::object& g) { return view(g.cast<OccupancyGrid&>().cells, g); },
+          "rows x columns uint8, a view: 0 unknown, 1 free, 2 occupied. Cell (row, column) is at\n"
+          "y = origin[1] + row * resolution and x = origin[0] + column * resolution.")
+      .def_readonly("resolution", &OccupancyGrid::resolution, "Side of a cell [m].")
+      .def_readonly("origin", &OccupancyGrid::origin,
+                    "2: x and y of the corner of cell (0, 0) [m].")
+      .def_property_readonly(
+          "pose", [](const OccupancyGrid& g) { return matrix_of(g.T_world_map); },
+          "4 x 4, frame of the grid to that of trajectory and static map [m].")
+      .def("write", &write_grid, py::arg("path"),
+           "Writes NAME.yaml and NAME.pgm for map servers of ROS. Raises FileError.");
+}
+
 }  // namespace
 
 void bind_slam(py::module_& module) {
   bind_tracked_object(module);
   bind_result(module);
   bind_map_cloud(module);
+  bind_occupancy_grid(module);
   const py::call_guard<py::gil_scoped_release> no_gil;
   py::class_<Slam>(
       module, "Slam",
@@ -389,6 +420,9 @@ void bind_slam(py::module_& module) {
           py::arg("corrected") = true, no_gil,
           "MapCloud of what stands still. corrected: by loop closure, with all sessions whose\n"
           "place is known, as result files are. Else of the present session.")
+      .def("occupancy_grid", &Slam::occupancy_grid, py::arg("corrected") = true,
+           "OccupancyGrid of the floor, as map.yaml of mms run. corrected: as of static_map.\n"
+           "Raises RuntimeError where the setting occupancy.enabled is off.")
       .def(
           "objects", [](Slam& slam) { return slam.live().objects(); }, no_gil,
           "List of TrackedObject of the last frame, by id.");

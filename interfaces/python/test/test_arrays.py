@@ -165,3 +165,20 @@ def test_depth_of_a_camera_of_its_own_is_registered(frames, tmp_path):
         assert np.nanmin(points[:, 0]) == pytest.approx(left + 0.1, abs=0.03)
     with pytest.raises(ValueError, match="depth_camera: needs a camera"):
         mms_slam.Calibration(depth_camera=camera)
+
+
+def test_grid_of_the_floor(slam, frames, tmp_path):
+    assert slam.occupancy_grid().cells.shape == (0, 0)
+    for frame in frames:
+        slam.process_frame(frame)
+    grid = slam.occupancy_grid()
+    rows, columns = grid.cells.shape
+    assert grid.cells.dtype == np.uint8 and set(np.unique(grid.cells)) == {0, 1, 2}
+    end = grid.origin + grid.resolution * np.array([columns, rows])
+    assert grid.origin[0] < 2 and end[0] > 5 and grid.origin[1] < -1 and end[1] > 1  # ahead
+    assert np.abs(grid.pose[:3, 2] - [0, -1, 0]).max() < 0.1  # up, of a level camera
+    with pytest.raises(ValueError, match="path: .* ends in .yaml"):
+        grid.write(tmp_path / "map.pgm")
+    without = mms_slam.Slam(settings={"occupancy.enabled": False})
+    with pytest.raises(RuntimeError, match="occupancy.enabled is off"):
+        without.occupancy_grid()

@@ -33,6 +33,9 @@ def check_files(slam, folder, tmp_path):
     assert np.array_equal(made.colors, fields(written, "red", "green", "blue"))
     assert np.array_equal(made.normals, fields(written, "nx", "ny", "nz"))
     assert np.array_equal(made.observations, written["observations"])
+    slam.occupancy_grid().write(tmp_path / "map.yaml")
+    for name in ("map.yaml", "map.pgm"):
+        assert (tmp_path / name).read_bytes() == (folder / name).read_bytes()
 
 
 def test_frames_give_files_of_run(slam, frames, folder_of, tmp_path):

@@ -10,7 +10,6 @@
 #include <map>
 
 #include "mms/core/error.hpp"
-#include "mms/global_map/corrected_occupancy.hpp"
 #include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/config/config_yaml.hpp"
 #include "mms/io/image/image_io.hpp"
@@ -168,14 +167,8 @@ void write_corrected_robot_maps(const std::filesystem::path& folder, const Syste
     write_robot_maps(folder, system.occupancy_map(), system.static_map().cloud(), log.has_image());
     return;
   }
-  const GlobalMap& global = system.global_map();
-  const auto frame = session_of_map_frame(global, static_cast<std::uint32_t>(log.places().size()));
-  const auto shares_frame = [&](std::uint32_t session) {
-    return frame && global.share_frame(session, *frame);
-  };
-  const OccupancyMap occupancy =
-      corrected_occupancy(global.records(), global.poses(), shares_frame, config.occupancy,
-                          with_noise(config.static_map.surface, config.noise));
+  const auto sessions = static_cast<std::uint32_t>(log.places().size());
+  const OccupancyMap occupancy = map_occupancy(system.global_map(), sessions, config);
   write_robot_maps(folder, occupancy, map, log.has_image(), MapMarking::kObstacles);
 }
 
