@@ -45,14 +45,17 @@ py::dict trajectory_error(const Trajectory& reference, const Trajectory& estimat
   options.max_difference =
       std::chrono::round<Duration>(std::chrono::duration<double>(max_difference));
   if (rpe_delta) options.rpe_delta = {*rpe_delta, kUnits.at(rpe_unit)};
-  return dict_of(metric_values(evaluate_trajectory(reference, estimate, options)));
+  return dict_of(metric_values(
+      without_lock([&] { return evaluate_trajectory(reference, estimate, options); })));
 }
 
 py::dict map_error(const py::array& truth_static, const py::array& truth_dynamic,
                    const py::array& map, double radius) {
-  return dict_of(metric_values(evaluate_map(points_of(truth_static, "truth_static"),
-                                            points_of(truth_dynamic, "truth_dynamic"),
-                                            points_of(map, "map"), radius)));
+  const std::vector<Eigen::Vector3f> static_points = points_of(truth_static, "truth_static");
+  const std::vector<Eigen::Vector3f> dynamic_points = points_of(truth_dynamic, "truth_dynamic");
+  const std::vector<Eigen::Vector3f> map_points = points_of(map, "map");
+  return dict_of(metric_values(without_lock(
+      [&] { return evaluate_map(static_points, dynamic_points, map_points, radius); })));
 }
 
 Eigen::Matrix4d truth_transform(const Trajectory& truth, const Trajectory& estimate) {
@@ -63,15 +66,17 @@ Eigen::Matrix4d truth_transform(const Trajectory& truth, const Trajectory& estim
 
 py::dict object_error(const ObjectHistory& truth, const ObjectHistory& tracks,
                       const Trajectory& truth_poses, const Trajectory& estimate) {
-  const Eigen::Isometry3d T(truth_transform(truth_poses, estimate));
-  return dict_of(
-      metric_values(evaluate_tracking(truth, transformed(tracks, T.inverse()), truth_poses)));
+  return dict_of(metric_values(without_lock([&] {
+    const Eigen::Isometry3d T(truth_transform(truth_poses, estimate));
+    return evaluate_tracking(truth, transformed(tracks, T.inverse()), truth_poses);
+  })));
 }
 
 py::dict mask_error(const std::filesystem::path& truth, const std::filesystem::path& results) {
-  const SegmentationErrors errors =
-      segmentation_error(read_coco(truth), read_coco_results(results),
-                         {.truth_name = truth.string(), .results_name = results.string()});
+  const SegmentationErrors errors = without_lock([&] {
+    return segmentation_error(read_coco(truth), read_coco_results(results),
+                              {.truth_name = truth.string(), .results_name = results.string()});
+  });
   return dict_of(metric_values(errors.all));
 }
 

@@ -188,6 +188,7 @@ void bind_frame(py::module_& module) {
 }
 
 void bind_trajectory(py::module_& module) {
+  const py::call_guard<py::gil_scoped_release> no_gil;
   py::class_<Trajectory>(module, "Trajectory", "Poses of a sensor over time.")
       .def(py::init(&make_trajectory), py::arg("stamps"), py::arg("poses"),
            "stamps: N int64 [ns]. poses: N x 4 x 4 float64, sensor to world frame [m].\n"
@@ -196,14 +197,14 @@ void bind_trajectory(py::module_& module) {
       .def_property_readonly("stamps", &stamps_of, "N int64 [ns], a view.")
       .def_property_readonly("poses", &poses_of,
                              "N x 4 x 4 float64, sensor to world frame [m], a view.")
-      .def_static("read", &read_trajectory, py::arg("path"),
+      .def_static("read", &read_trajectory, py::arg("path"), no_gil,
                   "Reads a file of TUM or KITTI. Raises FileError, DataError.")
       .def(
           "write",
           [](const Trajectory& trajectory, const std::filesystem::path& path) {
             write_trajectory_tum(path, trajectory);
           },
-          py::arg("path"), "Writes a TUM file, without loss. Raises FileError.");
+          py::arg("path"), no_gil, "Writes a TUM file, without loss. Raises FileError.");
 }
 
 void bind_objects(py::module_& module) {
@@ -228,7 +229,8 @@ void bind_objects(py::module_& module) {
       .def_property_readonly(
           "stamp", [](const ObjectFrame& f) { return f.stamp.nanoseconds(); }, "[ns]")
       .def_readonly("objects", &ObjectFrame::objects, "List of ObjectBox, by id.");
-  module.def("read_objects", &read_objects, py::arg("path"),
+  const py::call_guard<py::gil_scoped_release> no_gil;
+  module.def("read_objects", &read_objects, py::arg("path"), no_gil,
              "Objects of a run (objects.json), a list of ObjectFrame.\n"
              "Raises FileError, DataError.");
 }

@@ -144,6 +144,25 @@ def test_other_threads_run_meanwhile(slam, frames):
     assert inside > len(frames)
 
 
+def test_other_threads_run_while_results_are_evaluated():
+    points = np.random.default_rng(0).uniform(-10, 10, (50000, 3)).astype(np.float32)
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.0005)
+
+    ticker = threading.Thread(target=tick)
+    ticker.start()
+    begin = time.perf_counter()
+    mms_slam.evaluate_map(points, points[:100], points)
+    end = time.perf_counter()
+    stop.set()
+    ticker.join()
+    assert sum(begin + 0.01 < moment < end - 0.01 for moment in list(ticks)) > 10
+
+
 def test_threads_take_turns(frames):
     """Frames of several threads, one after another; maps are read meanwhile."""
     slam = mms_slam.Slam(calibration=frames[0].calibration)
