@@ -13,7 +13,10 @@
 #include "interfaces/python/src/numpy_arrays.hpp"
 #include "mms/geometry/depth_registration.hpp"
 #include "mms/geometry/parallel.hpp"
+#include "mms/io/cloud/pcd_io.hpp"
+#include "mms/io/cloud/ply_io.hpp"
 #include "mms/io/results/occupancy_grid_io.hpp"
+#include "mms/run/results/result_files.hpp"
 #include "mms/run/segmenter/network_detector.hpp"
 #include "mms/run/sensor_settings.hpp"
 #include "mms/segmentation/segmenters/mask_segmenter.hpp"
@@ -306,6 +309,17 @@ void bind_result(py::module_& module) {
           "Duration of each stage [ms].");
 }
 
+void write_cloud(const MapCloud& cloud, const Path& path) {
+  const Path extension = path.extension();
+  if (extension != ".ply" && extension != ".pcd") {
+    throw py::value_error("path: is " + path.string() +
+                          ", allowed: a name that ends in .ply or .pcd");
+  }
+  const PointCloudFile file = file_of(cloud, MapFrame::kCamera);  // without intensities
+  if (extension == ".ply") return write_ply(path, file, {"units: m"});
+  write_pcd(path, file);
+}
+
 void bind_map_cloud(py::module_& module) {
   py::class_<MapCloud>(module, "MapCloud", "The static map as points. Its arrays are views.")
       .def("__len__", &MapCloud::size)
@@ -321,7 +335,9 @@ void bind_map_cloud(py::module_& module) {
       .def_property_readonly(
           "observations",
           [](const py::object& m) { return view(m.cast<MapCloud&>().observations, m); },
-          "N int32: number of views that measured the point.");
+          "N int32: number of views that measured the point.")
+      .def("write", &write_cloud, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+           "Writes a PLY or PCD file, by its name. Raises FileError.");
 }
 
 void write_grid(const OccupancyGrid& grid, const Path& path) {

@@ -14,6 +14,7 @@
 #include "mms/io/config/calibration_ranges.hpp"
 #include "mms/io/results/objects_io.hpp"
 #include "mms/io/results/trajectory_io.hpp"
+#include "mms/io/text/atomic_file.hpp"
 
 namespace mms::python {
 namespace {
@@ -233,6 +234,14 @@ void bind_objects(py::module_& module) {
   module.def("read_objects", &read_objects, py::arg("path"), no_gil,
              "Objects of a run (objects.json), a list of ObjectFrame.\n"
              "Raises FileError, DataError.");
+  module.def(
+      "write_objects",
+      [](const std::filesystem::path& path, const ObjectHistory& objects) {
+        write_file(path, objects_json(objects));
+      },
+      py::arg("path"), py::arg("objects"), no_gil,
+      "Writes objects as objects.json of a run, which has no frames without any.\n"
+      "objects: list of ObjectFrame, by stamp. Raises FileError.");
 }
 
 }  // namespace

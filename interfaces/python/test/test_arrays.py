@@ -93,6 +93,7 @@ def test_other_arguments_are_named(slam, frames):
          "times: has the shape (4,), allowed: (5,)"),
         (lambda: mms_slam.Trajectory(np.array([1]), np.zeros((1, 4, 4))),
          "poses: is no rigid transform"),
+        (lambda: slam.static_map().write("a.txt"), "path: is a.txt, allowed: a name that ends in"),
         (lambda: mms_slam.Calibration(depth_scale=0.0), "depth_scale: is 0, allowed"),
         (lambda: mms_slam.Calibration(depth_scale=float("inf")), "depth_scale: is inf"),
         (lambda: mms_slam.Calibration(max_depth=-3.0), "max_depth: is -3, allowed: 0.1 to 1000 m"),

@@ -33,6 +33,10 @@ def check_files(slam, folder, tmp_path):
     assert np.array_equal(made.colors, fields(written, "red", "green", "blue"))
     assert np.array_equal(made.normals, fields(written, "nx", "ny", "nz"))
     assert np.array_equal(made.observations, written["observations"])
+    made.write(tmp_path / "map.ply")
+    again = read_ply(tmp_path / "map.ply")
+    for name in again.dtype.names:
+        assert np.array_equal(again[name], written[name]), name
     slam.occupancy_grid().write(tmp_path / "map.yaml")
     for name in ("map.yaml", "map.pgm"):
         assert (tmp_path / name).read_bytes() == (folder / name).read_bytes()
@@ -108,6 +112,12 @@ def test_evaluation_gives_numbers_of_run(mms, folder_of, tmp_path):
         result = slam.process_frame(frame)
         tracks.append(mms_slam.ObjectFrame(result.stamp, [o.box for o in result.objects]))
     assert any(frame.objects for frame in tracks)
+    mms_slam.write_objects(tmp_path / "objects.json", tracks)
+    read = mms_slam.read_objects(tmp_path / "objects.json")
+    seen = [frame for frame in tracks if frame.objects]
+    assert [frame.stamp for frame in read] == [frame.stamp for frame in seen]
+    assert [[box.id for box in frame.objects] for frame in read] == [
+        [box.id for box in frame.objects] for frame in seen]
     assert [o.box.id for o in slam.objects()] == [o.box.id for o in result.objects]
     slam.finish()
     poses, truth = slam.trajectory(), recording.ground_truth
