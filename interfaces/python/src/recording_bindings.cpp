@@ -1,8 +1,10 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <utility>
 
 #include "interfaces/python/src/bindings.hpp"
@@ -70,11 +72,30 @@ class Recording {
   std::vector<std::string> warnings_;
 };
 
-std::unique_ptr<Recording> open_recording(const Path& path, const std::optional<Path>& masks,
-                                          const std::optional<Path>& calibration,
-                                          std::optional<std::array<double, 4>> intrinsics,
-                                          std::optional<double> depth_scale,
-                                          std::optional<double> rate) {
+BagTopicNames topics_of(const std::map<std::string, std::string>& given) {
+  BagTopicNames topics;
+  const std::map<std::string, std::string*> names = {
+      {"color", &topics.color}, {"depth", &topics.depth},
+      {"cloud", &topics.cloud}, {"camera_info", &topics.camera_info},
+      {"mask", &topics.mask},   {"wheels", &topics.wheels},
+      {"imu", &topics.imu},     {"truth", &topics.truth}};
+  for (const auto& [key, topic] : given) {
+    const auto name = names.find(key);
+    if (name == names.end()) {
+      throw py::value_error("topics: has the key '" + key +
+                            "', allowed: 'color', 'depth', 'cloud', 'camera_info', 'mask', "
+                            "'wheels', 'imu', 'truth'");
+    }
+    *name->second = topic;
+  }
+  return topics;
+}
+
+std::unique_ptr<Recording> open_recording(
+    const Path& path, const std::optional<Path>& masks, const std::optional<Path>& calibration,
+    std::optional<std::array<double, 4>> intrinsics, std::optional<double> depth_scale,
+    std::optional<double> rate, const std::map<std::string, std::string>& topics,
+    const std::optional<Path>& wheels, const std::optional<Path>& imu) {
   SourceOptions options;
   options.masks = masks.value_or(Path());
   options.camera = {calibration.value_or(Path()), intrinsics, depth_scale};
@@ -82,6 +103,8 @@ std::unique_ptr<Recording> open_recording(const Path& path, const std::optional<
     throw py::value_error("rate: is " + std::to_string(*rate) + ", allowed: 0.2 to 1000");
   }
   options.rate = rate;
+  options.topics = topics_of(topics);
+  options.motion = {wheels.value_or(Path()), imu.value_or(Path())};
   return std::make_unique<Recording>(path, options);
 }
 
@@ -110,14 +133,19 @@ void bind_recording(py::module_& module) {
   py::class_<Recording>(module, "Recording",
                         "A recording as an iterator of Frame. Frames that are damaged, or repeat\n"
                         "an image or scan of the frame before, are left out with a warning.")
-      .def(py::init(&open_recording), py::arg("path"), py::kw_only(), py::arg("masks") = py::none(),
-           py::arg("calibration") = py::none(), py::arg("intrinsics") = py::none(),
-           py::arg("depth_scale") = py::none(), py::arg("rate") = py::none(),
-           "path: folder, bag, capture, or simulation such as 'sim:crowd', as for mms run.\n"
-           "masks: folder of label images in place of the recording's.\n"
-           "calibration: file, intrinsics: fx fy cx cy [px], depth_scale: units per meter; these\n"
-           "replace the recording's. rate: frames a second of a recording without time stamps\n"
-           "[Hz]. Raises DataError, FileError, ConfigError.")
+      .def(
+          py::init(&open_recording), py::arg("path"), py::kw_only(), py::arg("masks") = py::none(),
+          py::arg("calibration") = py::none(), py::arg("intrinsics") = py::none(),
+          py::arg("depth_scale") = py::none(), py::arg("rate") = py::none(),
+          py::arg("topics") = py::dict(), py::arg("wheels") = py::none(),
+          py::arg("imu") = py::none(),
+          "path: folder, bag, capture, or simulation such as 'sim:crowd', as for mms run.\n"
+          "masks: folder of label images in place of the recording's.\n"
+          "calibration: file, intrinsics: fx fy cx cy [px], depth_scale: units per meter; these\n"
+          "replace the recording's. rate: frames a second of a recording without time stamps\n"
+          "[Hz]. topics: of a bag, by 'color', 'depth', 'cloud', 'camera_info', 'mask', 'wheels',\n"
+          "'imu' and 'truth', where type and name do not tell. wheels, imu: files in place of the\n"
+          "recording's, or 'none'. Raises DataError, FileError, ConfigError, ValueError.")
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &next_frame, "The next Frame. Raises ValueError after close().")
       .def("__len__", from_source<std::size_t>([](FrameSource& s) { return s.size(); }))

@@ -118,6 +118,22 @@ def test_rate_is_of_recordings_without_time_stamps(mms, tmp_path):
     assert stamps == [0, 50_000_000, 100_000_000]
 
 
+def test_topics_of_bags_and_files_of_wheels(mms, tmp_path):
+    bag = tmp_path / "two.bag"
+    mms("convert", "sim:static?frames=3&width=160", "-o", bag)
+    topic = next(word.strip(",") for line in mms("info", bag).splitlines() for word in line.split()
+                 if word.startswith("/") and "depth" in word)
+    assert len(list(mms_slam.Recording(bag, topics={"depth": topic}))) == 3
+    with pytest.raises(mms_slam.Error, match="/other"):
+        mms_slam.Recording(bag, topics={"depth": "/other"})
+    with pytest.raises(ValueError, match="topics: has the key 'colour', allowed: 'color', "):
+        mms_slam.Recording(bag, topics={"colour": "/color"})
+    mms("convert", "sim:static?frames=3&width=160", "-o", tmp_path / "sim")
+    with pytest.raises(mms_slam.Error, match="wheels.csv"):
+        mms_slam.Recording(tmp_path / "sim", wheels=tmp_path / "wheels.csv")
+    assert len(list(mms_slam.Recording(tmp_path / "sim", wheels="none", imu="none"))) == 3
+
+
 def test_other_threads_run_meanwhile(slam, frames):
     """A thread that counts gets on while frames are processed: a held GIL would stop it."""
     longest, stop = [], threading.Event()
