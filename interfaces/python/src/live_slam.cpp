@@ -1,14 +1,52 @@
 #include "interfaces/python/src/live_slam.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "mms/dataset/source/motion_files.hpp"
 #include "mms/geometry/noise_measurement.hpp"
 #include "mms/run/results/result_files.hpp"
 #include "mms/run/results/robot_maps.hpp"
 
 namespace mms::python {
+namespace {
+
+/// @param last  stamp of the last sample so far
+template <class Sample>
+void check_order(const std::vector<Sample>& samples, std::optional<Timestamp> last) {
+  for (const Sample& sample : samples) {
+    if (last && sample.stamp < *last) {
+      throw std::invalid_argument("stamps: has " + std::to_string(sample.stamp.nanoseconds()) +
+                                  ", allowed: not less than that before, " +
+                                  std::to_string(last->nanoseconds()));
+    }
+    last = sample.stamp;
+  }
+}
+
+template <class Sample>
+void add_later(const std::vector<Sample>& samples, std::optional<Timestamp>& last,
+               std::vector<Sample>& all) {
+  for (const Sample& sample : samples) {
+    if (last == sample.stamp) continue;
+    all.push_back(sample);
+    last = sample.stamp;
+  }
+}
+
+/// Moves the samples up to a time out of all.
+template <class Sample>
+std::vector<Sample> take_until(std::vector<Sample>& all, Timestamp end) {
+  const auto rest = std::find_if(all.begin(), all.end(),
+                                 [end](const Sample& sample) { return sample.stamp > end; });
+  std::vector<Sample> taken(all.begin(), rest);
+  all.erase(all.begin(), rest);
+  return taken;
+}
+
+}  // namespace
 
 /// Made with the first frame, whose noise and calibration it needs.
 SlamSystem& LiveSlam::make_system(const Calibration* calibration) {
@@ -37,12 +75,30 @@ SlamSystem* LiveSlam::system() {
   return &*system_;
 }
 
-FrameResult LiveSlam::process_locked(const Frame& frame) {
+void LiveSlam::check_stamp(const Frame& frame) const {
   if (!trajectory_.empty() && frame.stamp <= trajectory_.back().stamp) {
     throw std::invalid_argument("stamp: is " + std::to_string(frame.stamp.nanoseconds()) +
                                 ", allowed: more than that of the frame before, " +
                                 std::to_string(trajectory_.back().stamp.nanoseconds()));
   }
+}
+
+void LiveSlam::attach_motion(Frame& frame) {
+  const Timestamp end = motion_end(frame);
+  frame.motion.wheels = take_until(motion_.wheels, end);
+  frame.motion.imu = take_until(motion_.imu, end);
+}
+
+void LiveSlam::add_motion(const MotionSamples& samples) {
+  const std::scoped_lock lock(mutex_);
+  check_order(samples.wheels, last_wheels_);
+  check_order(samples.imu, last_imu_);
+  add_later(samples.wheels, last_wheels_, motion_.wheels);
+  add_later(samples.imu, last_imu_, motion_.imu);
+}
+
+FrameResult LiveSlam::process_locked(const Frame& frame) {
+  check_stamp(frame);
   if (!system_ && config_.measure_depth_noise) {
     config_.noise.depth = measured_noise(config_.noise.depth, frame.depth);
   }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "mms/core/frame.hpp"
+#include "mms/core/motion_samples.hpp"
 #include "mms/core/trajectory.hpp"
 #include "mms/geometry/voxels/occupancy.hpp"
 #include "mms/mapping/static_map/map_cloud.hpp"
@@ -35,6 +37,8 @@ class LiveSlam {
   FrameResult fill_and_process(const Fill& fill) {
     const std::scoped_lock lock(mutex_);
     fill(frame_);
+    check_stamp(frame_);
+    attach_motion(frame_);
     return process_locked(frame_);
   }
 
@@ -43,6 +47,11 @@ class LiveSlam {
     const std::scoped_lock lock(mutex_);
     return process_locked(frame);
   }
+
+  /// Adds measurements for the frames of `fill_and_process` that follow. Those that repeat a stamp
+  /// are left out.
+  /// @throws std::invalid_argument for a stamp that is less than that before
+  void add_motion(const MotionSamples& samples);
 
   /// Completes the maps after the last frame. Does nothing before the first one.
   void finish();
@@ -72,6 +81,8 @@ class LiveSlam {
   std::vector<TrackedObject> objects();
 
  private:
+  void check_stamp(const Frame& frame) const;
+  void attach_motion(Frame& frame);
   FrameResult process_locked(const Frame& frame);
   SlamSystem& make_system(const Calibration* calibration);
   SlamSystem* system();
@@ -87,6 +98,9 @@ class LiveSlam {
   bool has_map_ = false;  ///< whether the earlier map, if any, was given to the system
   std::vector<std::string> warnings_;
   Frame frame_;
+  MotionSamples motion_;  ///< since that of `frame_`
+  std::optional<Timestamp> last_wheels_;
+  std::optional<Timestamp> last_imu_;
   Trajectory trajectory_;
   struct LocalizedFrame {
     std::uint32_t session = 0;

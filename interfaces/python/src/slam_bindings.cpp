@@ -158,6 +158,39 @@ class Slam {
     return with_warnings([&] { return slam_->process(frame); });
   }
 
+  void add_wheels(const Trajectory& odometry) {
+    MotionSamples samples;
+    for (const StampedPose& pose : odometry) {
+      samples.wheels.push_back(
+          {pose.stamp, Transform<Odometer, Base>(pose.T_world_sensor.isometry())});
+    }
+    without_lock([&] { slam_->add_motion(samples); });
+  }
+
+  void add_gyroscope(const py::array& given_stamps, const py::array& given_rates,
+                     const std::optional<py::array>& given_accelerations) {
+    const py::array stamps = packed(given_stamps);
+    const py::array rates = packed(given_rates);
+    const auto* nanoseconds = data_of<std::int64_t>(stamps, "stamps", "int64", {-1});
+    const Shape shape = {stamps.shape(0), 3};
+    const auto* rate = data_of<double>(rates, "rates", "float64", shape);
+    const std::optional<py::array> accelerations =
+        given_accelerations ? std::optional(packed(*given_accelerations)) : std::nullopt;
+    const double* acceleration =
+        accelerations ? data_of<double>(*accelerations, "accelerations", "float64", shape)
+                      : nullptr;
+    MotionSamples samples;
+    for (py::ssize_t i = 0; i < stamps.shape(0); ++i) {
+      ImuSample& sample = samples.imu.emplace_back();
+      sample.stamp = Timestamp(nanoseconds[i]);
+      sample.rate = Eigen::Vector3d(rate + 3 * i);
+      if (acceleration != nullptr) sample.acceleration = Eigen::Vector3d(acceleration + 3 * i);
+      if (sample.rate.allFinite() && sample.acceleration.allFinite()) continue;
+      throw py::value_error("rates, accelerations: row " + std::to_string(i) + " is not finite");
+    }
+    without_lock([&] { slam_->add_motion(samples); });
+  }
+
   bool save_map() {
     return with_warnings([this] { return slam_->save_map(); });
   }
@@ -417,6 +450,16 @@ void bind_slam(py::module_& module) {
       .def("process_frame", &Slam::process_frame, py::arg("frame"),
            "Localizes a frame of a recording and adds it to the maps, without a copy.\n"
            "Raises ValueError for a stamp that is not later, DataError for sizes that differ.")
+      .def("add_wheels", &Slam::add_wheels, py::arg("odometry"),
+           "Adds dead reckoning of wheels, as of nav_msgs/Odometry, for the next calls of process\n"
+           "and process_scan. odometry: Trajectory, wheels to odometer frame, later than before.\n"
+           "The mounting is in the file of Calibration.read. Raises ValueError.")
+      .def("add_gyroscope", &Slam::add_gyroscope, py::arg("stamps"), py::arg("rates"),
+           py::arg("accelerations") = py::none(),
+           "Adds measurements of a gyroscope for the next calls of process and process_scan.\n"
+           "stamps: N int64 [ns], later than before. rates: N x 3 float64 [rad/s].\n"
+           "accelerations: N x 3 float64 [m/s^2], or None.\n"
+           "The mounting is in the file of Calibration.read. Raises ValueError.")
       .def(
           "finish", [](Slam& slam) { slam.live().finish(); }, no_gil,
           "Completes the maps after the last frame.")

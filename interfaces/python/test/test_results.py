@@ -81,6 +81,53 @@ def test_scans_give_files_of_run(folder_of, tmp_path):
     check_files(slam, folder_of(LIDAR_SCENE, "--segmenter", "masks"), tmp_path)
 
 
+def poses_of(rows):
+    """Of lines "stamp x y z qx qy qz qw"."""
+    poses = np.tile(np.eye(4), (len(rows), 1, 1))
+    x, y, z, w = np.array([row[4:8] for row in rows], float).T
+    poses[:, :3, 3] = np.array([row[1:4] for row in rows], float)
+    poses[:, :3, :3] = np.stack([
+        1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
+        2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+        2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], 1).reshape(-1, 3, 3)
+    return poses
+
+
+def test_wheels_and_gyroscope_count_as_those_of_a_recording(mms, tmp_path):
+    folder = tmp_path / "sim"
+    mms("convert", "sim:stop_and_go?frames=20&width=320&wheels.enabled=true&imu.enabled=true", "-o",
+        folder)
+
+    def read(name):
+        rows = [line.split(",") for line in (folder / name).read_text().splitlines()[1:]]
+        return np.array([int(row[0].replace(".", "")) for row in rows]), rows
+
+    def run(recording, process, slam):
+        for frame in recording:
+            process(slam, frame)
+        return slam.trajectory().poses
+
+    def by_arrays(slam, frame):
+        slam.process(frame.color, frame.depth, frame.stamp)
+
+    recording = mms_slam.Recording(folder)
+    calibration = recording.calibration
+    expected = run(recording, mms_slam.Slam.process_frame, mms_slam.Slam(segmenter="none"))
+    slam = mms_slam.Slam(calibration=calibration, segmenter="none")
+    stamps, rows = read("odometry.csv")
+    slam.add_wheels(mms_slam.Trajectory(stamps, poses_of(rows)))
+    stamps, rows = read("imu.csv")
+    numbers = np.array([row[1:] for row in rows], float)
+    slam.add_gyroscope(stamps, numbers[:, :3], numbers[:, 3:])
+    with pytest.raises(ValueError, match="stamps: has 0, allowed: not less than"):
+        slam.add_gyroscope(np.array([0]), np.zeros((1, 3)))
+    found = run(mms_slam.Recording(folder), by_arrays, slam)
+    without = run(mms_slam.Recording(folder), by_arrays,
+                  mms_slam.Slam(calibration=calibration, segmenter="none"))
+    assert np.allclose(found, expected, atol=1e-6)
+    assert not np.allclose(without, expected, atol=1e-6)
+
+
 def test_masks_matter(slam, frames):
     masked = [slam.process(f.color, f.depth, f.stamp, f.masks).dynamic_share for f in frames[:3]]
     bare = mms_slam.Slam(calibration=frames[0].calibration)
