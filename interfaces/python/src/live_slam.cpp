@@ -97,6 +97,11 @@ void LiveSlam::add_motion(const MotionSamples& samples) {
   add_later(samples.imu, last_imu_, motion_.imu);
 }
 
+void LiveSlam::expect_place(const Transform<Global, Sensor>& T_global_sensor) {
+  const std::scoped_lock lock(mutex_);
+  expected_place_ = T_global_sensor;
+}
+
 FrameResult LiveSlam::process_locked(const Frame& frame) {
   check_stamp(frame);
   if (!system_ && config_.measure_depth_noise) {

@@ -39,6 +39,7 @@ class LiveSlam {
     fill(frame_);
     check_stamp(frame_);
     attach_motion(frame_);
+    frame_.expected_place = std::exchange(expected_place_, std::nullopt);
     return process_locked(frame_);
   }
 
@@ -52,6 +53,9 @@ class LiveSlam {
   /// are left out.
   /// @throws std::invalid_argument for a stamp that is less than that before
   void add_motion(const MotionSamples& samples);
+
+  /// Searches the place in the map around a given one from the next frame of `fill_and_process` on.
+  void expect_place(const Transform<Global, Sensor>& T_global_sensor);
 
   /// Completes the maps after the last frame. Does nothing before the first one.
   void finish();
@@ -101,6 +105,7 @@ class LiveSlam {
   MotionSamples motion_;  ///< since that of `frame_`
   std::optional<Timestamp> last_wheels_;
   std::optional<Timestamp> last_imu_;
+  std::optional<Transform<Global, Sensor>> expected_place_;  ///< of the next frame
   Trajectory trajectory_;
   struct LocalizedFrame {
     std::uint32_t session = 0;

@@ -191,6 +191,11 @@ class Slam {
     without_lock([&] { slam_->add_motion(samples); });
   }
 
+  void expect_place(const Eigen::Matrix4d& pose) {
+    const Transform<Global, Sensor> T_global_sensor(isometry_of(pose, "pose"));
+    without_lock([&] { slam_->expect_place(T_global_sensor); });
+  }
+
   bool save_map() {
     return with_warnings([this] { return slam_->save_map(); });
   }
@@ -460,6 +465,10 @@ void bind_slam(py::module_& module) {
            "stamps: N int64 [ns], later than before. rates: N x 3 float64 [rad/s].\n"
            "accelerations: N x 3 float64 [m/s^2], or None.\n"
            "The mounting is in the file of Calibration.read. Raises ValueError.")
+      .def("expect_place", &Slam::expect_place, py::arg("pose"),
+           "Says where the sensor is, for the next call of process or process_scan: its place in\n"
+           "the map is searched for around it. Where it seemed known, a session begins anew.\n"
+           "pose: 4 x 4, sensor to the frame of the map [m]. Raises ValueError.")
       .def(
           "finish", [](Slam& slam) { slam.live().finish(); }, no_gil,
           "Completes the maps after the last frame.")

@@ -2,6 +2,7 @@
 import contextlib
 import sqlite3
 
+import numpy as np
 import pytest
 
 import mms_slam
@@ -58,6 +59,17 @@ def test_maps_of_another_camera_are_named_after_a_look_at_the_empty_map(tmp_path
     assert len(slam.static_map()) == 0
     with pytest.warns(UserWarning, match="the map is of another camera"):
         slam.process_frame(next(recording))
+
+
+def test_a_given_place_is_searched_anew(slam, frames):
+    def process(frame):
+        return slam.process(frame.color, frame.depth, frame.stamp, frame.masks)
+
+    assert [process(frame).session for frame in frames[:12]] == [0] * 12
+    with pytest.raises(ValueError, match="pose: is no rigid transform"):
+        slam.expect_place(np.zeros((4, 4)))
+    slam.expect_place(slam.trajectory().poses[-1])
+    assert [process(frame).session for frame in frames[12:15]] == [1] * 3
 
 
 def test_no_map_is_saved_unless_one_is_named(tmp_path):
