@@ -34,11 +34,12 @@ using StageTimes = std::array<double, kStageCount>;
 struct FrameResult {
   OdometryEstimate odometry;
   LabeledCloud cloud;
-  std::uint32_t session = 0;          ///< of the run; one that begins after a loss has the next
-  bool begins_anew = false;           ///< the first scan was skewed: maps begin with this one
-  bool keyframe = false;              ///< of the static map
-  bool global_keyframe = false;       ///< of the global map
-  bool after_lost = false;            ///< frames since the last global keyframe were lost
+  std::uint32_t session = 0;     ///< of the run; one that begins after a loss has the next
+  bool begins_anew = false;      ///< the first scan was skewed: maps begin with this one
+  bool keyframe = false;         ///< of the static map
+  bool global_keyframe = false;  ///< of the global map
+  /// Of a global keyframe: frames since the last one were lost, or it is at a recognized place.
+  bool after_lost = false;
   bool wants_relocalization = false;  ///< lost before, and its place is not recognized yet
   bool has_pose_in_doubt = false;     ///< of these: the odometry found a pose
   MapCorrection correction;           ///< known to loop closure so far

@@ -206,6 +206,8 @@ FrameResult Localization::relocate(FrameResult lost, const Relocalization& place
         odometry_.relocate(lost.odometry.stamp, place.T_world_sensor, place.surroundings);
     robot_body_.restart();
     lost.relocalized = true;
+    // The odometry measured no motion to there, though it may have had a pose.
+    lost_since_global_keyframe_ = true;
   }
   lost_frames_ = 0;
   is_in_doubt_ = is_lost_ = false;

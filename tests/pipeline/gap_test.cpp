@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mms/pipeline/slam_system.hpp"
@@ -49,6 +50,25 @@ TEST(Gap, OfSecondsMakesTheSensorLostWhereItsPoseLooksWrong) {
   EXPECT_EQ(misled.after, std::vector<Status>(kAfter, Status::kTracking));
   EXPECT_GT(misled.error, 1.0) << "else this shows nothing";
   EXPECT_EQ(drive("warehouse_loop", true).after, std::vector<Status>(kAfter, Status::kLost));
+}
+
+TEST(Gap, IsNoMotionByOdometryIfAnotherPlaceIsRecognizedAfterIt) {
+  SceneConfig scene_settings = scene_config("warehouse_loop");
+  scene_settings.seed = 201;
+  SimulatedScene scene(scene_settings);
+  SlamSystem system(SystemConfig{}, std::make_unique<MaskSegmenter>());
+  for (int i = 0; i < kBefore; ++i) system.process(scene.render(kFirst + i).frame);
+  const Frame frame = scene.render(kFirst + kBefore + kMissing).frame;
+  FrameResult lost = system.localize(system.perceive(frame, system.segment(frame)));
+  ASSERT_TRUE(lost.wants_relocalization);
+  ASSERT_TRUE(lost.has_pose_in_doubt) << "else the frame is lost in any case";
+  Relocalization place;
+  place.T_world_sensor =
+      Transform<World, Sensor>(Eigen::Isometry3d(Eigen::Translation3d(20.0, 0.0, 0.0)));
+  const FrameResult found = system.relocate(std::move(lost), place);
+  EXPECT_TRUE(found.relocalized);
+  EXPECT_TRUE(found.global_keyframe);
+  EXPECT_TRUE(found.after_lost) << "the pose graph would trust a motion of 20 m";
 }
 
 TEST(Gap, OfASensorAtRestIsBridged) {
