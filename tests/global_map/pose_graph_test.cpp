@@ -1,6 +1,7 @@
 // Optimization of a pose graph, and the correction over time that follows from it.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -146,6 +147,36 @@ TEST(PoseGraph, ChainCovarianceIsThatOfManySampledChains) {
     EXPECT_NEAR(std::sqrt(covariance(k, k)), std::sqrt(sampled(k, k)),
                 0.05 * std::sqrt(sampled(k, k)));
   }
+}
+
+TEST(PoseGraph, ChainCovarianceIsThatOfItsOwnEdgesAlone) {
+  Vector6d step;
+  step << 0.3, 0.1, -0.2, 0.02, 0.3, -0.1;
+  PoseGraph whole;
+  PoseGraph part;
+  for (int i = 0; i < 2000; ++i) {
+    const Matrix6d noise = i < 1990 ? information(3.0, 1.0) : information(0.01, 0.002);
+    whole.add_node(se3::exp(step), noise, i == 5);
+    if (i >= 1990) part.add_node(se3::exp(step), noise);
+  }
+  const Matrix6d expected = part.chain_covariance(0, 10);
+  EXPECT_TRUE(whole.chain_covariance(1990, 2000).isApprox(expected, 1e-3));
+  EXPECT_TRUE(whole.chain_covariance(700, 700).isZero());
+}
+
+TEST(PoseGraph, LongChainsTakeNoMoreTimeThanShortOnes) {
+  Isometry step = Isometry::Identity();
+  step.translation().x() = 0.25;
+  PoseGraph graph;
+  for (int i = 0; i < 10000; ++i) graph.add_node(step, information(0.01, 0.002));
+  const auto start = std::chrono::steady_clock::now();
+  double sum = 0.0;
+  for (std::size_t first = 0; first < 1000; ++first) {
+    sum += graph.chain_covariance(first, 10000)(0, 0);
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_GT(sum, 0.0);
+  EXPECT_LT(seconds.count(), 2.0) << "a keyframe asks for several; by edges it takes 10 s or more";
 }
 
 TEST(OdometryNoise, GrowsWithTheMotionAndWithoutLocalization) {

@@ -44,7 +44,7 @@ void LoopGraph::add_node(const KeyframeRecord& record) {
   if (is_new_session) {
     // Its world is that of the map until a loop shows where it is.
     graph_.add_node(graph_.poses().back().inverse() * record.T_world_sensor.isometry(),
-                    unknown_motion_information());
+                    unknown_motion_information(), true);
     path_.push_back(path_.back() + min_path_);
     return;
   }

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <memory>
 
@@ -80,10 +81,22 @@ double squared_deviation(const PoseEdge& edge, const Eigen::Isometry3d& T_a_b) {
   return error.dot(edge.information * error);
 }
 
-void PoseGraph::add_node(const Eigen::Isometry3d& motion, const Matrix6d& information) {
+void PoseGraph::add_node(const Eigen::Isometry3d& motion, const Matrix6d& information,
+                         bool begins_chain) {
   const std::size_t last = poses_.size() - 1;
   poses_.push_back(poses_[last] * motion);
   edges_.push_back({last, last + 1, motion, information});
+  if (begins_chain) {
+    ChainNode node;
+    node.first = last + 1;
+    chain_.push_back(node);
+    return;
+  }
+  ChainNode node = chain_.back();
+  node.T_first_node = node.T_first_node * motion;
+  const Matrix6d moved = se3::adjoint(node.T_first_node);
+  node.covariance += moved * information.inverse() * moved.transpose();
+  chain_.push_back(node);
 }
 
 void PoseGraph::move(std::size_t first, std::size_t end, const Eigen::Isometry3d& T) {
@@ -91,14 +104,10 @@ void PoseGraph::move(std::size_t first, std::size_t end, const Eigen::Isometry3d
 }
 
 Matrix6d PoseGraph::chain_covariance(std::size_t first, std::size_t last) const {
-  Matrix6d covariance = Matrix6d::Zero();
-  for (std::size_t i = first; i < last; ++i) {
-    const PoseEdge& edge = edges_[i];
-    // The covariance so far is of node i; the edge carries it over to node i + 1.
-    const Matrix6d moved = se3::adjoint(edge.T_a_b.inverse());
-    covariance = moved * covariance * moved.transpose() + edge.information.inverse();
-  }
-  return covariance;
+  assert(first <= last && chain_[first].first == chain_[last].first);
+  // What the edges between them add, seen from the last node.
+  const Matrix6d moved = se3::adjoint(chain_[last].T_first_node.inverse());
+  return moved * (chain_[last].covariance - chain_[first].covariance) * moved.transpose();
 }
 
 std::vector<PoseEdge> PoseGraph::solve() {

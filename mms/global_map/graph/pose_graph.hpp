@@ -28,12 +28,14 @@ class PoseGraph {
  public:
   /// Adds the first node.
   explicit PoseGraph(const Eigen::Isometry3d& first = Eigen::Isometry3d::Identity())
-      : poses_{first} {}
+      : poses_{first}, chain_(1) {}
 
   /// Adds a node after the last one, with an edge between them.
   /// @param motion       pose of the new node in the frame of the last one
   /// @param information  of `motion`, as that of `PoseEdge`
-  void add_node(const Eigen::Isometry3d& motion, const Matrix6d& information);
+  /// @param begins_chain  whether the motion is not known: `chain_covariance` does not cross it
+  void add_node(const Eigen::Isometry3d& motion, const Matrix6d& information,
+                bool begins_chain = false);
 
   /// Moves nodes whose place relative to the others was unknown.
   /// @param first, end  of the nodes
@@ -60,13 +62,22 @@ class PoseGraph {
   const std::vector<PoseEdge>& loops() const { return loops_; }
 
   /// Covariance of the pose of a node relative to an earlier one by the edges between them, of a
-  /// right perturbation of the later one.
+  /// right perturbation of the later one. Takes the same time for any number of them.
+  /// @param first, last  of one chain
   Matrix6d chain_covariance(std::size_t first, std::size_t last) const;
 
  private:
+  /// A node relative to the first one of its chain, by the edges between them.
+  struct ChainNode {
+    std::size_t first = 0;
+    Eigen::Isometry3d T_first_node = Eigen::Isometry3d::Identity();
+    Matrix6d covariance = Matrix6d::Zero();  // of a left perturbation, as seen from `first`
+  };
+
   void minimize();
 
   std::vector<Eigen::Isometry3d> poses_;
+  std::vector<ChainNode> chain_;  // by node
   std::vector<PoseEdge> edges_;
   std::vector<PoseEdge> loops_;
   std::size_t fixed_ = 1;  ///< first nodes that do not move
