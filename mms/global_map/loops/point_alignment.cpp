@@ -1,5 +1,6 @@
 #include "mms/global_map/loops/point_alignment.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -10,8 +11,16 @@
 namespace mms {
 namespace {
 
-/// [-]: samples of three pairs. Source: finds three inliers among 20 % with a probability of 0.98.
-constexpr int kSamples = 500;
+/// [-]: samples of three pairs, at least. Source: finds three inliers among 20 % with a probability
+/// of 0.98.
+constexpr double kMinSamples = 500.0;
+
+/// [-]: the same, at most. Source: as `kMinSamples`, among 8 %; 99 of 100 cost three distances.
+constexpr double kMaxSamples = 8000.0;
+
+/// [-]: samples that have three inliers, on average. Source: with four, one has them with the
+/// probability of `kMinSamples`.
+constexpr double kHits = 4.0;
 
 /// [-]: standard deviations up to which a pair is an inlier. Source: three-sigma rule.
 constexpr double kInlierSigmas = 3.0;
@@ -68,6 +77,14 @@ bool is_triangle(const PointPairs& pairs, const std::array<std::size_t, 3>& samp
   return true;
 }
 
+/// Samples of three pairs that are enough, if the inliers so far are all.
+int samples_for(std::size_t inliers, std::size_t pairs) {
+  const double share = static_cast<double>(inliers) / static_cast<double>(pairs);
+  const double three = share * share * share;  // probability that all three are inliers
+  if (three * kMaxSamples <= kHits) return static_cast<int>(kMaxSamples);
+  return static_cast<int>(std::max(kHits / three, kMinSamples));
+}
+
 }  // namespace
 
 std::vector<std::size_t> inliers_of(const PointPairs& pairs, const Eigen::Isometry3d& T_a_b) {
@@ -83,7 +100,7 @@ std::optional<PointAlignment> align_points(const PointPairs& pairs, std::uint64_
   if (pairs.a.size() < kMinInliers) return std::nullopt;
   RandomStream random(seed);
   PointAlignment best;
-  for (int s = 0; s < kSamples; ++s) {
+  for (int s = 0; s < samples_for(best.inliers.size(), pairs.a.size()); ++s) {
     const std::array<std::size_t, 3> sample = {
         random.below(pairs.a.size()), random.below(pairs.a.size()), random.below(pairs.a.size())};
     if (!is_triangle(pairs, sample)) continue;
