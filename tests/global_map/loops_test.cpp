@@ -12,6 +12,7 @@
 #include "mms/global_map/keyframes/keyframe_view.hpp"
 #include "mms/global_map/keyframes/view_texture.hpp"
 #include "mms/global_map/loops/keypoint_matching.hpp"
+#include "mms/global_map/loops/lost_verification.hpp"
 #include "mms/global_map/loops/place_matching.hpp"
 #include "mms/global_map/loops/point_alignment.hpp"
 
@@ -146,6 +147,29 @@ TEST(PlaceMatching, FindsSimilarKeypointsAtTheirPlacesAlone) {
   EXPECT_TRUE(alignment.T_a_b.isApprox(pose, 1e-5));
   EXPECT_TRUE(match_at_place(place, {}, pose, DepthNoise{}).frames.empty());
   EXPECT_TRUE(match_at_place({}, frame, pose, DepthNoise{}).frames.empty());
+}
+
+/// Most of what the frame shows is in the keyframes around the candidate.
+TEST(LostFrame, EightPairsWithTheCandidateAreEnoughForAFirstPose) {
+  std::deque<KeyframeRecord> records(7);
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    records[k].keypoints = some_keypoints(60, k + 1);
+  }
+  const std::vector<Eigen::Isometry3d> poses(records.size(), Eigen::Isometry3d::Identity());
+  const Eigen::Isometry3d pose = se3::exp(0.1 * Vector6d::Ones());
+  KeyframeRecord frame;
+  for (const KeyframeRecord& record : records) {
+    for (std::size_t i = 0; i < 12; ++i) {
+      const Eigen::Vector3d point = record.keypoints.points[i].cast<double>();
+      frame.keypoints.descriptors.push_back(record.keypoints.descriptors[i]);
+      frame.keypoints.points.emplace_back((pose.inverse() * point).cast<float>());
+      frame.keypoints.pixels.emplace_back(0.5F, 0.5F);
+    }
+  }
+  const LostFrameVerifier verifier(LoopConfig{}, RegistrationConfig{}, DepthNoise{});
+  const Loop loop = verifier.verify(records, poses, 3, frame);
+  EXPECT_GE(loop.inliers, 80);
+  EXPECT_EQ(loop.outcome, LoopOutcome::kNotSpread);  // all are at one pixel
 }
 
 constexpr CameraIntrinsics kCamera{300.0, 300.0, 159.5, 119.5, 320, 240, {}};

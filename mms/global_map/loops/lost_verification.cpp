@@ -45,6 +45,13 @@ constexpr double kMaxLostContradiction = 0.001;
 /// poses are right, so that it is noise; initial choice.
 constexpr double kNoiseFactor = 2.0;
 
+/// Settings by which `kMinSeeds` pairs are enough for a first pose, similar ones and those that
+/// agree.
+LoopConfig for_seeds(LoopConfig config) {
+  config.min_inliers = std::min(config.min_inliers, kMinSeeds);
+  return config;
+}
+
 /// Distance and angle of two poses [m, rad].
 double view_distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   const Eigen::Isometry3d T = a.inverse() * b;
@@ -52,6 +59,14 @@ double view_distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 }
 
 }  // namespace
+
+LostFrameVerifier::LostFrameVerifier(const LoopConfig& config,
+                                     const RegistrationConfig& registration,
+                                     const DepthNoise& noise)
+    : config_(config),
+      aligner_(for_seeds(config), noise),
+      loops_(config, registration, noise),
+      noise_(noise) {}
 
 Loop LostFrameVerifier::verify(const std::deque<KeyframeRecord>& records,
                                const std::vector<Eigen::Isometry3d>& poses, std::size_t candidate,

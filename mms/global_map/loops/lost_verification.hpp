@@ -14,11 +14,7 @@ namespace mms {
 class LostFrameVerifier {
  public:
   LostFrameVerifier(const LoopConfig& config, const RegistrationConfig& registration,
-                    const DepthNoise& noise)
-      : config_(config),
-        aligner_(config, noise),
-        loops_(config, registration, noise),
-        noise_(noise) {}
+                    const DepthNoise& noise);
 
   /// A candidate of place recognition. Pairs of keypoints come from all keyframes around it.
   /// @param records  of all keyframes
