@@ -115,6 +115,31 @@ TEST(PoseGraph, DirectionsWithoutInformationStayFree) {
   EXPECT_NEAR(graph.poses()[1].translation().y(), 0.0, 1e-6);
 }
 
+/// Pose of the second of two nodes relative to the first one, for a loop that ties its rotation to
+/// its position.
+Isometry relative_pose(double heading) {
+  const auto turn = [](double degrees) {
+    return Isometry(
+        Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()));
+  };
+  const Isometry measured = Isometry(Eigen::Translation3d(0.5, 0.0, 0.0)) * turn(-2.0);
+  const Isometry by_odometry = Isometry(Eigen::Translation3d(0.5, 0.04, 0.0)) * turn(-2.0);
+  Matrix6d tied = information(0.01, 0.003);
+  tied(1, 5) = tied(5, 1) = 0.9 * std::sqrt(tied(1, 1) * tied(5, 5));
+  PoseGraph graph(turn(heading));
+  graph.add_node(by_odometry, information(0.01, 0.003));
+  graph.add_loop({0, 1, measured, tied});
+  EXPECT_TRUE(graph.solve().empty());
+  return graph.poses()[0].inverse() * graph.poses()[1];
+}
+
+TEST(PoseGraph, SolutionIsTheSameForAnyHeading) {
+  const Isometry expected = relative_pose(0.0);
+  for (int heading = -179; heading < 180; heading += 2) {
+    EXPECT_TRUE(relative_pose(heading).isApprox(expected, 1e-4)) << heading;
+  }
+}
+
 TEST(PoseGraph, ChainCovarianceIsThatOfManySampledChains) {
   Isometry step = Isometry::Identity();
   step.linear() = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()).toRotationMatrix();

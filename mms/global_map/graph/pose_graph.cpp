@@ -54,7 +54,9 @@ struct EdgeResidual {
     Eigen::Matrix<T, 6, 1> error;
     const Vector3 moved = q_a.conjugate() * (p_b - p_a) - translation.cast<T>();
     error.template head<3>() = q_measured * moved;
-    error.template tail<3>() = T(2.0) * (q_measured * (q_a.conjugate() * q_b)).vec();
+    // Of both signs of a quaternion, that of the small rotation.
+    const Quaternion q_error = q_measured * (q_a.conjugate() * q_b);
+    error.template tail<3>() = T(q_error.w() < T(0.0) ? -2.0 : 2.0) * q_error.vec();
     Eigen::Map<Eigen::Matrix<T, 6, 1>> weighted(residual);
     weighted = root.cast<T>() * error;
     return true;
