@@ -138,16 +138,21 @@ std::vector<Loop> GlobalMap::add(const GlobalKeyframe& keyframe) {
     record.session = earlier_sessions_ + static_cast<std::uint32_t>(run_sessions_.size()) - 1U;
   }
   if (!keyframe.cloud.organised()) describe_scan(keyframe, record);
-  return add(std::move(record), keyframe.expected_place);
+  // A sensor that stands there has no second keyframe to confirm a loop.
+  const std::optional<FoundPlace> place = std::exchange(found_place_, std::nullopt);
+  std::vector<Loop> known;
+  if (place && place->stamp == record.stamp && record.after_lost) known.push_back(place->loop);
+  return add(std::move(record), keyframe.expected_place, known);
 }
 
 std::vector<Loop> GlobalMap::add(KeyframeRecord record,
                                  const std::optional<Transform<Global, Sensor>>& expected,
                                  const std::vector<Loop>& known) {
   graph_.add_node(record);
-  const std::vector<Loop> accepted = first_loop_             ? join_session(record)
-                                     : record.is_pose_only() ? take(known)
-                                                             : find_loop(record, expected);
+  const bool has_known = record.is_pose_only() || !known.empty();
+  const std::vector<Loop> accepted = first_loop_ ? join_session(record)
+                                     : has_known ? take(known)
+                                                 : find_loop(record, expected);
   const bool is_in_map = std::any_of(accepted.begin(), accepted.end(), [&](const Loop& loop) {
     return graph_.is_fixed(loop.candidate);
   });
@@ -198,6 +203,12 @@ bool GlobalMap::is_place_known() const {
     return loop.outcome == LoopOutcome::kAccepted && loop.query >= first &&
            records_[loop.candidate].session == session();
   });
+}
+
+/// Whether the place of a lost frame was recognized, not only confirmed by geometry.
+bool GlobalMap::is_sure(const Loop& place) const {
+  return records_[place.candidate].is_scan() ||
+         place.inliers >= kLostFactor * config_.loops.min_inliers;
 }
 
 /// Joins a session to the place where a relocalization began it.
@@ -403,8 +414,11 @@ std::optional<Relocalization> GlobalMap::relocalize(const GlobalKeyframe& frame)
   const auto loop = relocalizer_.find(
       {records_, poses, recognizer_, lost_verifier_, is_usable, shares_frame, place_of},
       record_of_lost(frame), frame.has_pose);
+  found_place_.reset();
   if (!loop) return std::nullopt;
-  return relocalization_at(*loop, poses);
+  Relocalization place = relocalization_at(*loop, poses);
+  if (!place.begins_session && is_sure(*loop)) found_place_ = {frame.cloud.stamp, *loop};
+  return place;
 }
 
 std::optional<Transform<Global, World>> GlobalMap::last_correction() const {

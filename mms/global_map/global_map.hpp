@@ -102,7 +102,8 @@ class GlobalMap {
   /// The same with a record, as those of another map; its session is that of the last one, or the
   /// next.
   /// @param expected  where a user says that it is, while its session is not in the map
-  /// @param known     loops of a record of which only the pose is kept
+  /// @param known     its loops, if others are not to be searched for, as where only the pose is
+  /// kept
   std::vector<Loop> add(KeyframeRecord record,
                         const std::optional<Transform<Global, Sensor>>& expected = std::nullopt,
                         const std::vector<Loop>& known = {});
@@ -114,7 +115,8 @@ class GlobalMap {
   void finish() { graph_.finish(); }
 
   /// Finds the place of a frame whose pose is lost or in doubt, see `Relocalizer`. Where it begins
-  /// a session, the first keyframe of that must follow.
+  /// a session, the first keyframe of that must follow. If the frame becomes the next keyframe, its
+  /// place is a loop of it.
   /// @returns nothing if it is not sure
   std::optional<Relocalization> relocalize(const GlobalKeyframe& frame);
 
@@ -148,6 +150,12 @@ class GlobalMap {
   const std::vector<Eigen::Isometry3d>& poses() const { return graph_.poses(); }
 
  private:
+  /// The place of a lost frame.
+  struct FoundPlace {
+    Timestamp stamp;
+    Loop loop;
+  };
+
   KeyframeRecord record_of(const GlobalKeyframe& keyframe) const;
   KeyframeRecord record_of_lost(const GlobalKeyframe& frame) const;
   Relocalization relocalization_at(const Loop& loop, const std::vector<Eigen::Isometry3d>& poses);
@@ -156,6 +164,7 @@ class GlobalMap {
   bool may_match(std::size_t candidate) const;
   bool has_enough_views(const KeyframeRecord& record, const std::vector<Loop>& accepted) const;
   bool is_place_known() const;
+  bool is_sure(const Loop& place) const;
   std::vector<std::size_t> nearby(std::size_t end) const;
   std::vector<std::size_t> around(const Transform<Global, Sensor>& expected) const;
   std::vector<Loop> find_loop(const KeyframeRecord& record,
@@ -181,6 +190,7 @@ class GlobalMap {
   std::uint32_t earlier_sessions_ = 0;
   std::vector<std::uint32_t> run_sessions_;  ///< of the run that have keyframes, ascending
   std::optional<Loop> first_loop_;           ///< of the session that a relocalization begins
+  std::optional<FoundPlace> found_place_;    ///< of the last frame, within the session
 };
 
 }  // namespace mms

@@ -227,6 +227,33 @@ TEST(Relocalization, TwoFramesOfAKnownPlaceGiveThePose) {
   EXPECT_FALSE(place->surroundings.empty());
 }
 
+/// No second keyframe confirms a loop there.
+TEST(Relocalization, CorrectsThePoseOfASensorThatStandsThere) {
+  Visit visit = there_and_back(0.005);
+  GlobalKeyframe frame = at_unknown_pose(7, 100.0);
+  EXPECT_FALSE(visit.map.relocalize(frame));
+  frame.cloud.stamp = Timestamp::from_seconds(100.1);
+  const auto place = visit.map.relocalize(frame);
+  ASSERT_TRUE(place);
+  EXPECT_FALSE(place->begins_session);
+  frame.T_world_sensor = place->T_world_sensor;
+  frame.after_lost = true;
+  EXPECT_EQ(visit.map.add(frame).size(), 1U);
+  const std::vector<Eigen::Isometry3d>& poses = visit.map.poses();
+  EXPECT_LT((poses.back().translation() - poses[7].translation()).norm(), 0.04);
+}
+
+TEST(Relocalization, APlaceIsNoLoopOfALaterKeyframe) {
+  Visit visit;
+  for (const GlobalKeyframe& view : views()) visit.add(view, Eigen::Isometry3d::Identity());
+  visit.map.relocalize(at_unknown_pose(7, 100.0));
+  ASSERT_TRUE(visit.map.relocalize(at_unknown_pose(7, 100.1)));
+  GlobalKeyframe later = views()[8];
+  later.cloud.stamp = Timestamp::from_seconds(100.5);
+  later.after_lost = true;
+  EXPECT_TRUE(visit.map.add(later).empty()) << "one loop is not enough";
+}
+
 /// With people close to the sensor in one half of the view.
 GlobalKeyframe half_covered(GlobalKeyframe frame, bool left) {
   LabeledCloud& cloud = frame.cloud;

@@ -17,12 +17,8 @@ constexpr int kMinSeeds = 8;
 /// [-]: rounds of pairs and least squares. Source: the second one has the better pose.
 constexpr int kRounds = 2;
 
-/// [-]: pairs of keypoints of a lost frame, as a multiple of those of a loop. Source: no odometry
-/// confirms the place; in a hall that is turned by half a turn, views agree in up to 1.5.
-constexpr double kLostFactor = 1.5;
-
-/// [-]: the same where the odometry has this pose. Source: in a hall that is turned by half a turn,
-/// geometry confirmed wrong poses with at most one pair.
+/// [-]: as `kLostFactor`, where the odometry has this pose. Source: in a hall that is turned by
+/// half a turn, geometry confirmed wrong poses with at most one pair.
 constexpr double kConfirmFactor = 0.5;
 
 /// [-]: pairs of keypoints that confirm the odometry's pose though the view contradicts, as a

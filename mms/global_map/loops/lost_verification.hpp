@@ -9,6 +9,10 @@
 
 namespace mms {
 
+/// [-]: pairs of keypoints of a lost frame, as a multiple of those of a loop. Source: no odometry
+/// confirms the place; in a hall that is turned by half a turn, views agree in up to 1.5.
+inline constexpr double kLostFactor = 1.5;
+
 /// Checks whether a frame whose pose is lost shows the place of a keyframe: half of its view may be
 /// covered, and no odometry confirms the place.
 class LostFrameVerifier {
