@@ -8,6 +8,7 @@
 
 #include "mms/core/random_stream.hpp"
 #include "mms/geometry/se3.hpp"
+#include "mms/global_map/graph/loop_confirmation.hpp"
 #include "mms/global_map/graph/loop_graph.hpp"
 #include "mms/global_map/graph/odometry_noise.hpp"
 #include "mms/global_map/graph/pose_graph.hpp"
@@ -266,6 +267,41 @@ double sigma_after_a_lap(bool has_loop) {
 TEST(LoopGraph, AClosedLoopTellsWhereTheOdometryIs) {
   EXPECT_GT(sigma_after_a_lap(false), 0.15);
   EXPECT_LT(sigma_after_a_lap(true), 0.05);
+}
+
+/// Loops that are accepted with each keyframe of a second session, which agree.
+std::vector<std::size_t> accepted_loops(const std::vector<int>& inliers) {
+  constexpr int kMinInliers = 20;
+  constexpr std::size_t kFirst = 5;  // keyframes of the first session
+  LoopGraph graph(20.0);
+  LoopConfirmation confirmation;
+  std::vector<std::size_t> accepted;
+  for (std::size_t i = 0; i < kFirst + inliers.size(); ++i) {
+    const std::size_t step = i < kFirst ? i : i - kFirst;
+    KeyframeRecord record;
+    record.session = i < kFirst ? 0U : 1U;
+    record.T_world_sensor = Transform<World, Sensor>(
+        Isometry(Eigen::Translation3d(0.25 * static_cast<double>(step), 0.0, 0.0)));
+    graph.add_node(record);
+    if (i < kFirst) continue;
+    Loop loop;
+    loop.candidate = step;
+    loop.query = i;
+    loop.outcome = LoopOutcome::kAccepted;
+    loop.information = information(0.01, 0.002);
+    loop.inliers = inliers[step];
+    EXPECT_TRUE(confirmation.is_likely(graph, loop, kMinInliers));
+    graph.add_check(loop);
+    accepted.push_back(confirmation.confirm(graph, kMinInliers).size());
+  }
+  return accepted;
+}
+
+TEST(LoopConfirmation, SessionsAreJoinedByManyKeypointsTogether) {
+  using Counts = std::vector<std::size_t>;
+  EXPECT_EQ(accepted_loops({45, 45, 25}), (Counts{0, 2, 1}));
+  EXPECT_EQ(accepted_loops({25, 26, 27}), (Counts{0, 0, 0})) << "78 pairs are too few";
+  EXPECT_EQ(accepted_loops({25, 25, 30}), (Counts{0, 0, 3}));
 }
 
 TEST(LoopGraph, SessionsAreRelatedByAnotherOne) {

@@ -43,6 +43,7 @@ bool LoopConfirmation::is_likely(const LoopGraph& graph, const Loop& loop, int m
 std::vector<Loop> LoopConfirmation::confirm(LoopGraph& graph, int min_inliers) {
   std::vector<Loop>& loops = graph.loops();
   Loop& loop = loops.back();
+  loop.outcome = LoopOutcome::kUnconfirmed;  // so that it relates no sessions by itself
   const auto pose_by = [&](const Loop& l) -> Eigen::Isometry3d {
     // Pose of the new keyframe in the global frame, by the odometry since the loop.
     return graph.poses()[l.candidate] * l.T_candidate_query * graph.poses()[l.query].inverse() *
@@ -65,15 +66,14 @@ std::vector<Loop> LoopConfirmation::confirm(LoopGraph& graph, int min_inliers) {
   for (const std::size_t i : others) inliers += loops[i].inliers;
   const bool is_confirmed = !others.empty() && (is_related || inliers >= kSumFactor * min_inliers);
   if (is_related && others.size() > 1) others.erase(others.begin() + 1, others.end());
-  if (!is_confirmed) {
-    loop.outcome = LoopOutcome::kUnconfirmed;
-  } else {
+  if (is_confirmed) {
     for (const std::size_t i : others) {
       if (std::exchange(loops[i].outcome, LoopOutcome::kAccepted) == LoopOutcome::kAccepted) {
         continue;
       }
       accepted.push_back(loops[i]);
     }
+    loop.outcome = LoopOutcome::kAccepted;
     accepted.push_back(loop);
   }
   pending_.push_back(loops.size() - 1);
