@@ -330,5 +330,39 @@ TEST(LoopGraph, SessionsAreRelatedByAnotherOne) {
   }
 }
 
+/// 24 days, each with a loop to every day before but the first one, which a last day joins.
+TEST(LoopGraph, SessionsOfManyDaysAreSearchedInShortTime) {
+  constexpr std::uint32_t kDays = 25;
+  LoopGraph graph(20.0);
+  const auto join_to = [&](std::uint32_t other) {
+    Loop loop;
+    loop.candidate = 2 * std::size_t{other} + 1;
+    loop.query = graph.size() - 1;
+    loop.outcome = LoopOutcome::kAccepted;
+    loop.information = information(0.01, 0.002);
+    graph.add_check(loop);
+    graph.add_edges({loop});
+  };
+  const auto start = std::chrono::steady_clock::now();
+  for (std::uint32_t day = 0; day <= kDays; ++day) {
+    for (const double x : {0.0, 0.25}) {
+      KeyframeRecord record;
+      record.session = day;
+      record.T_world_sensor = Transform<World, Sensor>(Isometry(Eigen::Translation3d(x, 0.0, 0.0)));
+      graph.add_node(record);
+    }
+    if (day == kDays) join_to(0);
+    for (std::uint32_t other = 1; other < day; ++other) join_to(other);
+    if (day + 1 != kDays) continue;
+    EXPECT_FALSE(graph.is_joined(day));
+    EXPECT_FALSE(graph.relative_covariance(0, graph.size() - 1));
+  }
+  EXPECT_TRUE(graph.share_frame(0, 1));
+  EXPECT_FALSE(graph.relative_covariance(0, 2 * std::size_t{kDays} - 1)) << "only by a later day";
+  EXPECT_TRUE(graph.relative_covariance(2, graph.size() - 1));
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(seconds.count(), 2.0);
+}
+
 }  // namespace
 }  // namespace mms

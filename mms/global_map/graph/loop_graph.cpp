@@ -23,6 +23,10 @@ constexpr std::size_t kMaxUnsolved = 20;
 /// loops to the map are much more frequent.
 constexpr std::size_t kWindow = 100;
 
+/// [-]: loops to other sessions that are followed to relate two of them. Source: computing time; a
+/// way back in time has one for each session, and the last loops lead to most of them.
+constexpr std::size_t kMaxLinks = 100;
+
 /// Covariance of a right perturbation of a pose, of the pose after a motion from there.
 Matrix6d carried(const Matrix6d& covariance, const Eigen::Isometry3d& motion) {
   const Matrix6d moved = se3::adjoint(motion.inverse());
@@ -137,11 +141,20 @@ void LoopGraph::join(const Loop& loop) {
 
 std::optional<Matrix6d> LoopGraph::relative_covariance(std::size_t earlier,
                                                        std::size_t later) const {
+  if (!are_in_one_frame(earlier, later)) return std::nullopt;
+  std::size_t links = kMaxLinks;
+  return covariance_between(earlier, later, links);
+}
+
+/// @param links  that may still be followed: sessions of many days have very many to each other
+std::optional<Matrix6d> LoopGraph::covariance_between(std::size_t earlier, std::size_t later,
+                                                      std::size_t& links) const {
   const std::uint32_t from = sessions_.session_of(earlier);
   const std::uint32_t to = sessions_.session_of(later);
   const auto link = last_loop(later, [&](std::uint32_t session) { return session == from; });
   if (from != to) {
-    return link ? covariance_by(*link, earlier, later) : covariance_by_session(earlier, later);
+    return link ? covariance_by(*link, earlier, later, links)
+                : covariance_by_session(earlier, later, links);
   }
   // The shorter way: along the path, or back by the last loop.
   const bool goes_by_loop = link && std::max(earlier, link->candidate) -
@@ -154,7 +167,7 @@ std::optional<Matrix6d> LoopGraph::relative_covariance(std::size_t earlier,
   const auto largest = [](const Matrix6d& covariance) {
     return covariance.topLeftCorner<3, 3>().diagonal().maxCoeff();
   };
-  const std::optional<Matrix6d> by_loop = covariance_by(*link, earlier, later);
+  const std::optional<Matrix6d> by_loop = covariance_by(*link, earlier, later, links);
   return by_loop && largest(*by_loop) < largest(chain) ? by_loop : chain;
 }
 
@@ -173,11 +186,12 @@ std::optional<Loop> LoopGraph::last_loop(std::size_t later, const IsSession& is_
 
 /// From `earlier` along the path to a loop's earlier end, by the loop, and along the path.
 std::optional<Matrix6d> LoopGraph::covariance_by(const Loop& link, std::size_t earlier,
-                                                 std::size_t later) const {
+                                                 std::size_t later, std::size_t& links) const {
   const std::vector<Eigen::Isometry3d>& poses = graph_.poses();
   const bool is_forward = earlier <= link.candidate;
-  std::optional<Matrix6d> covariance = is_forward ? relative_covariance(earlier, link.candidate)
-                                                  : relative_covariance(link.candidate, earlier);
+  std::optional<Matrix6d> covariance = is_forward
+                                           ? covariance_between(earlier, link.candidate, links)
+                                           : covariance_between(link.candidate, earlier, links);
   if (!covariance) return std::nullopt;
   if (!is_forward) {
     *covariance = carried(*covariance, poses[earlier].inverse() * poses[link.candidate]);
@@ -189,14 +203,17 @@ std::optional<Matrix6d> LoopGraph::covariance_by(const Loop& link, std::size_t e
 }
 
 /// By loops to other sessions than that of `earlier`, and from these on.
-std::optional<Matrix6d> LoopGraph::covariance_by_session(std::size_t earlier,
-                                                         std::size_t later) const {
+std::optional<Matrix6d> LoopGraph::covariance_by_session(std::size_t earlier, std::size_t later,
+                                                         std::size_t& links) const {
   std::vector<std::uint32_t> tried = {sessions_.session_of(earlier), sessions_.session_of(later)};
   const auto is_new = [&](std::uint32_t session) {
     return std::find(tried.begin(), tried.end(), session) == tried.end();
   };
-  while (const auto link = last_loop(later, is_new)) {
-    if (auto covariance = covariance_by(*link, earlier, later)) return covariance;
+  while (links > 0) {
+    const std::optional<Loop> link = last_loop(later, is_new);
+    if (!link) return std::nullopt;
+    --links;
+    if (auto covariance = covariance_by(*link, earlier, later, links)) return covariance;
     tried.push_back(sessions_.session_of(link->candidate));
   }
   return std::nullopt;

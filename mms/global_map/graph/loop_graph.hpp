@@ -86,9 +86,12 @@ class LoopGraph {
   void solve();
   template <class IsSession>
   std::optional<Loop> last_loop(std::size_t later, const IsSession& is_earlier) const;
-  std::optional<Matrix6d> covariance_by(const Loop& link, std::size_t earlier,
-                                        std::size_t later) const;
-  std::optional<Matrix6d> covariance_by_session(std::size_t earlier, std::size_t later) const;
+  std::optional<Matrix6d> covariance_between(std::size_t earlier, std::size_t later,
+                                             std::size_t& links) const;
+  std::optional<Matrix6d> covariance_by(const Loop& link, std::size_t earlier, std::size_t later,
+                                        std::size_t& links) const;
+  std::optional<Matrix6d> covariance_by_session(std::size_t earlier, std::size_t later,
+                                                std::size_t& links) const;
 
   double min_path_;
   PoseGraph graph_;
