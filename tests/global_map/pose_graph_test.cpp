@@ -330,6 +330,31 @@ TEST(LoopGraph, SessionsAreRelatedByAnotherOne) {
   }
 }
 
+/// Session 3 is joined to session 1, and then to session 2; none of them to the map.
+TEST(LoopGraph, JoinedSessionsAreInTheFrameOfTheEarliestOne) {
+  LoopGraph graph(20.0);
+  for (std::uint32_t session = 0; session < 4; ++session) {
+    KeyframeRecord record;
+    record.session = session;
+    record.T_world_sensor = Transform<World, Sensor>(
+        Isometry(Eigen::Translation3d(10.0 * static_cast<double>(session), 0.0, 0.0)));
+    graph.add_node(record);
+  }
+  for (const std::size_t candidate : {1U, 2U}) {
+    Loop loop;
+    loop.candidate = candidate;
+    loop.query = 3;
+    loop.outcome = LoopOutcome::kAccepted;
+    loop.information = information(0.01, 0.002);
+    graph.add_check(loop);
+    graph.add_edges({loop});
+    EXPECT_NEAR(graph.poses()[1].translation().x(), 10.0, 1e-9);
+  }
+  for (const std::size_t node : {2U, 3U}) {
+    EXPECT_NEAR(graph.poses()[node].translation().x(), 10.0, 1e-9);
+  }
+}
+
 /// 24 days, each with a loop to every day before but the first one, which a last day joins.
 TEST(LoopGraph, SessionsOfManyDaysAreSearchedInShortTime) {
   constexpr std::uint32_t kDays = 25;

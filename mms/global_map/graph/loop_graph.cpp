@@ -120,11 +120,11 @@ bool LoopGraph::is_joined(std::uint32_t session) const {
   return session < sessions_.size() && sessions_.group_of(session) == 0;
 }
 
-/// Moves the sessions that a loop joins to the others: those that are not in the map's frame.
+/// Moves the sessions that a loop joins to the others: the frame is that of the earliest session.
 void LoopGraph::join(const Loop& loop) {
   const std::uint32_t earlier = sessions_.session_of(loop.candidate);
   const std::uint32_t later = sessions_.session_of(loop.query);
-  const bool moves_later = sessions_.group_of(later) != 0;
+  const bool moves_later = sessions_.group_of(later) > sessions_.group_of(earlier);
   const std::uint32_t group = sessions_.group_of(moves_later ? later : earlier);
   const SessionGroups before = sessions_;
   if (!sessions_.join(earlier, later)) return;
