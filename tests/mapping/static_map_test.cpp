@@ -261,6 +261,35 @@ TEST(StaticMap, ScansCarveOnlyDepartedPerson) {
   EXPECT_EQ(static_cast<long>(uncarved.size() - map.size()), count(uncarved) - count(map));
 }
 
+TEST(StaticMap, ScansLeaveOutWhoComesUntilTheyStay) {
+  const test::StandingBox person{{3.8, -0.25, -1.0}, {4.2, 0.25, 0.75}};
+  const auto T = pose({0.0, 0.0, 0.0});
+  StaticMap map({.scan_voxel_share = 0.0, .min_observations = 1});
+  StaticMap uncarved(
+      {.scan_voxel_share = 0.0, .min_observations = 1, .carving = {.enabled = false}});
+  // Below, the rings hit the floor.
+  const Eigen::AlignedBox3d volume(person.low + Eigen::Vector3d(-0.05, -0.05, 0.4),
+                                   person.high.array() + 0.05);
+  const auto count = [&](const StaticMap& m) {
+    const std::vector<Eigen::Vector3f> points = m.cloud().points;
+    return std::count_if(points.begin(), points.end(),
+                         [&](const auto& p) { return volume.contains(p.template cast<double>()); });
+  };
+  for (int i = 0; i < 15; ++i) {
+    const auto boxes = i < 6 ? std::vector<test::StandingBox>{} : std::vector{person};
+    LabeledCloud scan = test::hall_scan(boxes, T);
+    scan.stamp = Timestamp::from_seconds(0.5 * i);
+    map.integrate(scan, T);
+    uncarved.integrate(scan, T);
+    if (i == 6) {
+      EXPECT_GT(count(uncarved), 50);
+      EXPECT_LT(count(map), 0.1 * static_cast<double>(count(uncarved)));
+    }
+  }
+  EXPECT_EQ(count(map), count(uncarved));
+  EXPECT_EQ(map.size(), uncarved.size());
+}
+
 TEST(StaticMap, DoublesVoxelSizeAtMemoryLimit) {
   StaticMap whole;
   StaticMap bounded({.memory = 1.0});

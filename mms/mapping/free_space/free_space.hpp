@@ -19,7 +19,10 @@ struct CarvingConfig {
   double scan_ratio = 0.5;
 
   void visit(ConfigVisitor& v) {
-    v.boolean({"enabled", "", "remove voxels that later keyframes see through"}, enabled);
+    v.boolean({"enabled", "",
+               "remove voxels that later keyframes see through, leave out points of scans that "
+               "recent ones did"},
+              enabled);
     v.number({"margin", "m", "least distance of the measured surface behind, above noise"}, margin,
              {0.0, 10.0});
     v.number({"ratio", "", "views through a voxel per hit that remove it"}, ratio, {0.1, 1000.0});

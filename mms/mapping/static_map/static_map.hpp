@@ -8,6 +8,8 @@
 #include "mms/core/transform.hpp"
 #include "mms/geometry/voxels/map_changes.hpp"
 #include "mms/mapping/free_space/free_space.hpp"
+#include "mms/mapping/free_space/scan_sight.hpp"
+#include "mms/mapping/motion_segmentation/free_space_history.hpp"
 #include "mms/mapping/static_map/frame_viewpoints.hpp"
 #include "mms/mapping/static_map/map_cloud.hpp"
 #include "mms/mapping/static_map/surface_points.hpp"
@@ -55,7 +57,8 @@ struct MapUpdate {
 /// that measure a surface behind it outnumber those that measured it (`FreeSpace` of images,
 /// `ScanSight` of LiDAR scans). The memory is bounded: when the budget is used up, voxels are
 /// merged to twice their size, so that the map stays complete. The voxels of a LiDAR's map follow
-/// the range of its first scan, since the distances between points do.
+/// the range of its first scan, since the distances between points do. A scan's points where recent
+/// scans saw through are left out: an object has come there, and may leave without being seen.
 class StaticMap {
  public:
   explicit StaticMap(const StaticMapConfig& config = {});
@@ -101,10 +104,13 @@ class StaticMap {
 
  private:
   void choose_voxel_size(const LabeledCloud& first_scan);
+  /// Removes the points of a scan that several recent scans saw through.
+  void leave_out_arrivals(Timestamp stamp, const Transform<World, Sensor>& T_world_sensor,
+                          std::vector<SurfacePoint>& points) const;
   /// @param max_hits  of a voxel that count when it is carved
   void insert(const std::vector<SurfacePoint>& points, const Eigen::Isometry3f& T_world_sensor,
               std::uint16_t max_hits);
-  std::size_t carve(const LabeledCloud& cloud, const Eigen::Isometry3f& T_sensor_world);
+  std::size_t carve(const LabeledCloud& cloud, const Transform<World, Sensor>& T_world_sensor);
   template <class Space>
   std::size_t carve(const Space& free_space, double views_per_hit, std::uint16_t max_hits,
                     const Eigen::Isometry3f& T_sensor_world);
@@ -119,6 +125,7 @@ class StaticMap {
   StaticMapConfig config_;
   VoxelGrid grid_;
   FrameViewpoints viewpoints_;
+  FreeSpaceHistory<ScanSight> recent_;  // of scans
   std::size_t views_ = 0;
   std::uint32_t last_view_ = 0;             // the frame that ended it
   std::uint32_t previous_view_ = 0;         // the frame that ended the one before
