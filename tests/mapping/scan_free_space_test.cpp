@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kMargin = 0.1;
 
-/// Points at distance `range` in every direction, or in those that `has` accepts.
+/// `count` points at distance `range` in every direction, or in those that `has` accepts.
 template <class Has>
-LabeledCloud sphere(float range, const Has& has) {
+LabeledCloud sphere(float range, const Has& has, std::size_t count = 200'000) {
   std::mt19937 random(1);
   std::normal_distribution<float> normal;
   LabeledCloud cloud;
-  while (cloud.points.size() < 200'000) {
+  while (cloud.points.size() < count) {
     const Eigen::Vector3f direction(normal(random), normal(random), normal(random));
     if (has(direction)) cloud.points.push_back(range * direction.normalized());
   }
@@ -51,6 +51,16 @@ TEST(ScanFreeSpace, EndsAtNearestNeighborPoint) {
   EXPECT_NE(space.state_at({3.0F, 0.05F, 0.0F}), SpaceState::kFree);
   EXPECT_EQ(space.state_at({3.0F, 0.3F, 0.0F}), SpaceState::kFree);
   EXPECT_EQ(space.state_at({1.5F, 0.0F, 0.0F}), SpaceState::kFree);
+}
+
+TEST(ScanFreeSpace, HasNarrowDirectionsInDenseScans) {
+  LabeledCloud cloud = sphere(
+      5.0F, [](const Eigen::Vector3f&) { return true; }, 600'000);
+  cloud.points.emplace_back(2.0F, 0.01F, 0.01F);
+  cloud.labels.push_back(PointLabel::kStatic);
+  const ScanFreeSpace space(cloud, kMargin);
+  EXPECT_NE(space.state_at({3.0F, 0.0F, 0.0F}), SpaceState::kFree);
+  EXPECT_EQ(space.state_at({3.0F, 0.09F, 0.0F}), SpaceState::kFree);  // 1.7 degrees beside
 }
 
 TEST(ScanFreeSpace, IsUnknownWithoutReturns) {

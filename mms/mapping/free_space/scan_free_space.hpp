@@ -9,9 +9,10 @@
 namespace mms {
 
 /// The space that one LiDAR scan observes as free: in front of its points, static or dynamic. Its
-/// directions are the pixels, about a degree wide, of a cube around the sensor, for any mounting
-/// and scan pattern. A direction is free as far as the nearest point in it and its eight
-/// neighbours; in sparse scans some of them have no point.
+/// directions are the pixels of a cube around the sensor, for any mounting and scan pattern: about
+/// a degree wide, or half a degree where the points of a dense scan fill them. A direction is free
+/// as far as the nearest point in it and its eight neighbours; in sparse scans some of them have no
+/// point.
 class ScanFreeSpace {
  public:
   /// @param margin  by which a point has to lie behind another, noise included [m]
@@ -30,6 +31,8 @@ class ScanFreeSpace {
     void extend(float low, float high);
   };
 
+  /// Of each pixel alone, in a cube of side x side pixels a face.
+  static CubeImage<Span> spans_of(const LabeledCloud& cloud, int side);
   const Span& span_of(const Eigen::Vector3f& point) const;
 
   CubeImage<Span> faces_;
