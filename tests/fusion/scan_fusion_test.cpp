@@ -127,6 +127,20 @@ TEST(ScanFusion, RingsTooFarApartForAClusterAreLabeledByMask) {
   EXPECT_NEAR(cloud.clusters[0].centroid.x(), 10.0F, 0.3F);
 }
 
+TEST(ScanFusion, RingsOnAPersonAreAnObjectBesideAPostBehind) {
+  // The mask covers a part of the post, too.
+  const Scene hall = Scene()
+                         .add(Surface::kFloor, {-10, 1.2F, 0}, {10, 1.3F, 20})
+                         .add(Surface::kWall, {-10, -5, 15}, {10, 1.2F, 15.1F})
+                         .add(Surface::kOther, {0.3F, -5, 13.0F}, {0.42F, 1.2F, 13.1F})
+                         .add(Surface::kPerson, {-0.25F, -0.5F, 10.0F}, {0.25F, 1.2F, 10.3F});
+  const ScanView view = scan(hall, 4, 3);
+  const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);
+  EXPECT_GT(dynamic_share_of(cloud, view, Surface::kPerson), 0.9);
+  ASSERT_EQ(cloud.clusters.size(), 1U) << "so that the person is tracked";
+  EXPECT_NEAR(cloud.clusters[0].centroid.x(), 10.0F, 0.3F);
+}
+
 TEST(ScanFusion, RestoresWallUnderDilatedMask) {
   const ScanView view = scan(room_with_person(), 15);
   const LabeledCloud cloud = SemanticFusion(FusionConfig{}).fuse(view.frame, view.segmentation);

@@ -1,6 +1,9 @@
 #include "mms/fusion/clusters/dynamic_parts.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "mms/fusion/clusters/cluster_votes.hpp"
 #include "mms/fusion/clusters/node_clustering.hpp"
@@ -17,6 +20,10 @@ constexpr double kBoxTrim = 0.02;
 /// [-]: nodes of an object of a scan that are too far apart for a cluster. Source: two rings on a
 /// person.
 constexpr std::size_t kMinSparseNodes = 6;
+
+/// [-]: gap along the view between an object of a scan and what is behind it, in widths of the
+/// class. Source: initial choice; 0.6 m for people.
+constexpr float kSparseGap = 0.5F;
 
 enum class Verdict { kStatic, kDynamic, kMixed };
 
@@ -38,6 +45,24 @@ Eigen::AlignedBox3f box_of(const Nodes& nodes, const DynamicPart& part) {
   points.reserve(part.nodes.size());
   for (const std::size_t i : part.nodes) points.push_back(nodes.points[i]);
   return trimmed_box(points, kBoxTrim);
+}
+
+/// The loose nodes of a scan under one mask, then the groups that gaps along the view divide them
+/// into, the nearest first.
+std::vector<std::vector<std::size_t>> sparse_groups(const Nodes& nodes,
+                                                    std::vector<std::size_t> loose, float gap) {
+  std::vector<std::vector<std::size_t>> groups = {loose};
+  std::stable_sort(loose.begin(), loose.end(), [&](std::size_t a, std::size_t b) {
+    return nodes.points[a].norm() < nodes.points[b].norm();
+  });
+  float last = 0.0F;
+  for (const std::size_t i : loose) {
+    const float range = nodes.points[i].norm();
+    if (groups.size() == 1 || range - last > gap) groups.emplace_back();
+    groups.back().push_back(i);
+    last = range;
+  }
+  return groups;
 }
 
 /// The three steps, each on the nodes the one before left open.
@@ -79,20 +104,25 @@ class PartFinder {
   }
 
   /// Far away the rings of a scan are farther apart than a cluster's gap: the loose nodes under one
-  /// mask are an object if they fit its size.
+  /// mask are an object if they fit its size, or the nearest of them that do. The others are of the
+  /// background, which a single node at the mask's boundary may hit.
   void take_sparse_objects() {
-    std::vector<DynamicPart> sparse(instances_.size());
-    for (const std::size_t i : result_.loose) {
-      sparse[nodes_.raw[i] - std::size_t{1}].nodes.push_back(i);
-    }
-    for (std::size_t k = 0; k < sparse.size(); ++k) {
-      if (sparse[k].nodes.size() < kMinSparseNodes) continue;
-      sparse[k].instance = static_cast<int>(k);
-      sparse[k].is_sparse = true;
-      sparse[k].box = box_of(nodes_, sparse[k]);
+    std::vector<std::vector<std::size_t>> loose(instances_.size());
+    for (const std::size_t i : result_.loose) loose[nodes_.raw[i] - std::size_t{1}].push_back(i);
+    for (std::size_t k = 0; k < loose.size(); ++k) {
       const auto object_class = static_cast<std::size_t>(instances_[k].object_class);
-      if (fits(sparse[k].box, config_.sizes[object_class])) {
-        result_.parts.push_back(std::move(sparse[k]));
+      const ObjectSize& size = config_.sizes[object_class];
+      const float gap = kSparseGap * static_cast<float>(size.width);
+      for (std::vector<std::size_t>& group : sparse_groups(nodes_, std::move(loose[k]), gap)) {
+        if (group.size() < kMinSparseNodes) continue;
+        DynamicPart part;
+        part.nodes = std::move(group);
+        part.instance = static_cast<int>(k);
+        part.is_sparse = true;
+        part.box = box_of(nodes_, part);
+        if (!fits(part.box, size)) continue;
+        result_.parts.push_back(std::move(part));
+        break;
       }
     }
   }

@@ -24,7 +24,7 @@ bool fits(const Eigen::AlignedBox3f& box, const ObjectSize& size);
 struct DynamicParts {
   std::vector<DynamicPart> parts;
   /// Masked nodes in no cluster: too few, apart from others. Of a scan, those under one mask that
-  /// fit its size are a part, too.
+  /// fit its size, without those far behind them, are a part, too.
   std::vector<std::size_t> loose;
 };
 
