@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "mms/io/text/lower_case.hpp"
+
 namespace mms {
 namespace {
 
@@ -27,6 +29,12 @@ TEST(NaturalOrder, OrdersAllNamesInOneWay) {
       EXPECT_EQ(natural_less(names[i], names[j]), i < j) << names[i] << " and " << names[j];
     }
   }
+}
+
+TEST(LowerCase, KeepsDigitsAndOtherBytes) {
+  EXPECT_EQ(lower_case("IMG_1.JPG"), "img_1.jpg");
+  EXPECT_EQ(lower_case("\xC3\x84"), "\xC3\x84");
+  EXPECT_EQ(lower_case(""), "");
 }
 
 }  // namespace

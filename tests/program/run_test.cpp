@@ -216,7 +216,7 @@ TEST(Run, OmitsTrajectoryErrorsWithoutGroundTruth) {
 TEST(Run, SkipsGroundTruthOfMapOnDemand) {
   const TempFolder folder;
   std::vector<std::string> run = {
-      "run", "sim:still_walker?frames=4&width=160", "--segmenter", "masks", "-o", "with"};
+      "run", "sim:still_walker?frames=4&width=320", "--segmenter", "masks", "-o", "with"};
   expect_success(run_mms(folder.path(), run));
   run.back() = "without";
   run.emplace_back("--no-map-truth");

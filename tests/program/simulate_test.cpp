@@ -21,7 +21,8 @@ Outcome simulate(const TempFolder& folder, const Words& more) {
 
 TEST(Simulate, WritesUsableRecording) {
   const TempFolder folder;
-  const Outcome outcome = simulate(folder, {"-o", "data", "--sensor", "d435", "--seed", "3"});
+  const Outcome outcome =
+      simulate(folder, {"-o", "data", "--sensor", "d435", "--seed", "3", "--set", "width=320"});
   expect_success(outcome);
   expect_in("data: 2 frames of d435", outcome.out);
   expect_in("play it: mms run data", outcome.out);
@@ -108,7 +109,7 @@ TEST(Simulate, ErrorsExplainProblem) {
 
 TEST(Simulate, RunsWithoutFiles) {
   const TempFolder folder;
-  expect_success(run_mms(folder.path(), {"run", "sim:still_walker?frames=3&width=160",
+  expect_success(run_mms(folder.path(), {"run", "sim:still_walker?frames=3&width=320",
                                          "--segmenter", "masks", "-o", "out"}));
   const auto metrics = json_file(folder.path() / "out/metrics.json");
   EXPECT_EQ(metrics["frames"], 3);
