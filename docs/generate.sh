@@ -34,7 +34,8 @@ For everyone who uses the program: all commands and options.
 This page is written by `docs/generate.sh` from `mms --help`; do not edit it.
 The [quickstart](quickstart.md) shows the common ones, [formats](formats.md) the files.
 
-A command ends with 0 when it did its work, 1 for bad input, 2 for wrong usage, 130 when interrupted.
+A command ends with 0 when it did its work, 1 for bad input, 2 for wrong usage, 130 when it was
+interrupted.
 PAGE
   section
 }

@@ -176,22 +176,5 @@ TEST(TrackReidentifier, ForgetsAfterMaxAway) {
   EXPECT_EQ(map.confirmed(), 2);
 }
 
-TEST(TrackReidentifier, NewIdBesideAPersonWhoIsMissedForOneFrame) {
-  DynamicMap map;
-  const Person known{3.0, -2.0, kRed};
-  const Person other{3.0, -0.5, kRed};
-  update(map, 0.0, {known});
-  for (int i = 0; i < 10; ++i) {
-    const bool is_missed = i == 3;  // when the fourth mask confirms the other
-    const LabeledCloud cloud =
-        scan_of(is_missed ? std::vector{other} : std::vector{known, other}, 1.0 + kPeriod * i);
-    OdometryEstimate odometry;
-    odometry.stamp = cloud.stamp;
-    map.update(cloud, odometry);
-  }
-  ASSERT_EQ(ids(map), (std::vector<int>{1, 2}));
-  EXPECT_NEAR(map.objects()[0].box.center().y(), -2.0, 0.3);
-}
-
 }  // namespace
 }  // namespace mms

@@ -79,7 +79,6 @@ std::optional<Track> TrackReidentifier::take(const Track& track) {
 double TrackReidentifier::likelihood(const Track& lost, const Track& track) const {
   const std::optional<double> difference = lost.appearance().difference(track.appearance());
   if (!difference || !may_be_one(lost.object_class(), track.object_class())) return 0.0;
-  if (lost.last_seen() >= track.first_seen()) return 0.0;  // two of one frame
   const double seconds = to_seconds(track.last_seen() - lost.last_seen());
   const double distance = (track.position() - lost.last_position()).norm();
   const double moved_sigma = kStationarySigma + config_.spread * seconds;
