@@ -40,11 +40,14 @@ def start_viewer(program, folder):
 
 def page_time(port):
     begin = time.monotonic()
-    with socket.create_connection(("127.0.0.1", port), 10) as page:
-        page.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
-        answer = b""
-        while part := page.recv(65536):
-            answer += part
+    answer = b""
+    try:
+        with socket.create_connection(("127.0.0.1", port), 10) as page:
+            page.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+            while part := page.recv(65536):
+                answer += part
+    except OSError:
+        return float("inf")
     if not re.match(rb"HTTP/1.1 (200|404)", answer):
         return float("inf")  # closed without an answer
     return time.monotonic() - begin
@@ -100,14 +103,16 @@ def main():
         crowd = multiprocessing.Process(target=send_trouble, args=(port, clients, end, counts))
         crowd.start()
         times = []
-        while time.monotonic() < end:
-            times.append(page_time(port))
-            time.sleep(0.05)
-        alive = server.poll() is None
-        crowd.kill()
-        crowd.join()
-        server.kill()
-        server.wait()
+        try:
+            while time.monotonic() < end:
+                times.append(page_time(port))
+                time.sleep(0.05)
+            alive = server.poll() is None
+        finally:
+            crowd.kill()
+            crowd.join()
+            server.kill()
+            server.wait()
     times.sort()
     print("| slow | garbage | reading nothing | pages | median [ms] | longest [ms] | server |")
     print("| --- | --- | --- | --- | --- | --- | --- |")

@@ -3,6 +3,7 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -97,6 +98,14 @@ class SlowClient::Parts {
     asio::write(socket_, asio::buffer(bytes));
   }
 
+  bool is_open() {
+    socket_.non_blocking(true);
+    std::array<char, 1> byte{};
+    boost::system::error_code error;
+    socket_.read_some(asio::buffer(byte), error);
+    return !error || error == asio::error::would_block;
+  }
+
  private:
   asio::io_context io_;
   tcp::socket socket_;
@@ -106,6 +115,10 @@ SlowClient::SlowClient(std::uint16_t port, const std::string& bytes)
     : parts_(std::make_unique<Parts>(port, bytes)) {}
 
 SlowClient::~SlowClient() = default;
+
+bool SlowClient::is_open() {
+  return parts_->is_open();
+}
 
 int upgrade_status(std::uint16_t port, const std::string& origin) {
   const std::string answer =

@@ -37,6 +37,9 @@ class SlowClient {
   SlowClient(const SlowClient&) = delete;
   SlowClient& operator=(const SlowClient&) = delete;
 
+  /// Whether the server has not closed the connection.
+  bool is_open();
+
  private:
   class Parts;
   std::unique_ptr<Parts> parts_;

@@ -211,6 +211,23 @@ TEST(Server, ServesPageBesideSlowConnections) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 1s);
 }
 
+TEST(Server, ClientsThatReadNothingKeepNobodyAway) {
+  constexpr std::size_t kSize = 16'000'000;  // more than sockets keep
+  const TempFolder folder;
+  folder.write("run/static_map.ply", std::string(kSize, 'x'));
+  const ViewerServer server(any_port(), finished_scene(1, folder.path() / "run"));
+  const std::string request = "GET /files/static_map.ply HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  std::vector<std::unique_ptr<SlowClient>> idle;
+  for (int i = 0; i < 200; ++i) {
+    idle.push_back(std::make_unique<SlowClient>(server.port(), request));
+  }
+  SlowClient first(server.port(), "GET / HTTP/1.1\r\nHost: loc");
+  SlowClient second(server.port(), "GET / HTTP/1.1\r\nHost: loc");
+  EXPECT_FALSE(http_get(server.port(), "/").type.empty());
+  EXPECT_TRUE(first.is_open());
+  EXPECT_TRUE(second.is_open());
+}
+
 TEST(Server, ClosesConnectionsAtEnd) {
   auto server = std::make_unique<ViewerServer>(any_port(), finished_scene(3));
   ViewerClient client(server->port());

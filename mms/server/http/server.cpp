@@ -126,10 +126,13 @@ class ViewerServer::Parts {
     });
   }
 
-  /// Slow clients must not keep others away: the oldest without request, else with one, is closed.
+  /// Slow clients must not keep others away: the oldest without request is closed, or with one where
+  /// these are many, since clients may read nothing of their answers.
   bool make_room() {
     if (service_.connections + service_.viewers < kMaxConnections) return true;
-    const auto& oldest = service_.waiting.empty() ? service_.answering : service_.waiting;
+    const bool has_many_answers = service_.answering.size() > kMaxConnections / 2;
+    const auto& oldest =
+        service_.waiting.empty() || has_many_answers ? service_.answering : service_.waiting;
     if (oldest.empty()) return false;
     oldest.front()->drop();
     return true;
