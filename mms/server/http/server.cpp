@@ -126,8 +126,8 @@ class ViewerServer::Parts {
     });
   }
 
-  /// Slow clients must not keep others away: the oldest without request is closed, or with one where
-  /// these are many, since clients may read nothing of their answers.
+  /// Slow clients must not keep others away: the oldest without request is closed, or with one
+  /// where these are many, since clients may read nothing of their answers.
   bool make_room() {
     if (service_.connections + service_.viewers < kMaxConnections) return true;
     const bool has_many_answers = service_.answering.size() > kMaxConnections / 2;
