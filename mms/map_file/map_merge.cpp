@@ -127,29 +127,34 @@ std::size_t MapMerge::join(GlobalMap& map, const ProgressHandler& progress) {
 void MapMerge::add(Part& part, GlobalMap& map, const std::function<void()>& progress) const {
   std::deque<KeyframeRecord>& records = part.content.records;
   const std::vector<std::vector<Loop>> loops = accepted_loops(part.content);
-  const std::uint32_t taken = map.records().back().session + 1U;
   std::vector<std::size_t> places;  // of its keyframes in the joined map
   const auto placed = [&](Loop loop) {
     loop.candidate = places[loop.candidate];
     loop.query = places[loop.query];
     return loop;
   };
-  std::size_t begin = 0;  // of the keyframe's session in this part
-  for (std::size_t k = 0; k < records.size(); ++k) {
-    if (k > 0 && records[k].session != records[k - 1].session) begin = k;
-    const std::uint32_t number = part.numbers[records[k].session];
-    if (number < taken) {
+  std::optional<std::uint32_t> session;  // of the keyframe in this part
+  std::uint32_t number = 0;              // in the joined map
+  bool is_known = false;
+  std::size_t place = 0;
+  for (std::size_t k = 0; k < records.size(); ++k, ++place) {
+    if (session != records[k].session) {
+      session = records[k].session;
+      number = part.numbers[*session];
+      is_known = number <= map.records().back().session;
       const auto first =
           std::find_if(map.records().begin(), map.records().end(),
                        [number](const KeyframeRecord& known) { return known.session == number; });
-      places.push_back(static_cast<std::size_t>(first - map.records().begin()) + k - begin);
-    } else {
-      places.push_back(map.records().size());
-      KeyframeRecord record = records[k];  // its session is compared with that of the next one
+      place = static_cast<std::size_t>(first - map.records().begin());
+    }
+    places.push_back(place);
+    if (!is_known) {
+      KeyframeRecord record = std::move(records[k]);
       record.session = number;
       std::vector<Loop> known;
-      if (record.is_pose_only())
+      if (record.is_pose_only()) {
         std::transform(loops[k].begin(), loops[k].end(), std::back_inserter(known), placed);
+      }
       map.add(std::move(record), std::nullopt, known);
     }
     progress();

@@ -368,6 +368,35 @@ TEST(MapMerge, TakesASharedSessionOnce) {
   EXPECT_EQ(MapFile(folder.path() / "ab", MapFile::Mode::kRead).sessions().size(), 2U);
 }
 
+/// As in maps that a former version merged.
+TEST(MapMerge, TakesASessionOnceThatOneMapHasTwice) {
+  const TempFolder folder;
+  write_part(folder.path() / "a", 0, 12, 1, Eigen::Isometry3d::Identity());
+  GlobalMap map = empty_map();
+  drive(map, 6, 18, other_world());
+  std::deque<KeyframeRecord> records = map.records();
+  std::vector<Eigen::Isometry3d> poses = map.poses();
+  for (std::size_t i = 0; i < map.records().size(); ++i) {
+    records.push_back(map.records()[i]);
+    records.back().session = 1;
+    poses.push_back(map.poses()[i]);
+  }
+  {
+    MapFile file(folder.path() / "b", MapFile::Mode::kCreate);
+    MapSession session = some_session("b");
+    session.begin = Timestamp(600'000'000);  // after that of the first map
+    for (int i = 0; i < 2; ++i) file.add_session(session, some_surfaces(map, 100, 2), records);
+    file.set_graph(poses, map.loops());
+    file.commit();
+  }
+  MapMerge merge({folder.path() / "a", folder.path() / "b"}, refuse);
+  GlobalMap joined = empty_map();
+  EXPECT_EQ(merge.join(joined, [](std::size_t, std::size_t) {}), 2U);
+  EXPECT_EQ(joined.records().size(), 24U);
+  merge.write(folder.path() / "ab", joined, refuse);
+  EXPECT_TRUE(MapFile(folder.path() / "ab", MapFile::Mode::kRead).check().empty());
+}
+
 TEST(MapMerge, KeepsSessionsOfAMapJoined) {
   const TempFolder folder;
   write_part(folder.path() / "a", 0, 12, 1, Eigen::Isometry3d::Identity());
