@@ -8,7 +8,7 @@
 
 #include "mms/core/image.hpp"
 #include "mms/core/labeled_cloud.hpp"
-#include "mms/mapping/motion_segmentation/free_space_history.hpp"
+#include "mms/mapping/free_space/free_space_history.hpp"
 #include "mms/mapping/motion_segmentation/unknown_clusters.hpp"
 
 namespace mms {

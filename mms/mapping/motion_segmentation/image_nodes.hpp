@@ -9,8 +9,8 @@
 #include "mms/core/image.hpp"
 #include "mms/core/labeled_cloud.hpp"
 #include "mms/geometry/depth_noise.hpp"
+#include "mms/mapping/free_space/free_space_history.hpp"
 #include "mms/mapping/motion_segmentation/component_search.hpp"
-#include "mms/mapping/motion_segmentation/free_space_history.hpp"
 
 namespace mms {
 

@@ -9,7 +9,7 @@
 #include "mms/core/transform.hpp"
 #include "mms/geometry/depth_noise.hpp"
 #include "mms/mapping/free_space/free_space.hpp"
-#include "mms/mapping/motion_segmentation/free_space_history.hpp"
+#include "mms/mapping/free_space/free_space_history.hpp"
 #include "mms/mapping/motion_segmentation/mask_check_config.hpp"
 #include "mms/mapping/motion_segmentation/place_views.hpp"
 

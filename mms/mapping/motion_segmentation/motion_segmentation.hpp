@@ -7,8 +7,8 @@
 #include "mms/core/transform.hpp"
 #include "mms/geometry/sensor_noise.hpp"
 #include "mms/mapping/free_space/free_space.hpp"
+#include "mms/mapping/free_space/free_space_history.hpp"
 #include "mms/mapping/free_space/scan_free_space.hpp"
-#include "mms/mapping/motion_segmentation/free_space_history.hpp"
 #include "mms/mapping/motion_segmentation/motion_segmentation_config.hpp"
 
 namespace mms {
